@@ -1,0 +1,154 @@
+"""Dimensions and a walker that proves an expression homogeneous, term by term.
+
+sympy's own dimension system looks only at the first addend of a sum; this one looks at all and names the culprit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """Exponents of mass, length and time."""
+
+    mass: Fraction = Fraction(0)
+    length: Fraction = Fraction(0)
+    time: Fraction = Fraction(0)
+
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(self.mass + other.mass, self.length + other.length, self.time + other.time)
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return self * other**-1
+
+    def __pow__(self, exponent: int | Fraction) -> Dimension:
+        power = Fraction(exponent)
+        return Dimension(self.mass * power, self.length * power, self.time * power)
+
+    @property
+    def exponents(self) -> tuple[Fraction, Fraction, Fraction]:
+        return (self.mass, self.length, self.time)
+
+    def __str__(self) -> str:
+        parts = [f"{base}^{power}" if power != 1 else base for base, power in zip("MLT", self.exponents, strict=True) if power]
+        return " ".join(parts) or "1"
+
+
+ONE = Dimension()
+MASS, LENGTH, TIME = Dimension(mass=Fraction(1)), Dimension(length=Fraction(1)), Dimension(time=Fraction(1))
+SPEED, RATE = LENGTH / TIME, TIME**-1
+FORCE = MASS * LENGTH / TIME**2
+PRESSURE, ENERGY, TORQUE = FORCE / LENGTH**2, FORCE * LENGTH, FORCE * LENGTH
+
+
+class DimensionError(ValueError):
+    """An expression is not dimensionally homogeneous; the message names the term at fault."""
+
+
+_TRANSCENDENTAL = (sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan)
+
+
+def dimension_of(
+    expression: sp.Expr, of: Mapping[sp.Basic, Dimension], slots: Callable[[AppliedUndef], Dimension] | None = None
+) -> Dimension | None:
+    """Dimension of `expression`; None for an exact zero, which fits anywhere.
+
+    Arguments:
+        of: dimension of each symbol (and of each applied function, such as x(t)).
+        slots: dimension of an applied undefined function that is not in `of` (a law slot).
+
+    Raises:
+        DimensionError: a sum of unlike terms, a transcendental of a dimensional argument, an unknown symbol or node.
+    """
+
+    def walk(node: sp.Basic) -> Dimension | None:
+        if node in of:
+            return of[node]
+        if node.is_zero:
+            return None
+        if isinstance(node, (sp.Number, sp.NumberSymbol)):
+            return ONE
+        if isinstance(node, (sp.Add, sp.Max, sp.Min)):
+            return _common(node, node.args)
+        if isinstance(node, sp.Mul):
+            result = ONE
+            for factor in node.args:
+                part = walk(factor)
+                if part is None:
+                    return None
+                result = result * part
+            return result
+        if isinstance(node, sp.Pow):
+            return _power(node)
+        if isinstance(node, sp.Derivative):
+            top = walk(node.expr)
+            if top is None:
+                return None
+            for variable, count in node.variable_count:
+                bottom = walk(variable)
+                assert bottom is not None
+                top = top / bottom ** int(count)
+            return top
+        if isinstance(node, sp.Abs):
+            return walk(node.args[0])
+        if isinstance(node, sp.Piecewise):
+            return _common(node, [value for value, _ in node.args])
+        if isinstance(node, _TRANSCENDENTAL):
+            _demand_pure(node, node.args[0])
+            return ONE
+        if isinstance(node, AppliedUndef) and slots is not None:
+            for argument in node.args:
+                _demand_pure(node, argument)
+            return slots(node)
+        raise DimensionError(f"no dimension is known for {node} (a {type(node).__name__})")
+
+    def _common(whole: sp.Basic, terms: list[sp.Basic] | tuple[sp.Basic, ...]) -> Dimension | None:
+        first: tuple[sp.Basic, Dimension] | None = None
+        for term in terms:
+            dimension = walk(term)
+            if dimension is None:
+                continue
+            if first is None:
+                first = (term, dimension)
+            elif dimension != first[1]:
+                raise DimensionError(f"term {term} has dimension {dimension} beside {first[0]} of dimension {first[1]} in {whole}")
+        return first[1] if first else None
+
+    def _power(node: sp.Pow) -> Dimension | None:
+        base = walk(node.base)
+        if base is None:
+            return None
+        if isinstance(node.exp, sp.Rational):
+            return base ** Fraction(int(node.exp.p), int(node.exp.q))
+        _demand_pure(node, node.base)
+        _demand_pure(node, node.exp)
+        return ONE
+
+    def _demand_pure(whole: sp.Basic, argument: sp.Basic) -> None:
+        dimension = walk(argument)
+        if dimension not in (None, ONE):
+            raise DimensionError(f"argument {argument} of {whole} has dimension {dimension}, it must be a pure number")
+
+    return walk(expression)
+
+
+def demand_dimension(
+    name: str,
+    expression: sp.Expr,
+    expected: Dimension,
+    of: Mapping[sp.Basic, Dimension],
+    slots: Callable[[AppliedUndef], Dimension] | None = None,
+) -> None:
+    """Raise DimensionError, naming the equation, unless `expression` has dimension `expected`."""
+    try:
+        found = dimension_of(expression, of, slots)
+    except DimensionError as error:
+        raise DimensionError(f"{name}: {error}") from None
+    if found not in (None, expected):
+        raise DimensionError(f"{name}: {expression} has dimension {found}, expected {expected}")

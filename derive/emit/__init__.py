@@ -1,0 +1,1 @@
+"""Emission: derived equations as readable Python modules that build CasADi expressions."""

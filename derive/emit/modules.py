@@ -1,0 +1,158 @@
+"""The text of each emitted module: a law, a structure, the scaling."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+
+import sympy as sp
+
+from ..laws.base import Law
+from ..model import FILM, SHEAR, Model
+from ..quantities import VOCABULARY
+from ..scaling import group_definitions
+from .printer import Printer
+from .text import INDENT, assignment, docstring, module, needed, operations
+
+_PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
+
+
+def digest(*parts: object) -> str:
+    """SHA-256 over the mathematics (srepr, not source text) that a module comes from."""
+    text = "\n".join(sp.srepr(part) if isinstance(part, sp.Basic) else str(part) for part in parts)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _header(source: str) -> str:
+    return f"{_PROVENANCE}\nEquations sha256 {source}"
+
+
+def law_digest(law: Law) -> str:
+    parts: list[object] = [law.slot, law.name]
+    for function in law.functions:
+        parts += [function.name, *function.arguments, function.result]
+        parts += [part for pair in function.definitions for part in pair]
+    return digest(*parts)
+
+
+def law_module(law: Law) -> str:
+    """A law: its functions of dimensionless arguments."""
+    printer = Printer()
+    body: list[str] = []
+    for function in law.functions:
+        kept, _ = needed([function.result], function.definitions)
+        arguments = ", ".join(f"{argument.name}: Any" for argument in function.arguments)
+        body += ["", f"def {function.name}({arguments}) -> Any:"]
+        count = operations([function.result, *(expression for _, expression in kept)])
+        body += docstring(f"{function.doc}\n\nTotal operations: {count}", INDENT)
+        for symbol, expression in kept:
+            body += assignment(symbol.name, expression, printer)
+        lines = assignment("result", function.result, printer)
+        body += [f"{INDENT}return {printer(function.result)}", ""] if len(lines) == 1 else [*lines, f"{INDENT}return result", ""]
+    doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
+    return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def _casadi(printer: Printer) -> list[str]:
+    return [f"from casadi import {', '.join(sorted(printer.imports))}"] if printer.imports else []
+
+
+def model_digest(model: Model) -> str:
+    parts: list[object] = [model.structure.name, *model.states, *model.groups, *model.slots]
+    parts += [part for pair in model.definitions for part in pair]
+    for function in model.functions:
+        parts += [function.name, *(part for pair in function.outputs for part in pair)]
+    return digest(*parts)
+
+
+def _describe(model: Model) -> str:
+    shape = model.structure
+    what = "Oblique" if shape.oblique else "Head-on"
+    extras = [word for word, there in (("a liquid bridge", shape.bridge), ("pendulum strings", shape.strings)) if there]
+    title = f"{what} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
+    if shape.reduced:
+        title += ", spin eliminated through the conserved angular momentum"
+    lines = [f"{title}.", "", "Time in x0/v0. States (per unit):"]
+    lines += [f"- {s.name} [{VOCABULARY[s.name].unit}]: {VOCABULARY[s.name].meaning}" for s in model.states]
+    lines += ["", "Groups:"]
+    lines += [f"- {s.name} [{VOCABULARY[s.name].unit}]: {VOCABULARY[s.name].meaning}" for s in model.groups]
+    lines += ["", f"Law slots: {', '.join(model.slots)}."]
+    return "\n".join(lines)
+
+
+def structure_module(model: Model) -> str:
+    """A structure: states, groups, slots, and its functions of named values."""
+    printer = Printer()
+    body: list[str] = ["", "Values = Mapping[str, Any]", ""]
+    for constant, names in (
+        ("STATES", [s.name for s in model.states]),
+        ("GROUPS", [s.name for s in model.groups]),
+        ("SLOTS", list(model.slots)),
+        ("FUNCTIONS", [f.name for f in model.functions]),
+        ("REGIONAL", [f.name for f in model.functions if f.regional]),
+    ):
+        body += _name_tuple(constant, names)
+    body += [f'DIGEST = "{model_digest(model)}"', ""]
+    for function in model.functions:
+        body += _function(model, function.name, printer)
+    imports = ["from collections.abc import Mapping", "from typing import Any", ""]
+    return module(_header(model_digest(model)), _describe(model), [*imports, *_casadi(printer)], body)
+
+
+def _tuple(names: Sequence[str]) -> str:
+    listed = ", ".join(f'"{name}"' for name in names)
+    return f"({listed},)" if len(names) == 1 else f"({listed})"
+
+
+def _name_tuple(constant: str, names: list[str]) -> list[str]:
+    line = f"{constant} = {_tuple(names)}"
+    if len(line) <= 100:
+        return [line]
+    return [f"{constant} = (", *(f'{INDENT}"{name}",' for name in names), ")"]
+
+
+def _function(model: Model, name: str, printer: Printer) -> list[str]:
+    function = model[name]
+    kept, used = needed([expression for _, expression in function.outputs], model.definitions)
+    region = [flag.name for flag in (FILM, SHEAR)] if function.regional else []
+    flags = "".join(f", {flag}: int = 1" for flag in region)
+    lines = ["", f"def {name}(state: Values, groups: Values, laws: Any{flags}) -> dict[str, Any]:"]
+    count = operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
+    doc = function.doc
+    if region:
+        doc += "\n\nRegion: film is 1 inside the film, shear 1 inside the tangential edge, else 0."
+    lines += docstring(f"{doc}\n\nTotal operations: {count}", INDENT)
+    defined = {symbol for symbol, _ in kept}
+    lines += [f'{INDENT}{s.name} = state["{s.name}"]' for s in model.states if s in used and s not in defined]
+    lines += [f'{INDENT}{s.name} = groups["{s.name}"]' for s in model.groups if s in used]
+    for symbol, expression in kept:
+        lines += assignment(symbol.name, expression, printer)
+    lines.append(f"{INDENT}return {{")
+    lines += [f'{INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]
+    return [*lines, f"{INDENT}}}", ""]
+
+
+def scaling_digest() -> str:
+    return digest(*(part for pair in group_definitions().items() for part in pair))
+
+
+def scaling_module() -> str:
+    """The groups as functions of SI quantities, one a function, and which quantities each takes."""
+    printer = Printer()
+    body: list[str] = ["", "ARGUMENTS: dict[str, tuple[str, ...]] = {"]
+    definitions = group_definitions()
+    arguments = {
+        group.name: tuple(name for name in VOCABULARY if VOCABULARY[name].symbol in expression.free_symbols)
+        for group, expression in definitions.items()
+    }
+    for name, wanted in arguments.items():
+        body.append(f'{INDENT}"{name}": {_tuple(wanted)},')
+    body += ["}", ""]
+    for group, expression in definitions.items():
+        names = arguments[group.name]
+        body += ["", f"def {group.name}({', '.join(f'{name}: Any' for name in names)}) -> Any:"]
+        units = "\n".join(f"- {name} [{VOCABULARY[name].unit}]: {VOCABULARY[name].meaning}" for name in names)
+        body += docstring(f"{VOCABULARY[group.name].meaning} [{VOCABULARY[group.name].unit}].\n\n{units}", INDENT)
+        body += [f"{INDENT}return {printer(expression)}", ""]
+    doc = "Dimensionless groups from SI quantities, as ratios of the model's terms.\n\nA function a group, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
+    return module(_header(scaling_digest()), doc, ["from typing import Any", "", *_casadi(printer)], body)

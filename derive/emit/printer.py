@@ -1,0 +1,202 @@
+"""A strict sympy-to-CasADi source printer: a whitelist of nodes, anything else is an error that names it.
+
+It walks the tree itself. sympy's own printers fall back on the node's name, which leaks functions that CasADi does
+not have (`erf`) or that mean something else (`and`).
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..laws.base import is_slot_call
+
+_ADD, _MUL, _UNARY, _POW, _ATOM = range(5)  # binding strength
+
+_FUNCTIONS: dict[type, str] = {
+    sp.exp: "exp",
+    sp.log: "log",
+    sp.sin: "sin",
+    sp.cos: "cos",
+    sp.tan: "tan",
+    sp.asin: "asin",
+    sp.acos: "acos",
+    sp.atan: "atan",
+    sp.sinh: "sinh",
+    sp.cosh: "cosh",
+    sp.tanh: "tanh",
+    sp.Abs: "fabs",
+}
+_RELATIONS: dict[type, str] = {
+    sp.StrictLessThan: "<",
+    sp.LessThan: "<=",
+    sp.StrictGreaterThan: ">",
+    sp.GreaterThan: ">=",
+}
+
+
+class EmissionError(ValueError):
+    """An expression has a node for which there is no CasADi source; the message names it."""
+
+
+class Printer:
+    """Prints expressions as Python source and records the CasADi names they use in `imports`."""
+
+    def __init__(self) -> None:
+        self.imports: set[str] = set()
+
+    def __call__(self, expression: sp.Expr) -> str:
+        return self._print(sp.sympify(expression))[0]
+
+    def _print(self, node: sp.Basic) -> tuple[str, int]:
+        if isinstance(node, sp.Symbol):
+            if not node.name.isidentifier():
+                raise EmissionError(f"symbol {node.name!r} is not a Python name")
+            return node.name, _ATOM
+        if isinstance(node, sp.Integer):
+            return str(int(node)), _ATOM if node >= 0 else _UNARY
+        if isinstance(node, sp.Rational):
+            return self._rational(node)
+        if isinstance(node, sp.Float):
+            return self._float(node)
+        if node is sp.pi:
+            return self._name("pi"), _ATOM
+        if isinstance(node, sp.Add):
+            return self._sum(node), _ADD
+        if isinstance(node, sp.Mul):
+            return self._product(node)
+        if isinstance(node, sp.Pow):
+            return self._power(node)
+        if isinstance(node, (sp.Min, sp.Max)):
+            return self._extremum(node), _ATOM
+        if isinstance(node, sp.Piecewise):
+            return self._piecewise(node), _ATOM
+        if isinstance(node, AppliedUndef) and is_slot_call(node):
+            return f"laws.{node.func.__name__}({self._arguments(node.args)})", _ATOM
+        if type(node) in _FUNCTIONS:
+            return f"{self._name(_FUNCTIONS[type(node)])}({self._arguments(node.args)})", _ATOM
+        if type(node) in _RELATIONS:
+            return f"{self._above(node.args[0], _ADD)} {_RELATIONS[type(node)]} {self._above(node.args[1], _ADD)}", _ADD
+        raise EmissionError(f"no CasADi source for {type(node).__name__}: {node}")
+
+    def _name(self, name: str) -> str:
+        self.imports.add(name)
+        return name
+
+    def _arguments(self, arguments: tuple[sp.Basic, ...]) -> str:
+        return ", ".join(self._print(argument)[0] for argument in arguments)
+
+    def _above(self, node: sp.Basic, strength: int) -> str:
+        text, own = self._print(node)
+        return text if own > strength else f"({text})"
+
+    @staticmethod
+    def _float(node: sp.Float) -> tuple[str, int]:
+        value = float(node)
+        if sp.Float(value, node._prec) != node and sp.Float(value) != node:
+            raise EmissionError(f"number {node} does not round-trip through a double")
+        return repr(value), _ATOM if value >= 0 else _UNARY
+
+    @staticmethod
+    def _rational(node: sp.Rational) -> tuple[str, int]:
+        """A finite decimal as a decimal literal, any other as p/q: both are the double nearest the rational."""
+        decimal = _decimal(node)
+        if decimal is not None:
+            return decimal, _ATOM if node >= 0 else _UNARY
+        return f"{int(node.p)}/{int(node.q)}", _MUL
+
+    def _sum(self, node: sp.Add) -> str:
+        text = ""
+        for term in _positive_first(node.as_ordered_terms()):
+            negative = term.could_extract_minus_sign()
+            body = self._above(-term if negative else term, _ADD)
+            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
+        return text
+
+    def _product(self, node: sp.Mul) -> tuple[str, int]:
+        if node.could_extract_minus_sign():
+            body = -node
+            return "-" + self._above(body, _ADD), _UNARY
+        over: list[str] = []
+        under: list[str] = []
+        for factor in node.as_ordered_factors():
+            if isinstance(factor, sp.Rational) and not isinstance(factor, sp.Integer):
+                decimal = _decimal(factor) if not _is_binary(factor.q) else None
+                if decimal is not None:
+                    over.append(decimal)
+                else:
+                    over += [str(int(factor.p))] if factor.p != 1 else []
+                    under.append(str(int(factor.q)))
+            elif isinstance(factor, sp.Pow) and factor.exp.is_number and factor.exp.is_negative:
+                under.append(self._above(sp.Pow(factor.base, -factor.exp), _UNARY))
+            else:
+                over.append(self._above(factor, _UNARY))
+        top = "*".join(over) or "1"
+        if not under:
+            return top, _MUL
+        return f"{top}/{under[0]}" if len(under) == 1 else f"{top}/({'*'.join(under)})", _MUL
+
+    def _power(self, node: sp.Pow) -> tuple[str, int]:
+        if node.exp == sp.Rational(1, 2):
+            return f"{self._name('sqrt')}({self._print(node.base)[0]})", _ATOM
+        if node.exp.is_number and node.exp.is_negative:
+            return f"1/{self._above(sp.Pow(node.base, -node.exp), _UNARY)}", _MUL
+        exponent, strength = self._print(node.exp)
+        exponent = exponent if strength >= _ATOM else f"({exponent})"
+        return f"{self._above(node.base, _POW)}**{exponent}", _POW
+
+    def _extremum(self, node: sp.Expr) -> str:
+        name = self._name("fmin" if isinstance(node, sp.Min) else "fmax")
+        first, *rest = sorted(node.args, key=sp.default_sort_key)
+        text = self._print(first)[0]
+        for other in rest:
+            text = f"{name}({text}, {self._print(other)[0]})"
+        return text
+
+    def _piecewise(self, node: sp.Piecewise) -> str:
+        """if_else with each branch's variable clamped to where the branch holds, so the other side cannot yield NaN."""
+        (value, condition), *rest = node.args
+        if condition is sp.true:
+            return self._print(value)[0]
+        if not rest or rest[-1][1] != sp.true:
+            raise EmissionError(f"Piecewise without a final otherwise: {node}")
+        if type(condition) not in _RELATIONS or not isinstance(condition.lhs, sp.Symbol):
+            raise EmissionError(f"Piecewise condition {condition} is not of the form symbol < bound, so its branches cannot be guarded")
+        variable, bound = condition.lhs, condition.rhs
+        below = type(condition) in (sp.StrictLessThan, sp.LessThan)
+        inside, outside = (sp.Min, sp.Max) if below else (sp.Max, sp.Min)
+        taken = value.subs(variable, inside(variable, bound, evaluate=False))
+        other = sp.Piecewise(*rest) if len(rest) > 1 else rest[0][0]
+        if isinstance(other, sp.Piecewise):
+            otherwise = self._print(other)[0]
+        else:
+            otherwise = self._print(other.subs(variable, outside(variable, bound, evaluate=False)))[0]
+        return f"{self._name('if_else')}({self._print(condition)[0]}, {self._print(taken)[0]}, {otherwise})"
+
+
+def _is_binary(number: int) -> bool:
+    return number & (number - 1) == 0
+
+
+def _decimal(value: sp.Rational) -> str | None:
+    """The finite decimal of at most 15 places that equals `value`, or None."""
+    numerator, denominator = int(value.p), int(value.q)
+    places = 0
+    while denominator % 10 and (denominator % 2 == 0 or denominator % 5 == 0) or denominator % 10 == 0:
+        if places == 15:
+            return None
+        numerator, places = numerator * 10, places + 1
+        shared = sp.igcd(numerator, denominator)
+        numerator, denominator = numerator // shared, denominator // shared
+    if denominator != 1:
+        return None
+    sign, digits = ("-" if numerator < 0 else ""), str(abs(numerator)).rjust(places + 1, "0")
+    return f"{sign}{digits[:-places]}.{digits[-places:]}" if places else f"{sign}{digits}"
+
+
+def _positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
+    """The order given, started with a positive term where there is one."""
+    for position, term in enumerate(terms):
+        if not term.could_extract_minus_sign():
+            return [term, *terms[:position], *terms[position + 1 :]]
+    return terms

@@ -1,0 +1,84 @@
+"""Write all emitted modules to a folder, or compare the package's own folder with what would be written."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from pathlib import Path
+
+from ..laws import LAWS
+from ..model import derive
+from ..structure import structures
+from .assemble import ASSEMBLE
+from .modules import (
+    _PROVENANCE,
+    law_digest,
+    law_module,
+    model_digest,
+    scaling_digest,
+    scaling_module,
+    structure_module,
+)
+
+GENERATED = Path(__file__).resolve().parents[2] / "generated"
+_IGNORED = ("__pycache__",)
+
+
+def emitted() -> dict[str, str]:
+    """Relative path -> text of every file of `generated/`, manifest included."""
+    files = {
+        "__init__.py": f'# {_PROVENANCE}\n"""Emitted CasADi modules: a structure a module, its laws in `laws`, its groups in `scaling`."""\n',
+        "laws/__init__.py": f'# {_PROVENANCE}\n"""Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."""\n',
+        "assemble.py": f"# {_PROVENANCE}\n{ASSEMBLE}",
+        "scaling.py": scaling_module(),
+        "py.typed": "",
+    }
+    manifest: dict[str, dict[str, object]] = {"laws": {}, "structures": {}, "scaling": {"scaling": scaling_digest()}}
+    for slot, laws in LAWS.items():
+        for law in laws.values():
+            files[f"laws/{law.module}.py"] = law_module(law)
+            manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
+    for structure in structures():
+        model = derive(structure)
+        files[f"{structure.name}.py"] = structure_module(model)
+        manifest["structures"][structure.name] = model_digest(model)
+    files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
+    return dict(sorted(files.items()))
+
+
+def generate(out: Path = GENERATED) -> list[Path]:
+    """Derive and emit everything into `out`; returns the files written."""
+    written = []
+    for name, text in emitted().items():
+        path = out / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode())
+        written.append(path)
+    return written
+
+
+def check(folder: Path = GENERATED) -> list[str]:
+    """Compare `folder` byte for byte with what would be emitted, without importing it.
+
+    Returns:
+        Lines: a unified diff of each file that differs, and each file that is missing or extra; empty if identical.
+    """
+    expected = emitted()
+    lines: list[str] = []
+    for name, text in expected.items():
+        path = folder / name
+        if not path.is_file():
+            lines.append(f"missing: {name}")
+        elif (found := path.read_bytes()) != text.encode():
+            shown = found.decode(errors="replace")
+            lines.append(f"differs: {name}")
+            lines += difflib.unified_diff(
+                shown.splitlines(), text.splitlines(), f"generated/{name}", f"derived/{name}", lineterm=""
+            )
+    present = {
+        path.relative_to(folder).as_posix()
+        for path in folder.rglob("*")
+        if path.is_file() and not any(part in _IGNORED for part in path.parts)
+    }
+    lines += [f"extra: {name}" for name in sorted(present - expected.keys())]
+    return lines

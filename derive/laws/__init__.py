@@ -1,0 +1,29 @@
+"""The laws of the model: one a file, each derived where it can be, each with its source.
+
+`LAWS[slot][name]` holds every selectable law. A structure's equations call a law through its slot, so eight bridge
+laws are eight small modules and not eight copies of the equations.
+"""
+
+from __future__ import annotations
+
+from .arm import ARMS
+from .base import Law, LawFunction, fill, slot_call
+from .bridge import BRIDGES
+from .film import FILMS
+from .glass import GLASSES
+from .shear import SHEARS
+from .strings import STRINGS
+
+LAWS: dict[str, dict[str, Law]] = {
+    slot: {law.name: law for law in laws}
+    for slot, laws in (
+        ("film", FILMS),
+        ("shear", SHEARS),
+        ("arm", ARMS),
+        ("glass", GLASSES),
+        ("bridge", BRIDGES),
+        ("strings", STRINGS),
+    )
+}
+
+__all__ = ["LAWS", "Law", "LawFunction", "fill", "slot_call"]

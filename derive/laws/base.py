@@ -1,0 +1,79 @@
+"""What a law is: named pure functions of dimensionless arguments, with their intermediates and their source."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+Definition = tuple[sp.Symbol, sp.Expr]
+
+
+@dataclass(frozen=True)
+class LawFunction:
+    """One function of a law: `definitions` name intermediates, in order, for `result`."""
+
+    name: str
+    arguments: tuple[sp.Symbol, ...]
+    result: sp.Expr
+    doc: str
+    definitions: tuple[Definition, ...] = ()
+
+    def __post_init__(self) -> None:
+        known = set(self.arguments)
+        for symbol, expression in (*self.definitions, (sp.Symbol(self.name), self.result)):
+            unknown = expression.free_symbols - known
+            if unknown:
+                raise ValueError(f"{self.name}: {symbol} uses {sorted(map(str, unknown))}, which no argument or definition gives")
+            known.add(symbol)
+
+    def __call__(self, *values: sp.Expr) -> sp.Expr:
+        """The closed expression at `values`, all intermediates put back in."""
+        expression = self.result
+        for symbol, value in reversed(self.definitions):
+            expression = expression.subs(symbol, value)
+        return expression.subs(dict(zip(self.arguments, values, strict=True)), simultaneous=True)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A selectable law: fills the slot `slot` under the name that scene files use."""
+
+    slot: str
+    name: str
+    meaning: str
+    source: str
+    functions: tuple[LawFunction, ...]
+
+    @property
+    def module(self) -> str:
+        """Name of the emitted module."""
+        return f"{self.slot}_{self.name.replace('-', '_')}"
+
+    def __getitem__(self, function: str) -> LawFunction:
+        return next(each for each in self.functions if each.name == function)
+
+
+def slot_call(slot: str, function: str, *arguments: sp.Expr) -> sp.Expr:
+    """The call `slot.function(arguments)` as a sympy node."""
+    return sp.Function(f"{slot}.{function}", real=True)(*arguments)
+
+
+def is_slot_call(node: sp.Basic) -> bool:
+    return isinstance(node, AppliedUndef) and "." in node.func.__name__
+
+
+def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
+    """Put the chosen laws' expressions in place of every slot call, inner calls first."""
+    while True:
+        calls = [node for node in expression.atoms(AppliedUndef) if is_slot_call(node)]
+        if not calls:
+            return expression
+        innermost = [node for node in calls if not any(is_slot_call(inner) for part in node.args for inner in part.atoms(AppliedUndef))]
+        replaced = {}
+        for node in innermost:
+            slot, function = node.func.__name__.split(".")
+            replaced[node] = laws[slot][function](*node.args)
+        expression = expression.xreplace(replaced)

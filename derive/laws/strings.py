@@ -1,0 +1,66 @@
+"""Pendulum strings: forces from the potential of two equal spheres hung from pivots one diameter apart."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ..quantities import a, beta, g, l_s, m, string_ratio
+from .base import Law, LawFunction
+
+r = sp.Symbol("r", positive=True)  # distance between the centres
+offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, horizontal swing of either sphere over a
+
+
+@cache
+def swing_squared() -> sp.Expr:
+    """d^2: either sphere's horizontal distance from below its pivot, half the change of the separation vector."""
+    now = sp.Matrix([r * sp.cos(beta), r * sp.sin(beta)])
+    rest = sp.Matrix([4 * a, 0])
+    half = (now - rest) / 2
+    return sp.expand(sp.trigsimp(sp.expand(half.dot(half))))
+
+
+@cache
+def height(small_angle: bool) -> sp.Expr:
+    """Height gained over a by a pendulum of length l/a = string_ratio swung out by d."""
+    exact = string_ratio - sp.sqrt(string_ratio**2 - offset_squared)
+    return exact.series(offset_squared, 0, 2).removeO() if small_angle else exact
+
+
+@cache
+def rise(small_angle: bool) -> sp.Expr:
+    """`height` over its conjugate: no cancellation at small swings."""
+    if small_angle:
+        return height(True)
+    conjugate = string_ratio + sp.sqrt(string_ratio**2 - offset_squared)
+    return sp.expand(height(False) * conjugate) / conjugate
+
+
+@cache
+def potential(small_angle: bool) -> sp.Expr:
+    """U_s(r, beta) in SI: two spheres, each of mass 2m, lifted by `rise`."""
+    scaled = height(small_angle).subs({offset_squared: swing_squared() / a**2, string_ratio: l_s / a}, simultaneous=True)
+    return 4 * m * g * a * scaled
+
+
+def _law(name: str, small_angle: bool, meaning: str) -> Law:
+    stiffness = sp.simplify(2 * height(small_angle).diff(offset_squared))
+    arguments = (string_ratio, offset_squared)
+    return Law(
+        slot="strings",
+        name=name,
+        meaning=meaning,
+        source="Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight",
+        functions=(
+            LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
+            LawFunction("stiffness", arguments, stiffness, "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2)."),
+        ),
+    )
+
+
+STRINGS = (
+    _law("exact", False, "strings of length l, exact geometry"),
+    _law("small-angle", True, "linearised in the swing: sqrt(l^2 - d^2) -> l"),
+)

@@ -1,0 +1,111 @@
+"""The vocabulary: every quantity of the model once, with symbol, name, dimension, SI unit, meaning and source.
+
+Names are the names that emitted code, scene files and documentation use. `PAPER` is Donahue, Davis, Kantak and
+Hrenya, Phys. Rev. E 86, 021303 (2012).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, RATE, SPEED, TIME, Dimension
+
+PAPER = "Donahue et al. 2012"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A physical quantity or dimensionless group.
+
+    `symbol.name` is its name in emitted code; `latex` how the literature writes it.
+    """
+
+    symbol: sp.Symbol
+    latex: str
+    dimension: Dimension
+    unit: str
+    meaning: str
+    source: str = PAPER
+
+    @property
+    def name(self) -> str:
+        return self.symbol.name
+
+
+_ALL: dict[str, Quantity] = {}
+
+
+def _quantity(name: str, latex: str, dimension: Dimension, unit: str, meaning: str, source: str = PAPER, **assumptions: bool) -> sp.Symbol:
+    symbol = sp.Symbol(name, **(assumptions or {"positive": True}))
+    if name in _ALL:
+        raise ValueError(f"{name} stands twice in the vocabulary")
+    _ALL[name] = Quantity(symbol, latex, dimension, unit, meaning, source)
+    return symbol
+
+
+# Particles and liquid
+a = _quantity("reduced_radius", "a", LENGTH, "m", "reduced radius, R/2 for equal spheres")
+m = _quantity("reduced_mass", "m", MASS, "kg", "reduced mass, M/2 for equal spheres")
+x_b = _quantity("roughness", "x_b", LENGTH, "m", "height of the surface roughness")
+e_dry = _quantity("dry_restitution", "e_{dry}", ONE, "1", "restitution of the dry contact", nonnegative=True)
+E = _quantity("youngs_modulus", "E", PRESSURE, "Pa", "Young's modulus of the spheres", "Davis, Rager & Good 2002")
+nu = _quantity("poisson_ratio", r"\nu", ONE, "1", "Poisson's ratio of the spheres", "Davis, Rager & Good 2002", real=True)
+mu = _quantity("viscosity", r"\mu", PRESSURE * TIME, "Pa s", "viscosity of the liquid")
+x0 = _quantity("film_thickness", "x_0", LENGTH, "m", "film thickness: the gap at first touch")
+p_gt = _quantity("glass_transition_pressure", "p_{gt}", PRESSURE, "Pa", "glass-transition pressure of the liquid")
+rho = _quantity("density", r"\rho", MASS / LENGTH**3, "kg/m^3", "density of the liquid")
+sigma = _quantity("surface_tension", r"\sigma", FORCE / LENGTH, "N/m", "surface tension of the liquid")
+l_s = _quantity("string_length", "l", LENGTH, "m", "length of the pendulum strings")
+g = _quantity("gravity", "g", LENGTH / TIME**2, "m/s^2", "gravitational acceleration")
+v0 = _quantity("speed", "v_{n,0}", SPEED, "m/s", "normal approach speed at first touch")
+theta0 = _quantity("angle", r"\theta_0", ONE, "rad", "impact angle, 0 head-on", nonnegative=True)
+
+# Motion
+t = _quantity("time", "t", TIME, "s", "time since first touch", real=True)
+x = _quantity("separation", "x", LENGTH, "m", "gap between the surfaces")
+u = _quantity("separation_rate", "u", SPEED, "m/s", "opening velocity dx/dt, negative on approach", real=True)
+omega = _quantity("rotation_rate", r"\omega", RATE, "rad/s", "angular velocity of the line of centres", real=True)
+xi = _quantity("spin_rate", r"\xi", RATE, "rad/s", "angular velocity of each sphere about its own centre", real=True)
+beta = _quantity("rotation", r"\beta", ONE, "rad", "angle turned by the line of centres", real=True)
+omega0 = _quantity("initial_rate", r"\omega_0", RATE, "rad/s", "initial angular velocity, v0 tan(theta0)/(4a)")
+
+# Dimensionless states: gap by x0, velocities by v0, angular velocities by omega0, time by x0/v0
+gap = _quantity("gap", "s", ONE, "x0", "gap over film thickness")
+opening = _quantity("opening", "w", ONE, "v0", "opening velocity over impact speed, negative on approach", real=True)
+orbit = _quantity("orbit", "J", ONE, "a^2 omega0", "orbital angular momentum r^2 omega over a^2 omega0", real=True)
+spin = _quantity("spin", r"\hat\xi", ONE, "omega0", "spin of each sphere over omega0", real=True)
+
+# Dimensionless groups
+stokes = _quantity("stokes", "St", ONE, "1", "Stokes number m v0/(6 pi mu a^2)")
+capillary = _quantity("capillary", "Ca", ONE, "1", "capillary number 3 mu a v0/(sigma x0)")
+centrifugal = _quantity("centrifugal", "Ce", ONE, "1", "centrifugal number m omega0^2/sigma", nonnegative=True)
+reynolds = _quantity("reynolds", "Re", ONE, "1", "film Reynolds number rho v0 x0/mu")
+aspect = _quantity("aspect", r"\varepsilon", ONE, "1", "film thickness over reduced radius, x0/a")
+obliquity = _quantity("obliquity", r"\tan\theta_0", ONE, "1", "tangent of the impact angle", nonnegative=True)
+glass_number = _quantity("glass_number", r"\Pi_{gt}", ONE, "1", "glass-transition pressure over 3 mu a v0/x0^2")
+volume = _quantity("volume", "V", ONE, "1", "bridge volume over R^3 (constant)")
+contact_angle = _quantity("contact_angle", r"\phi", ONE, "rad", "contact angle of the liquid on the sphere", nonnegative=True)
+weight = _quantity("weight", r"g x_0/v_0^2", ONE, "1", "gravity over impact deceleration, g x0/v0^2")
+string_ratio = _quantity("string_ratio", "l/a", ONE, "1", "string length over reduced radius")
+elastic_gap = _quantity("elastic_gap", "x_r/x_0", ONE, "x0", "elastic length over film thickness", nonnegative=True)
+rough_gap = _quantity("rough_gap", "x_b/x_0", ONE, "x0", "roughness over film thickness", nonnegative=True)
+rupture_gap = _quantity("rupture_gap", "x_f/x_0", ONE, "x0", "rupture distance over film thickness")
+
+VOCABULARY: dict[str, Quantity] = dict(_ALL)
+DIMENSIONS: dict[sp.Basic, Dimension] = {quantity.symbol: quantity.dimension for quantity in VOCABULARY.values()}
+
+R = 2 * a  # radius of one of two equal spheres
+r = 4 * a + x  # distance between the centres
+
+
+def quantity(symbol: sp.Symbol | str) -> Quantity:
+    """The vocabulary's entry of a symbol or name; KeyError names what is missing."""
+    return VOCABULARY[symbol if isinstance(symbol, str) else symbol.name]
+
+
+def names(symbols: Iterable[sp.Symbol]) -> tuple[str, ...]:
+    """Names of symbols, in their order."""
+    return tuple(symbol.name for symbol in symbols)

@@ -1,0 +1,48 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+"""From the functions of a structure module to CasADi Functions over vectors ordered as STATES and GROUPS."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import Any
+
+from casadi import SX, Function, densify, jacobian, jtimes, vertcat
+
+
+class Laws:
+    """The law modules that fill a structure's slots, as attributes: `laws.bridge.force(...)`."""
+
+    def __init__(self, **slots: ModuleType) -> None:
+        for slot, module in slots.items():
+            setattr(self, slot, module)
+
+    def __getattr__(self, slot: str) -> Any:
+        raise AttributeError(f"no law fills the slot {slot!r}")
+
+
+def symbols(names: tuple[str, ...]) -> dict[str, SX]:
+    """A CasADi symbol for each name."""
+    return {name: SX.sym(name) for name in names}
+
+
+def vector(values: Mapping[str, Any]) -> SX:
+    """A dense column of the values, in their order."""
+    return densify(vertcat(*(SX(value) for value in values.values())))
+
+
+def casadi_functions(structure: ModuleType, laws: Laws, film: int = 1, shear: int = 1) -> dict[str, Function]:
+    """Every function of a structure as a CasADi Function (state, groups) -> column, and the derivatives of two.
+
+    `jacobian` is that of right_hand_side in the state; `event_rates` the time derivatives of the event functions.
+    """
+    state, groups = symbols(structure.STATES), symbols(structure.GROUPS)
+    inputs = [vector(state), vector(groups)] if groups else [vector(state), SX(0, 1)]
+    columns = {}
+    for name in structure.FUNCTIONS:
+        region = {"film": film, "shear": shear} if name in structure.REGIONAL else {}
+        columns[name] = vector(getattr(structure, name)(state, groups, laws, **region))
+    rates = columns["right_hand_side"]
+    columns["jacobian"] = jacobian(rates, inputs[0])
+    columns["event_rates"] = jtimes(columns["events"], inputs[0], rates)
+    return {name: Function(name, inputs, [column], ["state", "groups"], [name]) for name, column in columns.items()}

@@ -1,0 +1,24 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 4f03caa45d5788380806cd88c35fb4048e6588ae50bca83c0bb4567e84e5f228
+"""bridge law `mikami`: regression of Young-Laplace solutions.
+
+Source: Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from casadi import exp, log
+
+
+def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
+    """Capillary attraction over pi R sigma.
+
+    Total operations: 26
+    """
+    log_volume = log(volume)
+    decay = -1.1/volume**0.53
+    offset = contact_angle**2*(-0.34*log_volume - 0.96) - 0.019*log_volume + 0.48
+    tail = 0.0042*log_volume + 0.078
+    return tail + exp(decay*gap_over_radius + offset)

@@ -1,0 +1,24 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 697bb6112b4bdf2568519bf3ad8765235bd8c53be6d4a6a8f49f25340cd9a72b
+"""bridge law `soulie`: mikami's form refitted for polydisperse spheres.
+
+Source: Soulie, Cherblanc, El Youssoufi & Saix, Int. J. Numer. Anal. Meth. Geomech. 30, 213 (2006).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from casadi import exp, log
+
+
+def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
+    """Capillary attraction over pi R sigma.
+
+    Total operations: 26
+    """
+    log_volume = log(volume)
+    decay = -1.1/volume**0.53
+    offset = contact_angle**2*(-0.148*log_volume - 0.96) - 0.0082*log_volume + 0.48
+    tail = 0.0018*log_volume + 0.078
+    return tail + exp(decay*gap_over_radius + offset)
