@@ -1,0 +1,39 @@
+"""Scenes, event-driven integration and its results: `Scene`, `collide`.
+
+Names are loaded on first use, so that a command pays only for what it needs.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .simulate import collide
+    from .result import Collision
+    from .errors import CheckFailed, ComputationError, InputError, WetDoubletError
+    from .scene import Scene
+
+_HOMES = {
+    "CheckFailed": "errors",
+    "Collision": "result",
+    "ComputationError": "errors",
+    "InputError": "errors",
+    "Scene": "scene",
+    "WetDoubletError": "errors",
+    "collide": "simulate",
+}
+
+__all__ = ["CheckFailed", "Collision", "ComputationError", "InputError", "Scene", "WetDoubletError", "collide"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,221 @@
+"""Proofs that a doublet never separates, so that a flight can end as soon as its outcome is decided.
+
+With a bridge (or head-on, strings): mechanical energy never increases and angular momentum is conserved, so energy
+below the barrier of the effective potential U_eff = L^2/(2 I) + W_c (+ U_s) on the far side cannot be made up for.
+Head-on with a film alone: the film's momentum integral decides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+from casadi import SX, Function
+
+from .model import Model
+from .phases import CLOSING, Phase
+
+# A proof holds by more than this many times the relative tolerance: errors accumulate over some tens of steps.
+_SAFETY = 30.0
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+
+
+class Proof(Protocol):
+    """What a flight asks of a proof. `y` is the locating state: the model's states, then the capillary work."""
+
+    theorem: bool  # a stick found by it is proved, not only certain for practical purposes
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        """Energy (over m v0^2) below which the doublet at `y` is proved to stick; None if energy proves nothing."""
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        """Whether the stick is proved at `y`."""
+
+
+class NoProof:
+    """No certificate: strings with rotation end by their cut-off, an oblique doublet with a film alone always parts."""
+
+    theorem = False
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return None
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return False
+
+
+class FilmProof:
+    """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
+
+    theorem = True
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p = model, p
+        groups = dict(zip(model.groups, p, strict=True))
+        self.stokes = groups["stokes"]
+        self.contact = max(groups["elastic_gap"], groups["rough_gap"])
+        self.margin = _SAFETY * rtol
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return None
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        gap, opening = float(y[0]), float(y[1])
+        if phase.resting:
+            return True
+        if phase.motion != CLOSING:  # u falls by the film's integral up to its surface, x = x0
+            loss = self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
+            return opening - loss < -self.margin
+        # closing: neither the solids nor the glass pressure are met before the film stops the motion
+        grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
+        speed = -opening + self._momentum_loss(grid)  # losses are negative along a falling gap
+        if speed[-1] > -self.margin:
+            return False
+        moving = speed > 0
+        values = _glass(self.model)(np.vstack([grid[moving], -speed[moving]]), self.p)
+        # between grid points |u|/x^2 varies by less than a percent of itself
+        return bool(np.min(np.asarray(values.full())) > 0.02 * self.p[list(self.model.groups).index("glass_number")])
+
+    def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
+        """Loss of u along a path of gaps, cumulative."""
+        low, high = grid[:-1], grid[1:]
+        nodes = low + np.outer(_NODES + 1, high - low) / 2
+        resistance = np.asarray(_resistance(self.model)(nodes.reshape(1, -1)).full()).reshape(nodes.shape)
+        panels = (_WEIGHTS @ resistance) * (high - low) / 2
+        return np.concatenate([[0.0], np.cumsum(panels)]) / self.stokes
+
+
+@lru_cache(maxsize=64)
+def _glass(model: Model) -> Function:
+    return Function("glass", [model.column, model.parameters], [model("events")["glass"]])
+
+
+@lru_cache(maxsize=64)
+def _resistance(model: Model) -> Function:
+    gap = SX.sym("gap")
+    return Function("resistance", [gap], [model.laws.film.resistance(gap)])
+
+
+@dataclass(frozen=True)
+class Barrier:
+    """A maximum of the effective potential: its gap, and its height over m v0^2 (capillary work from first touch)."""
+
+    gap: float
+    height: float
+
+
+class BarrierProof:
+    """Energy below a barrier of the effective potential that lies further out.
+
+    For the surface arm angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite; there
+    the level is lowered by what the drift can still do, and the stick is not called a theorem.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p, self.rtol = model, p, rtol
+        self.groups = dict(zip(model.groups, p, strict=True))
+        self.theorem = model.choice.law("arm") != "surface"
+        self._fixed: tuple[Barrier, ...] | None = None
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
+        if not ahead:
+            return None
+        kinetic = float(sum(self.model.values("energies", y, self.p).values()))
+        scale = kinetic + (abs(float(y[-1])) if self.model.bridge else 0.0) + abs(ahead[0].height)
+        return ahead[0].height - _SAFETY * self.rtol * scale - self._drift(y, phase)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        level = self.level(y, phase)
+        return level is not None and self.energy(y) < level
+
+    def energy(self, y: np.ndarray) -> float:
+        """Mechanical energy over m v0^2."""
+        work = float(y[-1]) if self.model.bridge else 0.0
+        return float(sum(self.model.values("energies", y, self.p).values())) + work
+
+    def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
+        """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
+        if not self.theorem:
+            return self._search(y)
+        if self._fixed is None:
+            self._fixed = self._search(y)
+        return self._fixed
+
+    def _drift(self, y: np.ndarray, phase: Phase) -> float:
+        """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).
+
+        |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
+        slip, and while the doublet breathes by the change of the rigid rate L/I. Energy and barrier move by omega dL.
+        """
+        if self.theorem:
+            return 0.0
+        state = dict(zip(self.model.state, y, strict=False))
+        aspect, obliquity = self.groups["aspect"], self.groups["obliquity"]
+        inside, outside = 4 + aspect * state["gap"], 4 + aspect * self.groups["rupture_gap"]
+        rate = state["orbit"] / inside**2
+        change = abs(rate - state["spin"])
+        reach = state["gap"]
+        if not phase.resting:
+            reach = self.groups["rupture_gap"]
+            change += rate * (outside**2 - 16.0) / (16.0 + 6.4)
+        lost = 1.6 * aspect * reach * change
+        return float(2 * max(rate, state["spin"]) * lost * obliquity**2 / 16)
+
+    def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
+        states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
+        states[0] = gaps
+        return np.asarray(self.model.function("effective_potential")(states, self.p).full())[1]
+
+    def _search(self, y: np.ndarray) -> tuple[Barrier, ...]:
+        """Local maxima from the sign of the slope on a grid in ln(gap), refined by bisection, heights by quadrature."""
+        end = self.groups.get("rupture_gap", 1.0)
+        contact = max(self.groups["elastic_gap"], self.groups["rough_gap"])
+        start = min(max(contact, 1e-6), 0.5)
+        inside = np.geomspace(start, 1.0, 81)
+        grid = np.unique(np.concatenate([inside, np.linspace(1.0, end, 81)])) if end > 1 else inside
+        slope = self._slope(grid, y)
+        tops = [
+            self._root(grid[k], grid[k + 1], y) for k in range(grid.size - 1) if slope[k] > 0 >= slope[k + 1]
+        ]
+        if slope[-1] > 0:
+            tops.append(float(grid[-1]))
+        at_touch = np.array([1.0, *y[1:]])
+        base = self.model.values("effective_potential", at_touch, self.p)["energy"]
+        found = [Barrier(top, base + self._rise(top, y)) for top in tops]
+        highest_after: list[Barrier] = []
+        for barrier in reversed(found):
+            if not highest_after or barrier.height > highest_after[-1].height:
+                highest_after.append(barrier)
+        return tuple(reversed(highest_after))
+
+    def _root(self, low: float, high: float, y: np.ndarray) -> float:
+        while high - low > 4e-16 * high:
+            middle = 0.5 * (low + high)
+            if middle in (low, high):
+                break
+            if self._slope(np.array([middle]), y)[0] > 0:
+                low = middle
+            else:
+                high = middle
+        return 0.5 * (low + high)
+
+    def _rise(self, top: float, y: np.ndarray) -> float:
+        """Effective potential at `top` less that at first touch, by Gauss-Legendre panels in ln(gap)."""
+        edges = np.linspace(0.0, np.log(top), 2 + int(8 * abs(np.log(top))))
+        low, high = edges[:-1], edges[1:]
+        logs = (low + np.outer(_NODES + 1, high - low) / 2).ravel()
+        gaps = np.exp(logs)
+        integrand = (self._slope(gaps, y) * gaps).reshape(_NODES.size, -1)
+        return float(np.sum((_WEIGHTS @ integrand) * (high - low) / 2))
+
+
+def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
+    """The certificate that holds for a model."""
+    if model.oblique and (model.strings or not model.bridge):
+        return NoProof()
+    if model.bridge or model.strings:
+        return BarrierProof(model, p, rtol)
+    return FilmProof(model, p, rtol)

@@ -1,0 +1,112 @@
+"""Fly a located path again with the engine asked for: smooth flows over known durations, each landed on its event.
+
+The path says which phases and events there are; the engine's own solution meets each event at a slightly different
+time, which the landing step corrects. So events, and later their derivatives, are the engine's own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .integrators import Plain, landing, plain
+from .locate import Path, Step
+from .phases import Flow, Watch
+
+_LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
+_TRIES = 8
+
+
+class Diverged(Exception):
+    """The engine's solution does not meet the located event: its error is larger than the distance to a boundary."""
+
+    def __init__(self, step: Step, time: float, y: np.ndarray) -> None:
+        super().__init__(step, time, y)
+        self.step, self.time, self.y = step, time, y
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A flown phase: its name and flow, state at its start, start time and duration (x0/v0)."""
+
+    name: str
+    flow: Flow
+    start: np.ndarray
+    time: float
+    duration: float
+
+
+@dataclass
+class Flown:
+    """A path as one engine flew it; states carry the extras, times are in x0/v0."""
+
+    y: np.ndarray
+    extras: tuple[str, ...] = ()
+    time: float = 0.0
+    steps: int = 0
+    smallest_gap: float = 1.0
+    dry_loss: float = 0.0
+    events: list[tuple[str, float]] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
+    rests: bool = False
+
+
+def fly(path: Path, plugin: str, rtol: float, kind: Flow, start: np.ndarray) -> Flown:
+    """Fly `path` with an integrator plugin.
+
+    Arguments:
+        kind: the model to fly and its extras (the regions come from the path).
+        start: state at first touch, extras included.
+
+    Raises:
+        Diverged: the engine's solution misses an event of the path.
+        IntegrationFailed: the engine gave up.
+    """
+    model = kind.model
+    known = dict(zip(path.model.groups, path.p, strict=True))
+    p = model.group_values(known)
+    flown = Flown(start.copy(), kind.extras)
+    size = len(model.state)
+    for step in path.steps:
+        flow = Flow(kind.choice, step.phase.region, kind.extras)
+        if step.duration > 0:
+            engine = plain(flow, plugin, rtol)
+            before = flown.y
+            duration, flown.y = _flight(engine, flow, path.watch, step, flown, p)
+            flown.pieces.append(Piece(str(step.phase), flow, before, flown.time, duration))
+            flown.time += duration
+        flown.events += [(kind, flown.time) for kind in step.kinds]
+        flown.smallest_gap = min(flown.smallest_gap, float(flown.y[0]))
+        if step.reverses:
+            flown.dry_loss += model.values("reversal_loss", flown.y, p)["dry_contact"]
+            after = model.values("reversal", flown.y, p)
+            flown.y = np.concatenate([list(after.values()), flown.y[size:]])
+        if step.holds:
+            flown.y[1] = 0.0
+            flown.rests = True
+    return flown
+
+
+def _flight(engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p: np.ndarray) -> tuple[float, np.ndarray]:
+    """Duration and end of one phase, on the event's surface."""
+    y = engine(flown.y, p, step.duration)
+    flown.steps += engine.steps
+    if step.event is None:
+        return step.duration, y
+    land = landing(flow, Watch(tangential_edge=watch.tangential_edge), step.event)
+    motion = float(step.phase.motion)
+    parameters = np.append(p, [motion, 0.0])
+    duration = step.duration
+    for _ in range(_TRIES):
+        landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
+        shift = float(dt[0])
+        if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > step.duration:
+            break
+        if abs(shift) <= _LANDED * duration or abs(float(miss[0])) < 1e-15:
+            return duration + shift, landed
+        duration += shift
+        y = engine(flown.y, p, duration)
+        flown.steps += engine.steps
+    raise Diverged(step, flown.time + duration, y)
+

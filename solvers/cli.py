@@ -1,0 +1,118 @@
+"""The command `wetdoublet`: commands are found by name, and every failure is one line and an exit status."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+import click
+
+from .errors import InputError, WetDoubletError, did_you_mean
+
+COMMANDS = ("scenes", "collide", "generate", "verify")
+"""Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
+
+INTERRUPTED, BROKEN_PIPE = 130, 141  # as a shell reports the signals
+
+
+class Commands(click.Group):
+    """A group that imports a command when it is called, and reports in one line what goes wrong."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names, in the order of the documentation."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return the command, imported now."""
+        if cmd_name not in COMMANDS:
+            return None
+        command = import_module(f".commands.{cmd_name}", __package__).command
+        assert isinstance(command, click.Command)
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command that `args` begin with; InputError with the nearest if there is none."""
+        if args[0] not in COMMANDS and not args[0].startswith("-"):
+            hint = did_you_mean(args[0], COMMANDS)
+            raise InputError("COMMAND", args[0], ", ".join(COMMANDS), "is not known" + hint)
+        return super().resolve_command(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; an interrupt and a reader that has left are exit statuses, not errors."""
+        try:
+            super().invoke(ctx)
+            sys.stdout.flush()
+        except KeyboardInterrupt:
+            click.echo("interrupted", err=True)
+            ctx.exit(INTERRUPTED)
+        except BrokenPipeError:
+            # nothing can be written any more, not even what the interpreter flushes as it ends
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            ctx.exit(BROKEN_PIPE)
+
+    def main(  # type: ignore[override]  # click's overloads say what standalone_mode returns; this one never returns
+        self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
+    ) -> None:
+        """Run, and leave with the exit status."""
+        arguments = list(sys.argv[1:] if args is None else args)
+        extra["standalone_mode"] = False
+        try:
+            status = super().main(arguments, prog_name or "wetdoublet", **extra)
+        except WetDoubletError as error:
+            status = _report(str(error), error.exit_status, error, arguments)
+        except click.UsageError as error:
+            status = _report(_usage(error), 2, error, arguments)
+        except OSError as error:
+            line = f"{error.filename or 'output'}: {error.strerror or error}; accepted: a file that can be written"
+            status = _report(" ".join(line.split()), 1, error, arguments)
+        except click.Abort as error:
+            status = _report("interrupted", INTERRUPTED, error, arguments)
+        except Exception as error:  # noqa: BLE001 # a defect of ours is still one line; --debug shows the rest
+            line = " ".join(f"internal error: {type(error).__name__}: {error}".split())
+            status = _report(f"{line} (--debug shows where; please report it)", 1, error, arguments)
+        sys.exit(status or 0)
+
+
+def _report(line: str, status: int, error: BaseException, arguments: list[str]) -> int:
+    if "--debug" in arguments:
+        traceback.print_exception(error)
+    click.echo(line, err=True)
+    return status
+
+
+def _usage(error: click.UsageError) -> str:
+    """Return click's complaint in our words: the option, the nearest known one, and what is accepted."""
+    ctx = error.ctx
+    options = [name for param in ctx.command.get_params(ctx) for name in param.opts if name[0] == "-"] if ctx else []
+    accepted = ", ".join(options)
+    if isinstance(error, click.NoSuchOption):
+        return f"{error.option_name}: no such option{did_you_mean(error.option_name, options)}; accepted: {accepted}"
+    said = " ".join(error.format_message().split()).removesuffix(".")
+    if isinstance(error, click.BadOptionUsage):
+        return (
+            f"{error.option_name}: {said}; accepted: {error.option_name} VALUE, or {error.option_name} alone for a flag"
+        )
+    if ctx and isinstance(ctx.command, click.Group):
+        return f"COMMAND: {said}; accepted: {', '.join(COMMANDS)}"
+    usage = " ".join(ctx.get_usage().split()).removeprefix("Usage: ") if ctx else "see --help"
+    return f"{ctx.info_name if ctx else 'wetdoublet'}: {said}; accepted: {usage}"
+
+
+@click.command(cls=Commands, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="wetdoublet", prog_name="wetdoublet", message="%(prog)s %(version)s")
+def cli() -> None:
+    """Oblique collisions of two wet particles.
+
+    A SCENE is a TOML file or a preset's name (see `wetdoublet scenes`).
+    """
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the command line and exit."""
+    cli.main(args)

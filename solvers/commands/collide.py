@@ -1,0 +1,53 @@
+"""`wetdoublet collide`: one collision."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+import click
+
+from ..settings import RTOL, check_engine, check_rtol
+from . import options
+
+
+@click.command("collide", short_help="One collision, from first touch to its outcome.")
+@options.scene_argument
+@options.impact
+@options.changes
+@options.rtol
+@options.engine
+@options.as_json
+@options.plot
+@options.output
+@options.debug
+def command(
+    source: str | None,
+    stokes: str | None,
+    speed: str | None,
+    angle: str | None,
+    changes: Sequence[str],
+    rtol: str | None,
+    engine: str | None,
+    as_json: bool,
+    plot: str | None,
+    output: str | None,
+) -> None:
+    """Let the two spheres of SCENE collide, once."""
+    tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
+    chosen = check_engine(engine, "--engine")
+    picture = options.check_file(plot, "--plot", options.PICTURES)
+    file = options.check_file(output, "-o")
+    scene = options.Asked.check(source, changes, stokes, speed, angle).scene()
+    scene.need_impact()
+
+    from ..simulate import collide
+
+    result = collide(scene, rtol=tolerance, engine=chosen, trajectory=picture is not None)
+    if as_json:
+        text = json.dumps(result.to_dict(), indent=2, allow_nan=False)
+    else:
+        text = "\n".join([str(result).rstrip("\n"), *scene.assumed])
+    if picture is not None:
+        result.plot(picture)
+    options.put(text, file)

@@ -1,0 +1,39 @@
+"""`wetdoublet verify`: the laws, each with its figure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import click
+
+from ..errors import CheckFailed
+from . import options
+
+
+@click.command("verify", short_help="Check the laws: symbolic identities and numbers.")
+@click.argument("source", metavar="[SCENE]", required=False)
+@options.impact
+@options.changes
+@options.output
+@options.debug
+def command(
+    source: str | None,
+    stokes: str | None,
+    speed: str | None,
+    angle: str | None,
+    changes: Sequence[str],
+    output: str | None,
+) -> None:
+    """Check the laws on SCENE, or on all presets; -o FILE writes the report as Markdown as well."""
+    file = options.check_file(output, "-o")
+    asked = options.Asked.check(source, changes, stokes, speed, angle)
+    scene = None if asked.is_none else asked.scene()
+
+    from ..verify import verify
+
+    report = verify(scene)
+    click.echo(str(report).rstrip("\n"))
+    if file is not None:
+        options.put(report.to_markdown().rstrip("\n"), file)
+    if not report.ok:
+        raise CheckFailed("verify: a check failed, see the report")

@@ -1,0 +1,117 @@
+"""What can go wrong, as exceptions that read as one line and know their exit status."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, ClassVar
+
+_LONGEST = 80  # characters of an offending value that are shown
+
+
+def shown(value: object) -> str:
+    """Return `value` as it would stand in a scene file, on one line and not too long."""
+    if isinstance(value, str):
+        text = '"' + repr(value)[1:-1] + '"'  # repr escapes whatever would break the line
+    elif isinstance(value, Mapping):
+        text = "a table"
+    else:
+        text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else text[: _LONGEST - 4] + "..." + text[-1]
+
+
+def one_line(text: str) -> str:
+    """Return `text` with whatever would break the line, or drive a terminal, escaped."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def nearest(word: object, known: Iterable[str]) -> str | None:
+    """Return the known name most like `word`, or None if none is near."""
+    from difflib import get_close_matches
+
+    names = {name.lower(): name for name in known}
+    close = get_close_matches(str(word)[:_LONGEST].lower(), names, n=1, cutoff=0.5)
+    return names[close[0]] if close else None
+
+
+def did_you_mean(word: object, known: Iterable[str]) -> str:
+    """Return `, did you mean NAME?` for the nearest known name, or nothing."""
+    name = nearest(word, known)
+    return f", did you mean {name}?" if name else ""
+
+
+class WetDoubletError(Exception):
+    """Any failure that is the user's to read: its text is one line."""
+
+    exit_status: ClassVar[int] = 1
+
+
+class InputError(WetDoubletError, ValueError):
+    """Bad input: `FIELD: VALUE problem; accepted: ...`.
+
+    Arguments:
+        field: dotted name of the scene entry, or the option (`--rtol`).
+        value: what was given; None stands for nothing at all.
+        accepted: what would have been right, in words.
+        problem: what is wrong with the value (`is not finite`).
+    """
+
+    exit_status = 2
+
+    def __init__(self, field: str, value: Any, accepted: str, problem: str = "") -> None:
+        super().__init__(field, value, accepted, problem)  # all of them, so that it pickles
+        self.field = field
+        self.value = value
+        self.accepted = accepted
+        self.problem = problem
+
+    def __str__(self) -> str:
+        """Return the one line."""
+        said = self.problem or "is not accepted"
+        if self.value is None:
+            said = self.problem or "missing"
+        else:
+            said = f"{shown(self.value)} {said}"
+        return one_line(f"{self.field}: {said}; accepted: {self.accepted}")
+
+
+class ComputationError(WetDoubletError, RuntimeError):
+    """An integration that could not be completed, with the place where it stopped.
+
+    Arguments:
+        message: what failed.
+        phase: name of the phase of the flight.
+        time: s since first touch.
+        state: the last state, name to SI value.
+        advice: what to try.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        phase: str | None = None,
+        time: float | None = None,
+        state: Mapping[str, float] | None = None,
+        advice: str = "",
+    ) -> None:
+        super().__init__(message, phase, time, state, advice)
+        self.message = message
+        self.phase = phase
+        self.time = time
+        self.state: dict[str, float] = dict(state or {})
+        self.advice = advice
+
+    def __str__(self) -> str:
+        """Return the one line."""
+        where = f" in phase {self.phase}" if self.phase is not None else ""
+        when = f" at t = {self.time:.6g} s" if self.time is not None else ""
+        state = ", ".join(f"{name} = {value:.6g}" for name, value in self.state.items())
+        parts = [self.message + where + when, state and f"state {state}", self.advice]
+        return " ".join("; ".join(part for part in parts if part).split())
+
+
+class CheckFailed(WetDoubletError):
+    """A check was made and did not hold (a law, or the emitted files)."""
+
+    def __str__(self) -> str:
+        """Return the one line."""
+        return " ".join(super().__str__().split())

@@ -1,0 +1,207 @@
+"""CasADi integrators of a flow: a plain one over a given duration, and one that stops at the first event.
+
+Built once and cached; time is scaled so that every call runs over [0, 1] and the duration is a parameter.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
+
+from .phases import Flow, Watch, event_table, expressions, mechanical_energy
+
+_EXPECTED = "Event support is experimental"
+_MAX_STEPS = 200_000
+
+
+class IntegrationFailed(Exception):
+    """An integrator gave up; the message is CasADi's last line."""
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Keep CasADi's expected warning, and the pages it prints on a failure, out of the user's sight."""
+    heard = io.StringIO()
+    with contextlib.redirect_stderr(heard):
+        yield
+    for line in heard.getvalue().splitlines():
+        if line and _EXPECTED not in line:
+            print(line, file=sys.stderr)
+
+
+def _call(function: Function, **inputs: object) -> np.ndarray:
+    """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
+    try:
+        with contextlib.redirect_stderr(io.StringIO()):
+            found = np.asarray(function(**inputs)["xf"].full())
+    except RuntimeError as error:
+        raise IntegrationFailed(_reason(str(error))) from None
+    if not np.isfinite(found).all():
+        raise IntegrationFailed("the state is not finite")
+    return found
+
+
+def _reason(message: str) -> str:
+    last = message.strip().splitlines()[-1].strip()
+    return last.split(": ", 1)[-1] if ".cpp:" in last or ".hpp:" in last else last
+
+
+# CVODES' global error at a given tolerance is some hundred times Rosenbrock's (DESIGN.md 2; tests/benchmarks): it is
+# given a tighter one, so that rtol means about the same for both.
+_CVODES_SHARE, _CVODES_TIGHTEST = 1 / 30, 1e-14
+
+
+def _tolerances(rtol: float, plugin: str) -> dict[str, object]:
+    if plugin == "cvodes":
+        rtol = max(rtol * _CVODES_SHARE, _CVODES_TIGHTEST)
+    options: dict[str, object] = {"reltol": rtol, "abstol": 1e-3 * rtol, "max_num_steps": _MAX_STEPS}
+    if plugin == "cvodes":
+        options["quad_err_con"] = True
+    return options
+
+
+@dataclass(frozen=True)
+class Plain:
+    """A flow over a duration, without events. Call: (y, groups, duration) -> y at the end (columns on a grid)."""
+
+    function: Function
+    plugin: str
+
+    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
+        found = _call(self.function, x0=y, p=np.append(p, duration))
+        return found.ravel() if found.shape[1] == 1 else found
+
+    @property
+    def steps(self) -> int:
+        """Steps of the last call."""
+        stats = self.function.stats()
+        return int(stats["nsteps"] if "nsteps" in stats else stats["n_steps"])
+
+
+@lru_cache(maxsize=512)
+def plain(flow: Flow, plugin: str, rtol: float, outputs: int = 1) -> Plain:
+    """The integrator of a flow; with `outputs` > 1 the solution at that many equal parts of the duration."""
+    parts = expressions(flow)
+    duration = SX.sym("duration")
+    dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
+    grid = [(k + 1) / outputs for k in range(outputs)]
+    with quiet():
+        return Plain(integrator("flow", plugin, dae, 0, grid, _tolerances(rtol, plugin)), plugin)
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Where a locating integrator stopped: the event's name (None: none yet), its time, the state, and whether the
+    event's function had already dipped below zero before (its true crossing is then earlier)."""
+
+    event: str | None
+    time: float
+    y: np.ndarray
+    dipped: bool
+
+
+@dataclass(frozen=True)
+class Locator:
+    """Integrates a flow to its first event, or to the end of the duration."""
+
+    function: Function
+    events: tuple[str, ...]
+    dips: tuple[int, ...]
+    values: Function  # event functions (y, parameters)
+    energy: Function
+
+    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> Stop:
+        parameters = np.concatenate([p, [duration, motion, level]])
+        found = _call(self.function, x0=np.concatenate([y, [0.0, 1.0, 0.0]]), p=parameters).ravel()
+        which = round(found[-1]) - 1
+        if which < 0:
+            return Stop(None, duration, found[:-3], False)
+        dipped = which >= len(self.events)
+        index = self.dips[which - len(self.events)] if dipped else which
+        return Stop(self.events[index], float(found[-3]), found[:-3], dipped)
+
+    def value(self, event: str, y: np.ndarray, p: np.ndarray, motion: int, level: float) -> float:
+        """An event's function at a state."""
+        column = self.values(y, np.concatenate([p, [1.0, motion, level]]))
+        return float(column[self.events.index(event)])
+
+
+@lru_cache(maxsize=256)
+def locator(flow: Flow, watch: Watch, rtol: float) -> Locator:
+    """A Rosenbrock integrator that freezes at the first event.
+
+    A clock, a flag that freezes the flow, and the event's number ride along as states. CasADi looks at signs at the
+    ends of steps only, so a function that may dip below zero and return also stops the flow at its own minimum; the
+    stop holds only where the function is below zero there.
+    """
+    parts, model = expressions(flow), flow.model
+    duration, motion, level = SX.sym("duration"), SX.sym("motion"), SX.sym("level")
+    table = event_table(flow, watch, motion, level)
+    minima = [k for k, event in enumerate(table) if event.dips]
+    falling = [event.function for event in table]
+    turning = [-jtimes(table[k].function, parts.variables, parts.rates) for k in minima]
+
+    clock, active, number = SX.sym("clock"), SX.sym("active"), SX.sym("number")
+    variables = vertcat(parts.variables, clock, active, number)
+    parameters = vertcat(model.parameters, duration, motion, level)
+    index, time = SX.sym("index"), SX.sym("time")
+    holds = SX(1)
+    for position, event_index in enumerate(minima):
+        holds = if_else(index == len(table) + position, table[event_index].function < 0, holds)
+    after = vertcat(parts.variables, clock, active * (1 - holds), if_else(holds, index + 1, number))
+    none = SX(0, 1)
+    transition = Function(
+        "transition",
+        [index, time, variables, none, parameters, none],
+        [after, none],
+        ["index", "t", "x", "z", "p", "u"],
+        ["post_x", "post_z"],
+    )
+    dae = {
+        "x": variables,
+        "p": parameters,
+        "ode": vertcat(active * duration * parts.rates, active * duration, 0, 0),
+        "zero": vertcat(*falling, *turning),
+    }
+    options = _tolerances(rtol, "rosenbrock") | {
+        "transition": transition,
+        "event_tol": 1e-14,
+        "max_event_iter": 40,
+        "max_events": 10_000,
+    }
+    with quiet():
+        function = integrator("locate", "rosenbrock", dae, 0, 1, options)
+    return Locator(
+        function,
+        tuple(event.name for event in table),
+        tuple(minima),
+        Function("events", [parts.variables, parameters], [vertcat(*falling)]),
+        Function("energy", [parts.variables, model.parameters], [mechanical_energy(flow)]),
+    )
+
+
+@lru_cache(maxsize=512)
+def landing(flow: Flow, watch: Watch, event: str) -> Function:
+    """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
+
+    dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is about zero, but its
+    derivative is the saltation, and with the second-order terms the Hessian is right as well.
+    """
+    parts, model = expressions(flow), flow.model
+    motion, level = SX.sym("motion"), SX.sym("level")
+    table = {each.name: each.function for each in event_table(flow, watch, motion, level)}
+    y, rates, g = parts.variables, parts.rates, table[event]
+    first = jtimes(g, y, rates)
+    second = jtimes(first, y, rates)
+    dt = -g / first - second * g**2 / (2 * first**3)
+    landed = y + rates * dt + jacobian(rates, y) @ rates * dt**2 / 2
+    parameters = vertcat(model.parameters, motion, level)
+    on = Function("g", [y, parameters], [g])
+    return Function("land", [y, parameters], [landed, dt, on(landed, parameters)])

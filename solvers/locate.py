@@ -1,0 +1,256 @@
+"""Find the sequence of phases and events of a collision: a Rosenbrock flow per phase, frozen at its first event.
+
+What is decided by rule and not by an integrator is decided here: criteria already true on entry, the order of
+coincident ones, resting contact, the proof of a stick.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .certificate import Proof, proof_for
+from .errors import ComputationError
+from .integrators import IntegrationFailed, Locator, Stop, locator, plain
+from .model import Model
+from .phases import CLOSING, OPENING, Flow, Phase, Watch
+
+FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
+REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (MODEL.md section 5)
+CRITERIA = ("glass", "elastic", "rough")
+_MAX_STEPS = 20_000  # phases of one flight
+
+
+@dataclass(frozen=True)
+class Step:
+    """One phase flown for a duration (x0/v0) to an event, and what is reported of it.
+
+    Arguments:
+        event: name of the event function to land on; None if the flight stops inside the phase.
+        kinds: events reported at its end, in order.
+        reverses: the solids reverse the motion at its end.
+        holds: the opening velocity is zero from here on, or until release.
+    """
+
+    phase: Phase
+    duration: float
+    event: str | None
+    kinds: tuple[str, ...]
+    reverses: bool = False
+    holds: bool = False
+
+
+@dataclass
+class Path:
+    """The located flight of a collision."""
+
+    model: Model
+    p: np.ndarray
+    watch: Watch
+    steps: list[Step] = field(default_factory=list)
+    separated: bool = False
+    certified: bool = False
+
+    @property
+    def kinds(self) -> list[str]:
+        return [kind for step in self.steps for kind in step.kinds]
+
+    @property
+    def reversal(self) -> str | None:
+        """The first criterion met."""
+        return next((kind for kind in self.kinds if kind in CRITERIA), None)
+
+    @property
+    def outcome(self) -> str:
+        if not self.separated:
+            return "stick"
+        return "bounce" if self.reversal else "stick-rotate-separate"
+
+
+class Locate:
+    """Locates one collision; `run` returns its Path."""
+
+    def __init__(self, model: Model, groups: dict[str, float], rtol: float) -> None:
+        self.model, self.rtol = model, rtol
+        self.p = model.group_values(groups)
+        self.groups = groups
+        self.proof: Proof = proof_for(model, self.p, rtol)
+        self.contact_gap = max(groups["elastic_gap"], groups["rough_gap"])
+        rupture = groups["rupture_gap"] if model.bridge else 1.0
+        self.edge = float(model.laws.shear.edge(groups["aspect"])) if model.oblique else np.inf
+        own_edge = self.edge != 1.0 and self.contact_gap < self.edge < rupture
+        proves = self.proof.level(self._start(), Phase(1, 1, CLOSING)) is not None
+        self.watch = Watch(tangential_edge=own_edge, certificate=proves)
+        self.extras = ("capillary",) if proves and model.bridge else ()
+        self.path = Path(model, self.p, self.watch)
+        self.y = self._start()
+        self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
+        self.clock = 0.0
+
+    def _start(self) -> np.ndarray:
+        start = self.model.start(self.p)
+        return np.append(start, 0.0) if self.model.bridge else start
+
+    def run(self) -> Path:
+        """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
+        if not self.extras:
+            self.y = self.y[: len(self.model.state)]
+        for _ in range(_MAX_STEPS):
+            if self._proved():
+                self._stop(Step(self.phase, 0.0, None, ()))
+                self.path.certified = self.proof.theorem
+                return self.path
+            criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
+            if criterion:
+                self._reverse(criterion, 0.0)
+            elif self._fly():
+                return self.path
+            if self.path.separated:
+                return self.path
+        raise self._error(f"{_MAX_STEPS} phases have not decided the outcome", "look at its events: this is chatter without end")
+
+    def _criterion_met(self) -> str | None:
+        """A criterion already true where a phase starts, by rule: glass, elastic, rough."""
+        values = self.model.values("events", self.y, self.p)
+        return next((kind for kind in CRITERIA if values[kind] <= 0), None)
+
+    def _proved(self) -> bool:
+        return self.proof.decided(self.y, self.phase)
+
+    def _stop(self, step: Step) -> None:
+        self.path.steps.append(step)
+
+    def _flow(self) -> Flow:
+        return Flow(self.model.choice, self.phase.region, self.extras)
+
+    def _fly(self) -> bool:
+        """Integrate to the next event and act on it; True if the flight is over."""
+        find = locator(self._flow(), self.watch, self.rtol)
+        flown, stretch = 0.0, FIRST_STRETCH
+        for _ in range(STRETCHES):
+            level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
+            stop = self._advance(find, stretch, -np.inf if level is None else level)
+            flown += stop.time
+            self.clock += stop.time
+            self.y = stop.y
+            if stop.event == "certified":
+                if self._proved():
+                    self._stop(Step(self.phase, flown, None, ()))
+                    self.path.certified = self.proof.theorem
+                    return True
+            elif stop.event is not None:
+                return self._act(stop.event, flown)
+            elif self._proved():
+                self._stop(Step(self.phase, flown, None, ()))
+                self.path.certified = self.proof.theorem
+                return True
+            else:
+                stretch *= GROWTH
+        raise self._error(
+            f"no event within {flown:.3g} x0/v0",
+            "the scene is within its tolerance of a boundary or creeps beyond all bounds: try a smaller --rtol, or another angle or Stokes number",
+        )
+
+    def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
+        # an unreachable level is a large negative number: infinities would spoil the integrator's arithmetic
+        level = max(level, -1e30)
+        try:
+            stop = find(self.y, self.p, stretch, self.phase.motion, level)
+            return self._refined(find, stop, level) if stop.dipped and stop.event else stop
+        except IntegrationFailed as error:
+            raise self._error(f"integration failed ({error})", "try a larger --rtol") from None
+
+    def _refined(self, find: Locator, stop: Stop, level: float) -> Stop:
+        """The crossing before a minimum below zero: bisection with secant steps on the duration of a plain flow."""
+        assert stop.event is not None
+        fly = plain(self._flow(), "rosenbrock", self.rtol)
+
+        def value(duration: float) -> tuple[float, np.ndarray]:
+            y = fly(self.y, self.p, duration)
+            return find.value(stop.event or "", y, self.p, self.phase.motion, level), y
+
+        before, after, y_after = 0.0, stop.time, stop.y
+        g_after, g_before = find.value(stop.event, stop.y, self.p, self.phase.motion, level), None
+        for count in range(80):
+            trial = 0.5 * (before + after)
+            if g_before is not None and count % 2:
+                trial = before + (after - before) * g_before / (g_before - g_after)
+            g, y = value(trial)
+            if g < 0:
+                after, g_after, y_after = trial, g, y
+            else:
+                before, g_before = trial, g
+            if after - before < 1e-12 * stop.time:
+                break
+        return Stop(stop.event, after, y_after, False)
+
+    def _act(self, event: str, flown: float) -> bool:
+        """What an event does; True if it ends the flight."""
+        phase = self.phase
+        if event in ("glass", "contact"):
+            self._reverse("glass" if event == "glass" else self._contact_kind(), flown, event)
+            return False
+        if event == "turning":
+            kind = "turned" if phase.motion == CLOSING else "fell back"
+            self._next(Step(phase, flown, event, (kind,)), phase.with_(motion=-phase.motion))
+        elif event == "film_edge":
+            shear = 1 - phase.film if self.edge == 1.0 else phase.shear
+            self._next(Step(phase, flown, event, ("film edge",)), phase.with_(film=1 - phase.film, shear=shear))
+        elif event == "tangential_edge":
+            self._next(Step(phase, flown, event, ("tangential edge",)), phase.with_(shear=1 - phase.shear))
+        elif event == "release":
+            self._next(Step(phase, flown, event, ("released",)), phase.with_(resting=False, motion=OPENING))
+        elif event == "rupture":
+            self._stop(Step(phase, flown, event, ("rupture",)))
+            self.path.separated = True
+            return True
+        else:
+            self._stop(Step(phase, flown, event, ({"half_turn": "half turn", "unwinding": "rotation reverses"}[event],)))
+            return True
+        return False
+
+    def _next(self, step: Step, phase: Phase) -> None:
+        self.path.steps.append(step)
+        self.phase = phase
+
+    def _contact_kind(self) -> str:
+        return "elastic" if self.groups["elastic_gap"] >= self.groups["rough_gap"] else "rough"
+
+    def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
+        """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures."""
+        at_touch = not self.path.steps and flown == 0.0
+        after = self.model.values("reversal", self.y, self.p)
+        self.y = np.concatenate([list(after.values()), self.y[len(after) :]])
+        kinds: tuple[str, ...] = (kind,)
+        phase = self.phase.with_(motion=OPENING)
+        if at_touch:
+            phase = phase.with_(film=0, shear=0 if self.edge == 1.0 else phase.shear)
+            if not self.model.bridge:
+                self.path.separated = True
+                self._next(Step(self.phase, flown, event, (kind, "rupture"), reverses=True), phase)
+                return
+        inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
+        holds = False
+        if abs(after["opening"]) < REST_SPEED and inward > 0:
+            if kind == "glass":
+                phase = phase.with_(motion=CLOSING)  # no solid holds the gap: it closes again from rest
+            else:
+                kinds += ("rests",)
+                phase = phase.with_(resting=True)
+                holds = True
+                self.y[1] = 0.0
+        self._next(Step(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
+
+    def _error(self, message: str, advice: str) -> ComputationError:
+        state = dict(zip(self.model.state, map(float, self.y), strict=False))
+        return ComputationError(message, phase=str(self.phase), time=self.clock, state=state, advice=advice)
+
+
+def locate(model: Model, groups: dict[str, float], rtol: float) -> Path:
+    """Phases and events of a collision.
+
+    Raises:
+        ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
+    """
+    return Locate(model, groups, rtol).run()

@@ -1,0 +1,149 @@
+"""The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions and functions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+import numpy as np
+from casadi import DM, SX, Function, densify, fmax, vertcat
+
+from ..generated.assemble import Laws, symbols, vector
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .scene import Scene
+
+_GENERATED = f"{__package__.rsplit('.', 1)[0]}.generated"
+# Solutions never come below the contact gap; this keeps trial stages of a step out of x <= 0.
+_FLOOR = 0.5
+_SMALLEST_GAP = 1e-12
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Which structure module, with which law in each slot."""
+
+    structure: str
+    laws: tuple[tuple[str, str], ...]
+
+    def law(self, slot: str) -> str | None:
+        return dict(self.laws).get(slot)
+
+
+def choose(scene: Scene, oblique: bool, full: bool = False) -> Choice:
+    """The smallest structure that has what the scene has.
+
+    Arguments:
+        oblique: the impact angle is not zero.
+        full: keep the spin as a state even where angular momentum would eliminate it (for the ledger).
+    """
+    reduced = oblique and scene.pendulum is None and scene.model.arm == "midgap" and not full
+    parts = ["oblique" if oblique else "head_on"]
+    parts += [word for word, there in (("bridge", scene.bridge), ("strings", scene.pendulum)) if there is not None]
+    parts += ["reduced"] if reduced else []
+    laws = [("film", "finite"), ("glass", scene.model.glass)]
+    if oblique:
+        laws.append(("shear", scene.model.tangential))
+        if not reduced:
+            laws.append(("arm", scene.model.arm))
+    if scene.bridge is not None:
+        laws.append(("bridge", scene.bridge.law))
+    if scene.pendulum is not None:
+        laws.append(("strings", scene.pendulum.law))
+    return Choice("_".join(parts), tuple(laws))
+
+
+class Model:
+    """A structure with its laws: expressions in shared symbols `state` and `groups`.
+
+    Use `load`, which caches.
+    """
+
+    def __init__(self, choice: Choice) -> None:
+        self.choice = choice
+        self.structure: ModuleType = import_module(f"{_GENERATED}.{choice.structure}")
+        self.laws = Laws(
+            **{slot: import_module(f"{_GENERATED}.laws.{slot}_{name.replace('-', '_')}") for slot, name in choice.laws}
+        )
+        self.state: dict[str, SX] = symbols(self.structure.STATES)
+        self.groups: dict[str, SX] = symbols(self.structure.GROUPS)
+
+    @property
+    def oblique(self) -> bool:
+        return "orbit" in self.state
+
+    @property
+    def reduced(self) -> bool:
+        return self.oblique and "spin" not in self.state
+
+    @property
+    def bridge(self) -> bool:
+        return self.choice.law("bridge") is not None
+
+    @property
+    def strings(self) -> bool:
+        return self.choice.law("strings") is not None
+
+    @cached_property
+    def contact_gap(self) -> SX:
+        """Gap at which the solids touch: elastic length or roughness, whichever is met first."""
+        return fmax(self.groups["elastic_gap"], self.groups["rough_gap"])
+
+    @cached_property
+    def guarded(self) -> dict[str, SX]:
+        """The state with its gap kept positive, for rates; equal to the state wherever a solution goes."""
+        floor = fmax(_FLOOR * self.contact_gap, _SMALLEST_GAP)
+        return {**self.state, "gap": fmax(self.state["gap"], floor)}
+
+    @cached_property
+    def column(self) -> SX:
+        return vector(self.state)
+
+    @cached_property
+    def parameters(self) -> SX:
+        return vector(self.groups)
+
+    def __call__(self, name: str, state: Mapping[str, SX] | None = None, **region: int) -> dict[str, SX]:
+        """A function of the structure module as named expressions."""
+        found: dict[str, SX] = getattr(self.structure, name)(self.state if state is None else state, self.groups, self.laws, **region)
+        return found
+
+    def has(self, name: str) -> bool:
+        return name in self.structure.FUNCTIONS
+
+    @lru_cache(maxsize=64)  # noqa: B019 -- models are cached for the life of the process themselves
+    def function(self, name: str, film: int = 1, shear: int = 1) -> Function:
+        """A function of the structure module as a CasADi Function (state, groups) -> column."""
+        region = {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
+        values = self(name, **region)
+        column = densify(vertcat(*(SX(value) for value in values.values())))
+        return Function(name, [self.column, self.parameters], [column])
+
+    def values(self, name: str, y: np.ndarray, p: np.ndarray, film: int = 1, shear: int = 1) -> dict[str, float]:
+        """A function's named values at a state (leading entries of `y`) and groups `p`."""
+        numbers = self.function(name, film, shear)(y[: len(self.state)], p)
+        return dict(zip(self.names(name, film, shear), np.asarray(DM(numbers)).ravel().tolist(), strict=True))
+
+    @lru_cache(maxsize=64)  # noqa: B019 -- as above
+    def names(self, name: str, film: int = 1, shear: int = 1) -> tuple[str, ...]:
+        region = {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
+        return tuple(self(name, **region))
+
+    def group_values(self, groups: Mapping[str, float]) -> np.ndarray:
+        """The structure's groups as a vector."""
+        return np.array([groups[name] for name in self.groups])
+
+    def start(self, p: np.ndarray) -> np.ndarray:
+        """State at first touch."""
+        return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
+
+
+@lru_cache(maxsize=128)
+def load(choice: Choice) -> Model:
+    """The model of a choice, built once."""
+    return Model(choice)

@@ -1,0 +1,89 @@
+"""A collision in dimensionless numbers: the groups its model takes, and the scales that lead back to SI."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..generated import scaling
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Groups by name, and the SI scales of length, time, angular velocity and energy.
+
+    `centrifugal` and `capillary` are None without a bridge, `reynolds` without the liquid's density.
+    """
+
+    groups: dict[str, float]
+    angle: float  # rad
+    speed: float  # m/s
+    length: float  # x0, m
+    time: float  # x0/v0, s
+    rate: float  # omega0, rad/s
+    energy: float  # m v0^2, J
+    stokes: float
+    centrifugal: float | None
+    capillary: float | None
+    reynolds: float | None
+
+    @property
+    def oblique(self) -> bool:
+        return self.groups["obliquity"] > 0
+
+
+def si_values(scene: Scene, speed: float, angle: float) -> dict[str, float]:
+    """The scene's quantities under the vocabulary's names, SI."""
+    particles, liquid = scene.particles, scene.liquid
+    values = {
+        "reduced_radius": particles.reduced_radius,
+        "reduced_mass": particles.reduced_mass,
+        "roughness": particles.roughness,
+        "dry_restitution": particles.dry_restitution,
+        "viscosity": liquid.viscosity,
+        "film_thickness": liquid.film_thickness,
+        "glass_transition_pressure": liquid.glass_transition_pressure,
+        "speed": speed,
+        "angle": angle,
+    }
+    if particles.youngs_modulus is not None and particles.poisson_ratio is not None:
+        values |= {"youngs_modulus": particles.youngs_modulus, "poisson_ratio": particles.poisson_ratio}
+    if liquid.density is not None:
+        values["density"] = liquid.density
+    if scene.bridge is not None:
+        bridge = scene.bridge
+        values |= {"surface_tension": bridge.surface_tension, "volume": bridge.volume, "contact_angle": bridge.contact_angle}
+    if scene.pendulum is not None:
+        values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
+    return values
+
+
+def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
+    """Dimensionless numbers of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
+
+    A group exists where the scene has what it is made of; an absent elastic criterion has elastic_gap 0.
+    """
+    values = si_values(scene, speed, angle)
+    groups = {name: values[name] for name in ("dry_restitution", "volume", "contact_angle") if name in values}
+    groups["elastic_gap"] = 0.0
+    for name, arguments in scaling.ARGUMENTS.items():
+        if all(argument in values for argument in arguments):
+            groups[name] = float(getattr(scaling, name)(*(values[argument] for argument in arguments)))
+    a, x0 = scene.particles.reduced_radius, scene.liquid.film_thickness
+    return Numbers(
+        groups=groups,
+        angle=angle,
+        speed=speed,
+        length=x0,
+        time=x0 / speed,
+        rate=speed * math.tan(angle) / (4 * a),
+        energy=scene.particles.reduced_mass * speed**2,
+        stokes=groups["stokes"],
+        centrifugal=groups.get("centrifugal"),
+        capillary=groups.get("capillary"),
+        reynolds=groups.get("reynolds"),
+    )

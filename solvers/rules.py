@@ -1,0 +1,122 @@
+"""What entries must satisfy together: nothing unknown, nothing twice, nothing missing, lengths in order."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from .errors import InputError, shown
+from .schema import ALTERNATIVES, FIELDS, REQUIRED_TABLES, TABLES, unknown_entry
+from .tables import Bridge, Pendulum, Table
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+
+def check_name(name: object) -> None:
+    """InputError unless the name is text that a file can hold."""
+    if not isinstance(name, str):
+        raise InputError("name", name, "text", "is not text")
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise InputError("name", name, "text", "cannot be written as UTF-8") from None
+
+
+def grouped(entries: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries with each table's together, otherwise in their order."""
+    tables = dict.fromkeys(name.partition(".")[0] for name in entries)
+    return {name: entries[name] for table in tables for name in entries if name.partition(".")[0] == table}
+
+
+def check_entries(entries: Mapping[str, Any], *, from_file: bool = False) -> None:
+    """InputError for an entry that is unknown, wrong by itself, or says again what another has said."""
+    for name, raw in entries.items():
+        if name not in FIELDS:
+            raise unknown_entry(name, raw)
+    for name, raw in entries.items():
+        FIELDS[name].read(raw, from_file=from_file)
+    for ways in ALTERNATIVES:
+        first, *others = [name for name in ways if name in entries] or [""]
+        if others:
+            problem = f"is given together with {first} = {shown(entries[first])}"
+            raise InputError(others[0], entries[others[0]], "only one of " + ", ".join(ways), problem)
+
+
+def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None = None) -> None:
+    """InputError for an entry that is missing from a table that is there, or must be."""
+    present = {name.partition(".")[0] for name in entries} | set(tables or ()) | set(REQUIRED_TABLES)
+    for table in TABLES:
+        if table not in present:
+            continue
+        missing = [name for name in TABLES[table] if FIELDS[name].required and name not in entries]
+        choices = [ways for ways in ALTERNATIVES if ways[0].startswith(table) and table in REQUIRED_TABLES]
+        for ways in choices:
+            if not any(name in entries for name in ways):
+                either = " or ".join(f"{name} = {FIELDS[name].example}" for name in ways)
+                raise InputError(ways[0], None, either, "missing")
+        if missing:
+            also = f" (and so {'is' if len(missing) == 2 else 'are'} {', '.join(missing[1:])})" if missing[1:] else ""
+            raise InputError(missing[0], None, FIELDS[missing[0]].accepts, "missing" + also)
+    pair = ("particles.youngs_modulus", "particles.poisson_ratio")
+    for here, absent in (pair, pair[::-1]):
+        if here in entries and absent not in entries:
+            problem = f"missing while {here} = {shown(entries[here])} is given"
+            raise InputError(absent, None, f"{FIELDS[absent].accepts}, or neither of the two", problem)
+
+
+def spheres(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of `Particles`: a = R/2 and m = M/2, M = 4/3 pi R^3 rho, from whichever was given."""
+    of = {name.partition(".")[2]: value for name, value in values.items() if name.startswith("particles.")}
+    if "radius" in of:
+        of["reduced_radius"] = of.pop("radius") / 2
+    if "density" in of:
+        radius = 2 * of["reduced_radius"]
+        of["mass"] = 4 / 3 * math.pi * radius * radius * radius * of.pop("density")  # inf rather than OverflowError
+    if "mass" in of:
+        of["reduced_mass"] = of.pop("mass") / 2
+    return of
+
+
+def table(kind: type[Table], values: Mapping[str, Any]) -> Table | None:
+    """Return a table of its entries; None for a table that means something by its absence."""
+    keys = [field.name for field in dataclasses.fields(kind)]
+    own = {key: values[f"{kind.name}.{key}"] for key in keys if f"{kind.name}.{key}" in values}
+    return None if not own and kind in (Bridge, Pendulum) else kind(**own)
+
+
+def check_together(scene: Scene) -> None:
+    """InputError where the entries are right one by one but not together."""
+    given = dict(scene.given)
+    particles, film, ruptured = scene.particles, scene.liquid.film_thickness, scene.rupture_gap
+    if particles.roughness >= film:
+        problem = "is not below the film thickness"
+        accepted = f"a roughness below liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
+        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+    if scene.bridge is not None and not film < ruptured < math.inf:
+        ratio = film / (2 * particles.reduced_radius * (1 + scene.bridge.contact_angle / 2))
+        least = ratio * ratio * ratio  # ** would raise instead of becoming inf
+        problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {film:.4g} m"
+        raise InputError("bridge.volume", given["bridge.volume"], f"a number V/R^3 above {least:.4g}", problem)
+    if scene.pendulum is not None:
+        # the strings lean most at beta = pi, where each pivot is d = (r + 4a)/2 from its sphere
+        least = 4 * particles.reduced_radius + ruptured / 2
+        if scene.pendulum.length <= least:
+            problem = "is too short for two spheres to swing around each other"
+            accepted = f"a string length above 4a + x_f/2 = {least:.6g} m"
+            raise InputError("pendulum.length", given["pendulum.length"], accepted, problem)
+    _check_speed(scene)
+
+
+def _check_speed(scene: Scene) -> None:
+    """InputError if the numbers are so far apart that a Stokes number or speed leaves the range of a double."""
+    given, a = dict(scene.given), scene.particles.reduced_radius
+    drag = 6 * math.pi * scene.liquid.viscosity * a * a
+    if not 0 < drag < math.inf or not 0 < scene.stokes_per_speed < math.inf:
+        accepted = "a mass that makes m/(6 pi mu a^2) a finite number"
+        raise InputError("particles.reduced_mass", scene.particles.reduced_mass, accepted, "is too far off")
+    for name, counterpart in (("impact.speed", scene.stokes), ("impact.stokes", scene.speed)):
+        if name in given and not (counterpart and counterpart < math.inf):
+            raise InputError(name, given[name], FIELDS[name].accepts, "is too far off for this scene")

@@ -1,0 +1,207 @@
+"""A scene: two spheres, their film, and what holds them; immutable, and right as soon as it exists."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Self
+
+from . import rules, scenefile
+from .errors import InputError
+from .schema import FIELDS, Raw
+from .tables import Bridge, Impact, Liquid, Model, Particles, Pendulum
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What collides, in SI units and radians.
+
+    A scene *is* its entries, as the file or the caller gave them; the tables are read from those, so that
+    one never contradicts the other. Two scenes are equal if their names and SI entries are.
+
+    Arguments:
+        name: any text, may be empty.
+        given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
+        comments: (dotted name, `assumed ...`) for entries that are guesses.
+    Raises:
+        InputError: names the first entry that is wrong, its value, and what is accepted.
+
+    >>> scene = Scene.load("granulation").with_entries({"liquid.viscosity": "3 Pa s"})
+    >>> scene.liquid.viscosity
+    3.0
+    """
+
+    name: str
+    given: tuple[tuple[str, Raw], ...] = field(compare=False, repr=False)
+    comments: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
+
+    particles: Particles = field(init=False, compare=False)
+    liquid: Liquid = field(init=False, compare=False)
+    bridge: Bridge | None = field(init=False, compare=False)
+    pendulum: Pendulum | None = field(init=False, compare=False)
+    model: Model = field(init=False, compare=False)
+    impact: Impact = field(init=False, compare=False)
+    si: tuple[tuple[str, float | str], ...] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Read the tables and hold them against the rules."""
+        rules.check_name(self.name)
+        given = rules.grouped(dict(self.given))
+        rules.check_entries(given)
+        values = {name: FIELDS[name].read(raw) for name, raw in given.items()}
+        rules.check_complete(given)
+        kept = {
+            "given": tuple((name, FIELDS[name].kept(raw)) for name, raw in given.items()),
+            "comments": tuple((name, text) for name, text in self.comments if name in given),
+            "si": tuple(values.items()),
+            "particles": Particles(**rules.spheres(values)),
+            **{table.name: rules.table(table, values) for table in (Liquid, Bridge, Pendulum, Model, Impact)},
+        }
+        for name, value in kept.items():
+            object.__setattr__(self, name, value)
+        rules.check_together(self)
+
+    # ---- where scenes come from and go to
+
+    @classmethod
+    def load(cls, source: str | Path | Scene) -> Scene:
+        """Return the scene of a file, of a preset's name, or the scene that it is already.
+
+        Raises:
+            InputError: no such file or preset (the nearest is named), broken TOML (file and line), bad entry.
+        """
+        if isinstance(source, Scene):
+            return source
+        return cls.from_toml(*scenefile.read_text(source))
+
+    @classmethod
+    def from_toml(cls, text: str, origin: str = "scene") -> Self:
+        """Return the scene written in TOML; `origin` names the text in errors."""
+        return cls.from_dict(scenefile.parse(text, origin), from_file=True, comments=scenefile.assumptions(text))
+
+    @classmethod
+    def from_dict(
+        cls, tables: Mapping[str, Any], *, from_file: bool = False, comments: Mapping[str, str] | None = None
+    ) -> Self:
+        """Return the scene of nested tables, `{"liquid": {"viscosity": "2 Pa s", ...}, ...}`.
+
+        Plain numbers are SI and radians, unless they come from a file, where a quantity must carry its unit.
+        """
+        entries = scenefile.flatten(tables)
+        rules.check_entries(entries, from_file=from_file)
+        rules.check_complete(entries, tables)
+        return cls(tables.get("name", ""), tuple(entries.items()), tuple((comments or {}).items()))
+
+    def to_toml(self) -> str:
+        """Return the scene file: units as they were given, and the comments on what is assumed."""
+        return scenefile.write(self.name, dict(self.given), dict(self.comments))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the nested tables as a scene file has them (text carries units)."""
+        tables: dict[str, Any] = {"name": self.name} if self.name else {}
+        for entry, value in self.given:
+            table, _, key = entry.partition(".")
+            tables.setdefault(table, {})[key] = scenefile.written(entry, value)
+        return tables
+
+    @property
+    def entries(self) -> Mapping[str, float | str]:
+        """Dotted name -> SI number or choice, of what was given only, in the order of the file."""
+        return dict(self.si)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What in this scene is a guess, one line each."""
+        given = dict(self.given)
+        return tuple(f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.comments)
+
+    # ---- the same scene, but
+
+    def with_entries(self, changes: Mapping[str, Any]) -> Self:
+        """Return the scene with entries replaced or added, by dotted name; text carries its unit."""
+        changes = dict(changes)
+        name = changes.pop("name", self.name)
+        rules.check_entries(changes)
+        comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
+        return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments)
+
+    def with_impact(
+        self, stokes: float | str | None = None, speed: float | str | None = None, angle: float | str | None = None
+    ) -> Self:
+        """Return the scene with another impact; `stokes` or `speed` replaces whichever it had.
+
+        Plain numbers are SI and radians. InputError if both are given.
+        """
+        impact = {"impact.stokes": stokes, "impact.speed": speed, "impact.angle": angle}
+        changes = {name: value for name, value in impact.items() if value is not None}
+        if not changes:
+            return self
+        rules.check_entries(changes)
+        replaced = {"impact.stokes", "impact.speed"} if len({*changes} - {"impact.angle"}) else set()
+        kept = {name: value for name, value in self.given if name not in replaced}
+        return type(self)(self.name, tuple({**kept, **changes}.items()), self.comments)
+
+    # ---- lengths, and the impact both ways
+
+    @property
+    def rupture_gap(self) -> float:
+        """x_f in m: of the bridge, or without one of the film."""
+        if self.bridge is None:
+            return self.liquid.film_thickness
+        wetting = 1 + self.bridge.contact_angle / 2
+        return 2 * self.particles.reduced_radius * math.cbrt(self.bridge.volume) * wetting
+
+    @property
+    def elastic(self) -> float | None:
+        """theta_e = 2 (1 - nu^2)/(pi E) in 1/Pa, or None without elastic constants."""
+        return self.particles.elastic
+
+    def elastic_length(self, speed: float) -> float | None:
+        """Return x_r in m, the gap at which the spheres' own elasticity stops `speed` (m/s); None without it."""
+        if self.elastic is None:
+            return None
+        a = self.particles.reduced_radius
+        length: float = (
+            3 * math.pi * self.elastic * self.liquid.viscosity * a * math.sqrt(a) * speed / math.sqrt(2)
+        ) ** 0.4
+        return length
+
+    @property
+    def stokes_per_speed(self) -> float:
+        """m/(6 pi mu a^2) in s/m: a Stokes number over its normal speed."""
+        a = self.particles.reduced_radius
+        return self.particles.reduced_mass / (6 * math.pi * self.liquid.viscosity * a * a)
+
+    def stokes_of(self, speed: float) -> float:
+        """Return the Stokes number of a normal speed (m/s)."""
+        return speed * self.stokes_per_speed
+
+    def speed_of(self, stokes: float) -> float:
+        """Return the normal speed (m/s) of a Stokes number."""
+        return stokes / self.stokes_per_speed
+
+    @property
+    def stokes(self) -> float | None:
+        """Normal Stokes number of the impact, None if it has none."""
+        return self.impact.stokes if self.impact.speed is None else self.stokes_of(self.impact.speed)
+
+    @property
+    def speed(self) -> float | None:
+        """Normal approach speed v0 of the impact in m/s, None if it has none."""
+        return self.impact.speed if self.impact.stokes is None else self.speed_of(self.impact.stokes)
+
+    @property
+    def angle(self) -> float | None:
+        """Impact angle in rad, None if the impact has none."""
+        return self.impact.angle
+
+    def need_impact(self) -> tuple[float, float]:
+        """Return (normal speed in m/s, angle in rad); InputError if the scene leaves them open."""
+        if self.speed is None:
+            accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed'
+            raise InputError("impact.stokes", None, accepted)
+        if self.angle is None:
+            raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
+        return self.speed, self.angle

@@ -1,0 +1,184 @@
+"""One collision: scene in, `Collision` out."""
+
+from __future__ import annotations
+
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .chain import Diverged, Flown, fly
+from .result import Collision, Energy, Event
+from .errors import ComputationError
+from .integrators import IntegrationFailed
+from .locate import Path, locate
+from .model import Model, choose, load
+from .numbers import Numbers, numbers
+from .phases import Flow, Region
+from .scene import Scene
+from .settings import check_engine, check_rtol
+
+if TYPE_CHECKING:
+    import xarray
+
+_TIGHTEST = 1e-13
+_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary")
+
+
+def collide(
+    scene: Scene | str | FilePath,
+    *,
+    stokes: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    rtol: float = 1e-9,
+    engine: str | None = None,
+    ledger: bool = True,
+    trajectory: bool = False,
+) -> Collision:
+    """Collide two wet particles.
+
+    Arguments:
+        scene: a Scene, a path to a scene file, or a preset's name.
+        stokes: Stokes number of the impact; or
+        speed: its normal speed, m/s or a string with its unit. Either overrides the scene's.
+        angle: impact angle, rad or a string with its unit.
+        rtol: relative tolerance of the integrators, 1e-13..1e-3.
+        engine: "cvodes" or "rosenbrock"; None chooses (cvodes for one collision).
+        ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
+        trajectory: keep the trajectory as an xarray Dataset.
+
+    Returns:
+        The Collision.
+
+    Raises:
+        InputError: a field or option is not acceptable.
+        ComputationError: the flight could not be completed; says in which phase, when and at what state.
+
+    Example:
+        >>> from wetdoublet.solvers import collide
+        >>> collide("granulation", stokes=0.02, angle="75 deg").restitution > 1
+        True
+    """
+    rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
+    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    v0, theta0 = loaded.need_impact()
+    dimensionless = numbers(loaded, v0, theta0)
+    located, flown, model = _compute(loaded, dimensionless, rtol, plugin, ledger, trajectory)
+    return _result(loaded, dimensionless, located, flown, model, plugin, rtol, trajectory)
+
+
+def _compute(scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool) -> tuple[Path, Flown, Flow]:
+    """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary."""
+    small = load(choose(scene, n.oblique))
+    choice = choose(scene, n.oblique, full=ledger or trajectory)
+    flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
+    tolerance = rtol
+    while True:
+        try:
+            located = locate(small, n.groups, tolerance)
+        except ComputationError as error:
+            raise _in_si(error, n) from None
+        start = np.concatenate([flow.model.start(flow.model.group_values(n.groups)), np.zeros(len(flow.extras))])
+        try:
+            return located, fly(located, plugin, tolerance, flow, start), flow
+        except (Diverged, IntegrationFailed) as failure:
+            if tolerance <= _TIGHTEST:
+                raise _in_si(_failure(failure, flow.model, plugin), n) from None
+            tolerance = max(tolerance * 1e-2, _TIGHTEST)
+
+
+def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
+    """What is integrated along: the rotation where it is not a state, the ledger's terms that the model has."""
+    rotation = ("rotation",) if model.oblique and not model.strings else ()
+    return rotation + (tuple(name for name in model.names("energy_rates") if name in _LEDGER) if ledger else ())
+
+
+def _failure(failure: Exception, model: Model, plugin: str) -> ComputationError:
+    if isinstance(failure, Diverged):
+        state = dict(zip(model.state, map(float, failure.y), strict=False))
+        return ComputationError(
+            f"{plugin} does not meet the event {failure.step.event}: the collision lies within its error of a boundary",
+            phase=str(failure.step.phase),
+            time=failure.time,
+            state=state,
+            advice="try --engine rosenbrock, or another angle or Stokes number",
+        )
+    return ComputationError(f"{plugin} gave up ({failure})", advice="try --engine rosenbrock, or a larger --rtol")
+
+
+def _in_si(error: ComputationError, n: Numbers) -> ComputationError:
+    """The same failure with time and state in SI units."""
+    scales = {"gap": n.length, "opening": n.speed, "orbit": n.rate, "spin": n.rate}
+    state = {name: value * scales.get(name, 1.0) for name, value in error.state.items()}
+    time = None if error.time is None else error.time * n.time
+    return ComputationError(error.message, error.phase, time, state, error.advice)
+
+
+def _result(scene: Scene, n: Numbers, path: Path, flown: Flown, flow: Flow, plugin: str, rtol: float, trajectory: bool) -> Collision:
+    model, separated = flow.model, path.separated
+    p = model.group_values(n.groups)
+    outputs = model.values("outputs", flown.y, p) if separated else {}
+    extras = dict(zip((*model.state, *flow.extras), flown.y.tolist(), strict=True))
+    duration = flown.time * n.time
+
+    def rate(name: str) -> float | None:
+        if not separated:
+            return None
+        return outputs[name] * n.rate if n.oblique else 0.0
+
+    return Collision(
+        outcome=path.outcome,
+        restitution=outputs.get("restitution", 0.0),
+        tangential_restitution=outputs.get("tangential_restitution"),
+        rotation=(extras["rotation"] if n.oblique else 0.0) if separated else None,
+        contact_time=duration if separated else None,
+        smallest_gap=flown.smallest_gap * n.length if separated else None,
+        final_spin=rate("final_spin"),
+        final_rotation_rate=rate("final_rotation_rate"),
+        stokes=n.stokes,
+        centrifugal=n.centrifugal,
+        capillary=n.capillary,
+        reynolds=n.reynolds,
+        speed=n.speed,
+        angle=n.angle,
+        reversal=path.reversal,
+        certified=path.certified and not separated,
+        until=None if separated else duration,
+        events=tuple(Event(kind, time * n.time) for kind, time in flown.events),
+        energy=_ledger(model, flown, p, extras, n) if "normal_lubrication" in flow.extras else None,
+        angular_momentum_drift=_drift(model, flown, p) if "normal_lubrication" in flow.extras else None,
+        engine=plugin,
+        steps=flown.steps,
+        scene=scene,
+        trajectory=_trajectory(flown, model, n, plugin, rtol) if trajectory else None,
+    )
+
+
+def _ledger(model: Model, flown: Flown, p: np.ndarray, extras: dict[str, float], n: Numbers) -> Energy:
+    first = model.values("energies", model.start(p), p)
+    last = model.values("energies", flown.y, p)
+    return Energy(
+        initial=first["kinetic"] * n.energy,
+        final=last["kinetic"] * n.energy,
+        normal_lubrication=extras["normal_lubrication"] * n.energy,
+        tangential_lubrication=extras.get("tangential_lubrication", 0.0) * n.energy,
+        capillary=extras.get("capillary", 0.0) * n.energy,
+        dry_contact=flown.dry_loss * n.energy,
+        strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
+    )
+
+
+def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
+    """|L/L(0) - 1| at the end; None with strings, which take from L; 0 head-on."""
+    if model.strings:
+        return None
+    if not model.oblique:
+        return 0.0
+    return abs(model.values("angular_momentum", flown.y, p)["angular_momentum"] - 1.0)
+
+
+def _trajectory(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) -> xarray.Dataset:
+    from .trajectory import dataset  # imports xarray
+
+    return dataset(flown, model, n, plugin, rtol)

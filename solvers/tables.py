@@ -1,0 +1,94 @@
+"""The tables of a scene, in SI: immutable, and each judges its own entries."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .schema import FIELDS
+
+
+@dataclass(frozen=True)
+class Table:
+    name: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        """Read every entry as the schema says; InputError names the first that is wrong."""
+        for key in (field.name for field in dataclasses.fields(self)):
+            value = getattr(self, key)
+            if value is not None:
+                object.__setattr__(self, key, FIELDS[f"{self.name}.{key}"].read(value))
+
+
+@dataclass(frozen=True)
+class Particles(Table):
+    """Two equal spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic criterion)."""
+
+    name: ClassVar[str] = "particles"
+    reduced_radius: float
+    reduced_mass: float
+    roughness: float
+    dry_restitution: float
+    youngs_modulus: float | None = None
+    poisson_ratio: float | None = None
+
+    @property
+    def elastic(self) -> float | None:
+        """theta_e = 2 (1 - nu^2)/(pi E) in 1/Pa, or None without elastic constants."""
+        if self.youngs_modulus is None or self.poisson_ratio is None:
+            return None
+        return 2 * (1 - self.poisson_ratio**2) / (math.pi * self.youngs_modulus)
+
+
+@dataclass(frozen=True)
+class Liquid(Table):
+    """The film: mu (Pa s), x0 (m), p_gt (Pa), density (kg/m^3; only for the Reynolds number)."""
+
+    name: ClassVar[str] = "liquid"
+    viscosity: float
+    film_thickness: float
+    glass_transition_pressure: float
+    density: float | None = None
+
+
+@dataclass(frozen=True)
+class Bridge(Table):
+    """The capillary bridge: sigma (N/m), V/R^3, phi (rad) and the law of its force."""
+
+    name: ClassVar[str] = "bridge"
+    surface_tension: float
+    volume: float
+    contact_angle: float
+    law: str = "mikami"
+
+
+@dataclass(frozen=True)
+class Pendulum(Table):
+    """The strings: l (m), g (m/s^2), exact or for small angles."""
+
+    name: ClassVar[str] = "pendulum"
+    length: float
+    gravity: float = 9.81
+    law: str = "exact"
+
+
+@dataclass(frozen=True)
+class Model(Table):
+    """Which of the selectable variants of the equations."""
+
+    name: ClassVar[str] = "model"
+    arm: str = "midgap"
+    tangential: str = "immersed"
+    glass: str = "literal"
+
+
+@dataclass(frozen=True)
+class Impact(Table):
+    """First touch: Stokes number or normal speed (m/s), and angle (rad); each may be left to the command line."""
+
+    name: ClassVar[str] = "impact"
+    stokes: float | None = None
+    speed: float | None = None
+    angle: float | None = None

@@ -1,0 +1,59 @@
+"""A flight as an xarray Dataset: gap, velocities, rates and angle over time, with units."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from .chain import Flown
+from .integrators import plain
+from .model import Model
+from .numbers import Numbers
+
+_POINTS = 64  # per phase, equally spaced in time; the integrator's own steps do not depend on them
+
+_VARIABLES: dict[str, tuple[str, str]] = {
+    "gap": ("m", "gap between the surfaces"),
+    "opening_velocity": ("m/s", "opening velocity, negative on approach"),
+    "rotation_rate": ("rad/s", "angular velocity of the line of centres"),
+    "spin": ("rad/s", "angular velocity of each sphere about its own centre"),
+    "rotation": ("rad", "angle turned by the line of centres"),
+}
+
+
+def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) -> xr.Dataset:
+    """The flown pieces on a grid of _POINTS per phase; an event's time stands twice, before and after it."""
+    p = model.group_values(n.groups)
+    times: list[np.ndarray] = []
+    columns: list[np.ndarray] = []
+    phases: list[str] = []
+    for piece in flown.pieces:
+        inside = plain(piece.flow, plugin, rtol, _POINTS)(piece.start, p, piece.duration)
+        y = np.column_stack([piece.start, inside])
+        times.append(piece.time + piece.duration * np.linspace(0, 1, _POINTS + 1))
+        columns.append(y)
+        phases += [piece.name] * y.shape[1]
+    if not columns:  # decided at first touch
+        times, columns, phases = [np.zeros(1)], [flown.y[:, None]], ["first touch"]
+    y, time = np.hstack(columns), np.concatenate(times) * n.time
+    size = len(model.state)
+    zero = np.zeros(time.size)
+    values = {"gap": y[0] * n.length, "opening_velocity": y[1] * n.speed}
+    if model.oblique:
+        outputs = dict(zip(model.names("outputs"), np.asarray(model.function("outputs")(y[:size], p).full()), strict=True))
+        names = (*model.state, *flown.extras)
+        values |= {
+            "rotation_rate": outputs["final_rotation_rate"] * n.rate,
+            "spin": outputs["final_spin"] * n.rate,
+            "rotation": y[names.index("rotation")],
+        }
+    else:
+        values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
+    variables = {
+        name: ("time", value, {"units": _VARIABLES[name][0], "long_name": _VARIABLES[name][1]}) for name, value in values.items()
+    }
+    coordinates = {
+        "time": ("time", time, {"units": "s", "long_name": "time since first touch"}),
+        "phase": ("time", np.array(phases)),
+    }
+    return xr.Dataset(variables, coordinates)

@@ -1,0 +1,140 @@
+"""Units: the table in front of pint says what pint says, and nothing wrong gets past either."""
+
+import math
+from decimal import Decimal
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.units import COMMON, DIMENSIONS, quantity
+
+
+def read(text: str, si: str = "m") -> float:
+    """Read a quantity of a field called `f`."""
+    return quantity(text, si, "f", "something else")
+
+
+@pytest.fixture(scope="module")
+def registry():
+    """Pint's own registry, without any cache or table of ours."""
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def test_table_equals_pint(registry):
+    """Every entry of the table is what pint makes of the same text."""
+    for unit, (si, factor) in COMMON.items():
+        theirs = registry.Quantity(1.0, unit).to(si).magnitude
+        assert theirs == pytest.approx(float(factor), rel=4e-16), unit
+
+
+def test_every_dimension_has_its_si_unit_in_the_table():
+    """The SI unit that names a dimension is itself in the table, with factor one."""
+    assert all(COMMON[si] == (si, Decimal(1)) for si in DIMENSIONS)
+
+
+@pytest.mark.parametrize(
+    ("text", "si"),
+    [
+        ("3.7 inch", "m"),
+        ("0.2 lb", "kg"),
+        ("2 kg/(m s)", "Pa s"),
+        ("2 lbf/ft^2", "Pa"),
+        ("3 g/s^2", "N/m"),
+        ("0.1 turn", "rad"),
+        ("60 ft/min", "m/s"),
+        ("1.2 lb/ft^3", "kg/m^3"),
+        ("1 ft/s^2", "m/s^2"),
+        ("4 minute", "s"),
+    ],
+)
+def test_other_units_are_what_pint_says(registry, text, si):
+    """A unit outside the table is converted as pint converts it, prefixes and grams included."""
+    number, unit = text.split(" ", 1)
+    assert read(text, si) == pytest.approx(registry.Quantity(float(number), unit).to(si).magnitude, rel=1e-14)
+
+
+@given(st.decimals(-1000, 1000, allow_nan=False, places=12), st.sampled_from(sorted(COMMON)))
+def test_common_units_are_correctly_rounded(number, unit):
+    """The double is the one nearest to the exact product of number and factor."""
+    si, factor = COMMON[unit]
+    exact = Fraction(number) * Fraction(factor)
+    assert read(f"{number} {unit}", si) == exact.numerator / exact.denominator
+
+
+def test_right_angle_is_half_pi():
+    """90 deg is the double nearest to pi/2, so that the limits of angles are met exactly."""
+    assert read("90 deg", "rad") == math.pi / 2
+
+
+@pytest.mark.parametrize(
+    "text", ["2 Pa s", "2Pa s", " 2  Pa  s ", "2 Pa*s", "2 Pa·s", "2000 mPa s", "2 N s/m²", "2 kg/m/s"]
+)
+def test_spellings(text):
+    """Products, powers, micro signs and spaces may be written in the usual ways."""
+    assert read(text, "Pa s") == 2
+    assert read("5 µm") == read("5 μm") == read("5um") == 5e-6
+
+
+@pytest.mark.parametrize(
+    ("text", "si", "problem"),
+    [
+        ("2 m", "Pa s", "is a length, not a viscosity"),
+        ("2 inch", "Pa s", "not a viscosity"),
+        ("5 percent", "rad", "not an angle"),
+        ("5 um rad", "m", "not a length"),
+        ("5", "m", "has no unit"),
+        ("5 umm", "m", "did you mean um?"),
+        ("5 m/s2", "m/s^2", "did you mean m/s^2?"),
+        ("nan m", "m", "is not finite"),
+        ("-inf m", "m", "is not finite"),
+        ("1e999 m", "m", "is not finite"),
+        ("1e308 km", "m", "is not finite"),
+        ("wide", "m", "is not a number"),
+        ("", "m", "is not a number"),
+        ("1" * 500 + " m", "m", "is not a number"),
+        ("1_000 m", "m", "unknown unit"),
+        ("1 m^9^9^9^9", "m", "unknown unit"),
+        ("1 degC", "m", "not a length"),
+        ("1 (m", "m", "unknown unit"),
+    ],
+)
+def test_bad_quantities(text, si, problem):
+    """Each names the field, shows the value, says what is wrong and what is accepted, on one line."""
+    with pytest.raises(InputError) as error:
+        read(text, si)
+    line = str(error.value)
+    assert line.startswith('f: "') and problem in line and line.endswith("; accepted: something else")
+    assert len(line.splitlines()) == 1
+
+
+@given(st.text(max_size=30) | st.from_regex(r"[0-9.]{1,3} ?[A-Za-z^*/() 0-9_-]{0,12}", fullmatch=True))
+def test_junk_is_an_input_error(text):
+    """Whatever is written, it is a finite number of metres or an InputError."""
+    try:
+        assert math.isfinite(read(text))
+    except InputError as error:
+        assert len(str(error).splitlines()) == 1
+
+
+def test_registry_without_a_cache(monkeypatch):
+    """Where pint's cache cannot be written, units are read all the same."""
+    import pint
+    from wetdoublet.solvers import units
+
+    plain = pint.UnitRegistry
+
+    def refuse(cache_folder=None):
+        if cache_folder:
+            raise PermissionError(cache_folder)
+        return plain()
+
+    monkeypatch.setattr(pint, "UnitRegistry", refuse)
+    units._registry.cache_clear()
+    try:
+        assert read("1 inch") == pytest.approx(0.0254)
+    finally:
+        units._registry.cache_clear()
