@@ -26,6 +26,7 @@ class Proof(Protocol):
     """What a flight asks of a proof. `y` is the locating state: the model's states, then the capillary work."""
 
     theorem: bool  # a stick found by it is proved, not only certain for practical purposes
+    by_energy: bool  # it may give a level, and then `y` carries the capillary work
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         """Energy (over m v0^2) below which the doublet at `y` is proved to stick; None if energy proves nothing."""
@@ -37,7 +38,7 @@ class Proof(Protocol):
 class NoProof:
     """No certificate: strings with rotation end by their cut-off, an oblique doublet with a film alone always parts."""
 
-    theorem = False
+    theorem, by_energy = False, False
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return None
@@ -49,7 +50,7 @@ class NoProof:
 class FilmProof:
     """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
 
-    theorem = True
+    theorem, by_energy = True, False
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         self.model, self.p = model, p
@@ -67,7 +68,7 @@ class FilmProof:
             return True
         if phase.motion != CLOSING:  # u falls by the film's integral up to its surface, x = x0
             loss = self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
-            return opening - loss < -self.margin
+            return bool(opening - loss < -self.margin)
         # closing: neither the solids nor the glass pressure are met before the film stops the motion
         grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
         speed = -opening + self._momentum_loss(grid)  # losses are negative along a falling gap
@@ -84,7 +85,8 @@ class FilmProof:
         nodes = low + np.outer(_NODES + 1, high - low) / 2
         resistance = np.asarray(_resistance(self.model)(nodes.reshape(1, -1)).full()).reshape(nodes.shape)
         panels = (_WEIGHTS @ resistance) * (high - low) / 2
-        return np.concatenate([[0.0], np.cumsum(panels)]) / self.stokes
+        losses: np.ndarray = np.concatenate([[0.0], np.cumsum(panels)]) / self.stokes
+        return losses
 
 
 @lru_cache(maxsize=64)
@@ -112,6 +114,8 @@ class BarrierProof:
     For the surface arm angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite; there
     the level is lowered by what the drift can still do, and the stick is not called a theorem.
     """
+
+    by_energy = True
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         self.model, self.p, self.rtol = model, p, rtol
@@ -167,7 +171,9 @@ class BarrierProof:
     def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
         states[0] = gaps
-        return np.asarray(self.model.function("effective_potential")(states, self.p).full())[1]
+        both = np.asarray(self.model.function("effective_potential")(states, self.p).full())
+        slope: np.ndarray = both[1]
+        return slope
 
     def _search(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Local maxima from the sign of the slope on a grid in ln(gap), refined by bisection, heights by quadrature."""

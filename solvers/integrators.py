@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
@@ -36,11 +37,11 @@ def quiet() -> Iterator[None]:
             print(line, file=sys.stderr)
 
 
-def _call(function: Function, **inputs: object) -> np.ndarray:
+def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
     try:
         with contextlib.redirect_stderr(io.StringIO()):
-            found = np.asarray(function(**inputs)["xf"].full())
+            found = np.asarray(function(x0=x0, p=p)["xf"].full())
     except RuntimeError as error:
         raise IntegrationFailed(_reason(str(error))) from None
     if not np.isfinite(found).all():
@@ -58,10 +59,10 @@ def _reason(message: str) -> str:
 _CVODES_SHARE, _CVODES_TIGHTEST = 1 / 30, 1e-14
 
 
-def _tolerances(rtol: float, plugin: str) -> dict[str, object]:
+def _tolerances(rtol: float, plugin: str) -> dict[str, Any]:
     if plugin == "cvodes":
         rtol = max(rtol * _CVODES_SHARE, _CVODES_TIGHTEST)
-    options: dict[str, object] = {"reltol": rtol, "abstol": 1e-3 * rtol, "max_num_steps": _MAX_STEPS}
+    options: dict[str, Any] = {"reltol": rtol, "abstol": 1e-3 * rtol, "max_num_steps": _MAX_STEPS}
     if plugin == "cvodes":
         options["quad_err_con"] = True
     return options

@@ -80,22 +80,15 @@ class Locate:
         rupture = groups["rupture_gap"] if model.bridge else 1.0
         self.edge = float(model.laws.shear.edge(groups["aspect"])) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and self.contact_gap < self.edge < rupture
-        proves = self.proof.level(self._start(), Phase(1, 1, CLOSING)) is not None
-        self.watch = Watch(tangential_edge=own_edge, certificate=proves)
-        self.extras = ("capillary",) if proves and model.bridge else ()
+        self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.by_energy)
+        self.extras = ("capillary",) if self.proof.by_energy and model.bridge else ()
         self.path = Path(model, self.p, self.watch)
-        self.y = self._start()
+        self.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
         self.clock = 0.0
 
-    def _start(self) -> np.ndarray:
-        start = self.model.start(self.p)
-        return np.append(start, 0.0) if self.model.bridge else start
-
     def run(self) -> Path:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
-        if not self.extras:
-            self.y = self.y[: len(self.model.state)]
         for _ in range(_MAX_STEPS):
             if self._proved():
                 self._stop(Step(self.phase, 0.0, None, ()))

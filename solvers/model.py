@@ -108,9 +108,9 @@ class Model:
     def parameters(self) -> SX:
         return vector(self.groups)
 
-    def __call__(self, name: str, state: Mapping[str, SX] | None = None, **region: int) -> dict[str, SX]:
+    def __call__(self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int] | None = None) -> dict[str, SX]:
         """A function of the structure module as named expressions."""
-        found: dict[str, SX] = getattr(self.structure, name)(self.state if state is None else state, self.groups, self.laws, **region)
+        found: dict[str, SX] = getattr(self.structure, name)(self.state if state is None else state, self.groups, self.laws, **(region or {}))
         return found
 
     def has(self, name: str) -> bool:
@@ -120,7 +120,7 @@ class Model:
     def function(self, name: str, film: int = 1, shear: int = 1) -> Function:
         """A function of the structure module as a CasADi Function (state, groups) -> column."""
         region = {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
-        values = self(name, **region)
+        values = self(name, region=region)
         column = densify(vertcat(*(SX(value) for value in values.values())))
         return Function(name, [self.column, self.parameters], [column])
 
@@ -132,7 +132,7 @@ class Model:
     @lru_cache(maxsize=64)  # noqa: B019 -- as above
     def names(self, name: str, film: int = 1, shear: int = 1) -> tuple[str, ...]:
         region = {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
-        return tuple(self(name, **region))
+        return tuple(self(name, region=region))
 
     def group_values(self, groups: Mapping[str, float]) -> np.ndarray:
         """The structure's groups as a vector."""

@@ -68,7 +68,8 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     A group exists where the scene has what it is made of; an absent elastic criterion has elastic_gap 0.
     """
     values = si_values(scene, speed, angle)
-    groups = {name: values[name] for name in ("dry_restitution", "volume", "contact_angle") if name in values}
+    plain = ("dry_restitution", "volume", "contact_angle")
+    groups: dict[str, float] = {name: values[name] for name in plain if name in values}
     groups["elastic_gap"] = 0.0
     for name, arguments in scaling.ARGUMENTS.items():
         if all(argument in values for argument in arguments):

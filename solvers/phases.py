@@ -81,12 +81,12 @@ def expressions(flow: Flow) -> Expressions:
     model, region = flow.model, flow.region
     flags = {"film": region.film, "shear": region.shear}
     state = {**model.guarded, "opening": SX(0)} if region.resting else model.guarded
-    rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, **flags)
+    rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, flags)
     if region.resting and not model.oblique:
         rates = dict.fromkeys(rates, SX(0))  # head-on nothing moves in resting contact
     extra_rates: dict[str, SX] = {}
     if flow.extras:
-        extra_rates = model("energy_rates", state, **flags)
+        extra_rates = model("energy_rates", state, flags)
         if model.oblique:
             extra_rates |= model("turning_rate", state)
     extras = {name: SX.sym(name) for name in flow.extras}

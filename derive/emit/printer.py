@@ -44,11 +44,14 @@ class Printer:
 
     def __init__(self) -> None:
         self.imports: set[str] = set()
+        self._stand_ins: dict[sp.Dummy, str] = {}
 
     def __call__(self, expression: sp.Expr) -> str:
         return self._print(sp.sympify(expression))[0]
 
     def _print(self, node: sp.Basic) -> tuple[str, int]:
+        if node in self._stand_ins:
+            return self._stand_ins[node], _ATOM
         if isinstance(node, sp.Symbol):
             if not node.name.isidentifier():
                 raise EmissionError(f"symbol {node.name!r} is not a Python name")
@@ -154,24 +157,64 @@ class Printer:
         return text
 
     def _piecewise(self, node: sp.Piecewise) -> str:
-        """if_else with each branch's variable clamped to where the branch holds, so the other side cannot yield NaN."""
-        (value, condition), *rest = node.args
-        if condition is sp.true:
-            return self._print(value)[0]
-        if not rest or rest[-1][1] != sp.true:
+        """Nested if_else. A branch not taken is still evaluated, so each sees its variable held inside its own range:
+        neither its value nor any derivative can then be NaN or infinite (clamping to the bound would not do: sqrt(1 - x)
+        has no derivative at 1).
+        """
+        if node.args[-1][1] != sp.true:
             raise EmissionError(f"Piecewise without a final otherwise: {node}")
-        if type(condition) not in _RELATIONS or not isinstance(condition.lhs, sp.Symbol):
-            raise EmissionError(f"Piecewise condition {condition} is not of the form symbol < bound, so its branches cannot be guarded")
-        variable, bound = condition.lhs, condition.rhs
-        below = type(condition) in (sp.StrictLessThan, sp.LessThan)
-        inside, outside = (sp.Min, sp.Max) if below else (sp.Max, sp.Min)
-        taken = value.subs(variable, inside(variable, bound, evaluate=False))
-        other = sp.Piecewise(*rest) if len(rest) > 1 else rest[0][0]
-        if isinstance(other, sp.Piecewise):
-            otherwise = self._print(other)[0]
-        else:
-            otherwise = self._print(other.subs(variable, outside(variable, bound, evaluate=False)))[0]
-        return f"{self._name('if_else')}({self._print(condition)[0]}, {self._print(taken)[0]}, {otherwise})"
+        names = set()
+        for _, condition in node.args[:-1]:
+            known = type(condition) in _RELATIONS and isinstance(condition.lhs, sp.Symbol)
+            if not known or condition.rhs.has(condition.lhs):
+                raise EmissionError(
+                    f"Piecewise condition {condition} is not of the form symbol < bound, "
+                    "so its branches cannot be guarded"
+                )
+            names.add(condition.lhs.name)
+        if len(names) > 1:
+            raise EmissionError(f"Piecewise conditions on {', '.join(sorted(names))} together cannot be guarded: {node}")
+        choose = self._name("if_else")
+        text = ""
+        facts: list[tuple[sp.Basic, bool]] = []  # conditions that hold or fail where a branch is taken
+        for value, condition in node.args:
+            last = condition == sp.true
+            own = facts if last else [*facts, (condition, True)]
+            branch = self._guarded(node, value, own)
+            text += branch if last else f"{choose}({self._print(condition)[0]}, {branch}, "
+            facts = [*facts, (condition, False)]
+        return text + ")" * (len(node.args) - 1)
+
+    def _guarded(self, node: sp.Piecewise, value: sp.Expr, facts: list[tuple[sp.Basic, bool]]) -> str:
+        """A branch as a function of its variable, which outside the branch's range is held at a point inside it."""
+        variable = facts[0][0].lhs
+        if variable not in value.free_symbols:
+            return self._print(value)[0]
+        point = _inside(variable, facts)
+        for probe in (value.subs(variable, point), value.diff(variable).subs(variable, point)):
+            if probe.is_number and not (probe.is_finite and probe.is_real):
+                raise EmissionError(
+                    f"branch {value} of {node} is not regular at {variable} = {point}, so it cannot be guarded"
+                )
+        guard, held = variable.name, self._print(point)[0]
+        for condition, holds in facts:
+            test = self._print(condition)[0]
+            guard = f"if_else({test}, {guard}, {held})" if holds else f"if_else({test}, {held}, {guard})"
+        stand_in = sp.Dummy(variable.name, **variable.assumptions0)
+        self._stand_ins[stand_in] = guard
+        return self._print(value.subs(variable, stand_in))[0]
+
+
+def _inside(variable: sp.Symbol, facts: list[tuple[sp.Basic, bool]]) -> sp.Expr:
+    """A point inside the range that the conditions leave, away from its ends."""
+    above = [c.rhs for c, holds in facts if (type(c) in (sp.StrictGreaterThan, sp.GreaterThan)) == holds]
+    below = [c.rhs for c, holds in facts if (type(c) in (sp.StrictLessThan, sp.LessThan)) == holds]
+    low = above[0] if len(above) == 1 else sp.Max(*above) if above else None
+    high = below[0] if len(below) == 1 else sp.Min(*below) if below else None
+    if low is None:
+        assert high is not None
+        return high / 2 if variable.is_positive else high - 1
+    return low + 1 if high is None else (low + high) / 2
 
 
 def _is_binary(number: int) -> bool:
@@ -182,7 +225,7 @@ def _decimal(value: sp.Rational) -> str | None:
     """The finite decimal of at most 15 places that equals `value`, or None."""
     numerator, denominator = int(value.p), int(value.q)
     places = 0
-    while denominator % 10 and (denominator % 2 == 0 or denominator % 5 == 0) or denominator % 10 == 0:
+    while (denominator % 10 and (denominator % 2 == 0 or denominator % 5 == 0)) or denominator % 10 == 0:
         if places == 15:
             return None
         numerator, places = numerator * 10, places + 1

@@ -25,8 +25,8 @@ def tangential_force() -> sp.Expr:
     no force in rigid rotation (O'Neill & Majumdar 1970, constant term removed as the paper does).
     """
     sliding = 4 * a * (omega - xi)
-    stress_per_speed = mu / _h
-    per_speed = sp.integrate(stress_per_speed * 2 * sp.pi * a, (_h, x, _outer))  # 2 pi s ds = 2 pi a dh
+    logarithm = sp.logcombine(sp.integrate(1 / _h, (_h, x, _outer)))  # of h_outer/x, a pure number
+    per_speed = 2 * sp.pi * a * mu * logarithm  # stress mu/h, on rings 2 pi s ds = 2 pi a dh
     return sliding * per_speed
 
 

@@ -46,7 +46,7 @@ def collision(module):
             to_dict=lambda: {"outcome": "stick"}, plot=asked.setdefault("plots", []).append
         )
 
-    module("wetdoublet.solvers.collide", collide=collide)
+    module("wetdoublet.solvers.simulate", collide=collide)
     return asked
 
 

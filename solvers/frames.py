@@ -1,0 +1,186 @@
+"""The doublet at a few instants, seen from above: where the spheres are, how they have turned, and a strip of pictures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle, FancyArrowPatch, Polygon
+
+from .result import Collision
+from .scene import Scene
+
+LIQUID, FIRST, SECOND, INK = "#56B4E9", "#E8E8E8", "#BDBDBD", "#202020"
+_FLOWN = 5  # frames of a flight that shows something; else 3
+_APART = 0.8  # of R: how much further apart the last frame of a separated pair is
+_BETWEEN = 0.7  # of R: space between frames
+
+Vector = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The doublet at one instant. SI units and radians; the centre of mass rests at the origin.
+
+    Arguments:
+        gap: between the surfaces.
+        angle: of the line of centres, counter-clockwise from that at first touch.
+        turned: angle by which each sphere has turned.
+        relative: velocity of the second sphere relative to the first; None where it is not shown.
+        free: after rupture, drawn on along straight lines.
+    """
+
+    time: float
+    gap: float
+    angle: float
+    turned: float
+    radius: float
+    relative: Vector | None = None
+    free: bool = False
+
+    @property
+    def distance(self) -> float:
+        """Distance between the centres, 4a + x."""
+        return 2 * self.radius + self.gap
+
+    @property
+    def centres(self) -> tuple[Vector, Vector]:
+        x, y = 0.5 * self.distance * math.cos(self.angle), 0.5 * self.distance * math.sin(self.angle)
+        return (-x, -y), (x, y)
+
+    @property
+    def half_width(self) -> float:
+        return abs(self.centres[1][0]) + self.radius
+
+    @property
+    def half_height(self) -> float:
+        return abs(self.centres[1][1]) + self.radius
+
+
+def frames(collision: Collision) -> list[Frame]:
+    """Return instants equally spaced in time from first touch on, and for a separated pair one after rupture."""
+    data = collision.trajectory
+    if data is None:
+        raise ValueError("the collision has no trajectory: pass trajectory=True to collide()")
+    radius = 2 * collision.scene.particles.reduced_radius
+    time, gap, rotation = (np.asarray(data[name], dtype=float) for name in ("time", "gap", "rotation"))
+    turned = orientation(time, rotation, np.asarray(data["rotation_rate"]), np.asarray(data["spin"]))
+    still = np.ptp(rotation) < math.radians(20) and np.ptp(gap) < 0.2 * radius
+    instants = np.linspace(0.0, time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
+    approach = (-collision.speed, collision.speed * math.tan(collision.angle) * (1 + gap[0] / (2 * radius)))
+    found = [
+        Frame(float(t), *(float(np.interp(t, time, values)) for values in (gap, rotation, turned)), radius)
+        for t in (instants if time[-1] > 0 else [0.0])
+    ]
+    first = found[0]
+    found[0] = Frame(first.time, float(gap[0]), float(rotation[0]), first.turned, radius, approach)
+    if collision.outcome != "stick":
+        rates = (float(data[name][-1]) for name in ("opening_velocity", "rotation_rate", "spin"))
+        after = _free_flight(Frame(float(time[-1]), float(gap[-1]), float(rotation[-1]), float(turned[-1]), radius), *rates)
+        found += [after] if after else []
+    return found
+
+
+def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarray, spin: np.ndarray) -> np.ndarray:
+    """Return the angle each sphere has turned, int xi dt: the doublet's own angle and the integral of the slip.
+
+    The angle of the doublet is integrated exactly; only the slip xi - omega, soon gone, is left to the trapezoids.
+    """
+    slip = spin - rotation_rate
+    pieces = 0.5 * (slip[1:] + slip[:-1]) * np.diff(time)
+    turned: np.ndarray = rotation + np.concatenate([[0.0], np.cumsum(pieces)])
+    return turned
+
+
+def _free_flight(last: Frame, opening: float, rate: float, spin: float) -> Frame | None:
+    """The pair on straight lines after rupture, as far apart as shows; None if it does not move."""
+    across = last.distance * rate
+    speed = math.hypot(opening, across)
+    if not speed:
+        return None
+    goal = last.distance + _APART * last.radius
+    # |(r + u t, r omega t)| = goal; u >= 0 at rupture
+    lead = last.distance * opening
+    wait = (math.sqrt(lead**2 + speed**2 * (goal**2 - last.distance**2)) - lead) / speed**2
+    angle = last.angle + math.atan2(across * wait, last.distance + opening * wait)
+    along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
+    relative = (opening * along[0] + across * side[0], opening * along[1] + across * side[1])
+    gap = goal - 2 * last.radius
+    return Frame(last.time + wait, gap, angle, last.turned + spin * wait, last.radius, relative, free=True)
+
+
+def wetted_radius(scene: Scene, gap: float) -> float:
+    """Return the radius of the liquid between the spheres, m: a bridge's from its volume, else where the film is filled.
+
+    Surfaces are parabolas, h = x + s^2/R; with a bridge, the volume between them inside s is V R^3.
+    """
+    radius = 2 * scene.particles.reduced_radius
+    if scene.bridge is None:
+        return math.sqrt(radius * max(scene.liquid.film_thickness - gap, 0.0))
+    volume = scene.bridge.volume
+    square = radius * (math.sqrt(gap**2 + 2 * volume * radius**2 / math.pi) - gap)
+    return min(math.sqrt(square), 0.9 * radius)
+
+
+def draw_strip(axes: Axes, collision: Collision, pictures: Sequence[Frame], captions: Sequence[str]) -> None:
+    """Draw the frames side by side, to one scale, a caption under each; lengths are in sphere radii."""
+    radius = pictures[0].radius
+    fastest = max(math.hypot(*frame.relative) for frame in pictures if frame.relative)
+    bottom = -max(frame.half_height for frame in pictures) / radius - 0.25
+    place, edge = 0.0, 0.0
+    for frame, caption in zip(pictures, captions, strict=True):
+        half = max(frame.half_width / radius, 1.75)
+        place = edge + half
+        _draw(axes, collision, frame, place, fastest)
+        axes.text(place, bottom, caption, ha="center", va="top", fontsize=8, linespacing=1.25)
+        edge = place + half + _BETWEEN
+    axes.set_xlim(-0.2, edge - _BETWEEN + 0.2)
+    axes.set_ylim(bottom, -bottom)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def strip_size(pictures: Sequence[Frame]) -> tuple[float, float]:
+    """Width and height of the strip in sphere radii, captions left out."""
+    radius = pictures[0].radius
+    width = sum(2 * max(frame.half_width / radius, 1.75) + _BETWEEN for frame in pictures) - _BETWEEN
+    return width + 0.4, 2 * max(frame.half_height for frame in pictures) / radius + 0.5
+
+
+def _draw(axes: Axes, collision: Collision, frame: Frame, place: float, fastest: float) -> None:
+    """One frame around (place, 0), lengths in sphere radii."""
+    radius, scene = frame.radius, collision.scene
+    centres = [(place + x / radius, y / radius) for x, y in frame.centres]
+    film = scene.liquid.film_thickness / (2 * radius)
+    for centre in centres:
+        axes.add_patch(Circle(centre, 1 + film, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
+    half = wetted_radius(scene, frame.gap) / radius
+    if half > 0 and not frame.free:
+        axes.add_patch(Polygon(_neck(frame, place, half), closed=True, facecolor=LIQUID, edgecolor="none", zorder=2))
+    for centre, shade, start in zip(centres, (FIRST, SECOND), (0.0, math.pi), strict=True):
+        ball = Circle(centre, 1.0, facecolor=shade, edgecolor=INK, linewidth=0.8, zorder=3)
+        ball.set_gid("sphere")
+        axes.add_patch(ball)
+        mark = (math.cos(start + frame.turned), math.sin(start + frame.turned))
+        axes.plot([centre[0], centre[0] + mark[0]], [centre[1], centre[1] + mark[1]], color=INK, linewidth=1.2, zorder=4)
+        axes.plot(*centre, marker="o", markersize=2.2, color=INK, zorder=4)
+    if frame.relative:
+        for centre, sign in zip(centres, (-1, 1), strict=True):
+            tip = (centre[0] + sign * 1.15 * frame.relative[0] / fastest, centre[1] + sign * 1.15 * frame.relative[1] / fastest)
+            arrow = FancyArrowPatch(
+                centre, tip, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0, color="#D55E00", linewidth=1.4, zorder=5
+            )
+            axes.add_patch(arrow)
+
+
+def _neck(frame: Frame, place: float, half: float) -> np.ndarray:
+    """Outline of the liquid between the spheres: along one surface, and back along the other."""
+    rise = np.linspace(-half, half, 25)
+    reach = 0.5 * frame.distance / frame.radius - np.sqrt(1 - rise**2)
+    outline = np.concatenate([np.column_stack([-reach, rise]), np.column_stack([reach, rise])[::-1]])
+    c, s = math.cos(frame.angle), math.sin(frame.angle)
+    turned: np.ndarray = outline @ np.array([[c, s], [-s, c]]) + [place, 0.0]
+    return turned

@@ -1,0 +1,173 @@
+"""A collision as a short table for a person: plain ASCII but for the scene's own name, at most 88 columns."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from .result import Collision, Energy, Event
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+WIDTH = 88
+CUT_OFFS = {
+    "half turn": "half a turn, the strings cross",
+    "rotation reverses": "the strings turn the rotation back",
+}
+CRITERIA = {
+    "glass": "reversed by the glass criterion, the liquid's own pressure",
+    "elastic": "reversed by the elastic criterion, the spheres' deformation",
+    "rough": "reversed by contact of the surfaces' roughness",
+}
+_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
+_LABEL = 24  # columns of the names on the left
+_FIRST, _LAST = 9, 3  # events shown of a flight that has more
+
+
+def prefix(size: float) -> tuple[float, str]:
+    """Return (factor, prefix) under which a quantity of this size is written: 2e-5 -> (1e-6, "u")."""
+    size = abs(size)
+    if size == 0 or not math.isfinite(size) or size < 1e-10:
+        return _PREFIXES[0]
+    # rounded to the digits shown, so that 999.96 us is 1 ms
+    size = float(f"{size:.4g}")
+    return next((entry for entry in _PREFIXES if size >= entry[0]), _PREFIXES[-1])
+
+
+def quantity(value: float | None, unit: str) -> str:
+    """Return a number with four digits and its prefixed unit; a dash for None."""
+    if value is None:
+        return "-"
+    factor, name = prefix(value)
+    return f"{value / factor:.4g} {name}{unit}"
+
+
+def plain(value: float | None, unit: str = "") -> str:
+    """Return a number with four digits, its unit as it stands; a dash for None."""
+    if value is None:
+        return "-"
+    text = f"{value:.4g}"
+    return f"{float(text):.0f} {unit}".rstrip() if 1e4 <= abs(value) < 1e7 else f"{text} {unit}".rstrip()
+
+
+def degrees(value: float | None) -> str:
+    """Return an angle given in rad in degrees; a dash for None."""
+    return plain(None if value is None else math.degrees(value), "deg")
+
+
+def name_of(scene: Scene, longest: int = 32) -> str:
+    """Return the scene's name in one line without control characters, shortened to `longest` characters."""
+    name = "".join(letter if letter.isprintable() else " " for letter in scene.name)
+    name = " ".join(name.split()) or "unnamed scene"
+    return name if len(name) <= longest else name[: longest - 3] + "..."
+
+
+def reason(collision: Collision) -> str:
+    """Return why the collision ended as it did, in words."""
+    if collision.outcome == "bounce":
+        return CRITERIA[collision.reversal or "glass"]
+    if collision.outcome != "stick":
+        return "escaped by centrifugal force, no criterion met"
+    return _stuck(collision)
+
+
+def _stuck(collision: Collision) -> str:
+    when = "at first touch" if not collision.until else f"after {quantity(collision.until, 's')}"
+    last = collision.events[-1].kind if collision.events else ""
+    if last in CUT_OFFS:
+        return f"cut off {when}: {CUT_OFFS[last]}"
+    scene = collision.scene
+    if not collision.certified:
+        return f"ended {when}: energy below the barrier, but no proof"
+    if scene.bridge is None and scene.pendulum is None:
+        return f"proved {when}: the film stops it"
+    return f"proved {when}: energy below the barrier (certificate)"
+
+
+def table(collision: Collision) -> str:
+    """Return the short table that `wetdoublet collide` prints."""
+    lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
+    lines += [*_energy(collision.energy, collision.scene), "", *_numerics(collision)]
+    return "\n".join(lines)
+
+
+def _line(name: str, value: str, note: str = "") -> str:
+    text = f"{name:<{_LABEL}}{value}"
+    return f"{text:<{_LABEL + 14}} {note}" if note else text
+
+
+def _title(collision: Collision) -> list[str]:
+    groups = [f"St {plain(collision.stokes)}", f"angle {degrees(collision.angle)}"]
+    if collision.scene.bridge is not None:
+        groups += [f"Ce {plain(collision.centrifugal)}", f"Ca {plain(collision.capillary)}"]
+    if collision.reynolds is not None:
+        groups.append(f"Re {plain(collision.reynolds)}")
+    numbers = ", ".join(groups)
+    return [f"{name_of(collision.scene, max(16, WIDTH - len(numbers) - 2))}: {numbers}"]
+
+
+def _outcome(collision: Collision) -> list[str]:
+    restitution = collision.restitution
+    gained = "> 1: rotation has given it energy" if restitution > 1 else ""
+    lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
+    if collision.outcome == "stick" and collision.reversal:
+        lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
+    rotation = collision.rotation
+    turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
+    return [
+        *lines,
+        _line("approach speed", (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s"), "normal component"),
+        _line("restitution e_n", plain(restitution), gained),
+        _line("tangential e_t", plain(collision.tangential_restitution)),
+        _line("rotation", degrees(rotation), turns),
+        _line("contact time", quantity(collision.contact_time, "s")),
+        _line("smallest gap", quantity(collision.smallest_gap, "m")),
+        _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
+        _line("final spin", plain(collision.final_spin, "rad/s"), "xi, of each sphere"),
+    ]
+
+
+def _events(events: tuple[Event, ...]) -> list[str]:
+    if not events:
+        return [_line("events", "none")]
+    lines = [_line("  " + event.kind, quantity(event.time, "s")) for event in events]
+    hidden = len(lines) - _FIRST - _LAST
+    if hidden > 1:
+        lines[_FIRST:-_LAST] = [_line("  ...", f"{hidden} more")]
+    return [_line("events", "at"), *lines]
+
+
+def _energy(energy: Energy | None, scene: Scene) -> list[str]:
+    if energy is None:
+        return [_line("energy", "-", "not integrated along")]
+    terms = [
+        ("kinetic, initial", energy.initial),
+        ("kinetic, final", energy.final),
+        ("normal lubrication", energy.normal_lubrication),
+        ("tangential lubrication", energy.tangential_lubrication),
+        ("dry contact", energy.dry_contact),
+    ]
+    if scene.bridge is not None:
+        terms.append(("capillary work", energy.capillary))
+    if scene.pendulum is not None:
+        terms.append(("strings", energy.strings))
+    percent = 100 / energy.initial if energy.initial else 0.0
+    lines = [f"{'energy':<{_LABEL}}{'J':>11}{'%':>10}"]
+    lines += [f"  {name:<{_LABEL - 2}}{_exponent(value, 3):>11}{value * percent:>10.3f}" for name, value in terms]
+    residual, part = _exponent(energy.residual, 1), _exponent(energy.residual * percent, 1)
+    return [*lines, f"  {'residual':<{_LABEL - 2}}{residual:>11}{part:>10}"]
+
+
+def _exponent(value: float, digits: int) -> str:
+    return f"{value:.{digits}e}" if value else "0"
+
+
+def _numerics(collision: Collision) -> list[str]:
+    drift = collision.angular_momentum_drift
+    lines = []
+    if drift is not None:
+        lines = [_line("angular momentum", _exponent(drift, 1), "relative drift")]
+    elif collision.scene.pendulum is not None:
+        lines = [_line("angular momentum", "-", "not conserved: the strings take from it")]
+    return [*lines, _line("engine", f"{collision.engine}, {collision.steps} steps")]

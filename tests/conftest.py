@@ -1,0 +1,30 @@
+"""Shared data: the public reference collisions and boundaries, copied into the repository."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+DATA = Path(__file__).parent / "data"
+COLLISIONS: list[dict[str, Any]] = json.loads((DATA / "collisions.json").read_text())
+
+
+def _name(case: dict[str, Any]) -> str:
+    return f"{case['name']} St {case['impact']['stokes']} {case['impact']['angle']}"
+
+
+@pytest.fixture(params=COLLISIONS, ids=_name)
+def reference(request: pytest.FixtureRequest) -> dict[str, Any]:
+    """One reference collision: scene, impact, results, error estimate, conditioning."""
+    case: dict[str, Any] = request.param
+    return case
+
+
+@pytest.fixture(scope="session")
+def reference_boundaries() -> dict[str, Any]:
+    """Changes of outcome of the presets at four angles."""
+    boundaries: dict[str, Any] = json.loads((DATA / "boundaries.json").read_text())
+    return boundaries

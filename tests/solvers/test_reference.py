@@ -1,0 +1,89 @@
+"""One collision against an independent high-precision implementation (tests/data, 80-bit Taylor series)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from wetdoublet.solvers import Collision, Scene, collide
+
+RTOL = 1e-10
+TOLERANCE = 1e-7  # what both engines owe at RTOL
+QUANTITIES = (
+    "restitution",
+    "tangential_restitution",
+    "rotation",
+    "contact_time",
+    "smallest_gap",
+    "final_spin",
+    "final_rotation_rate",
+)
+
+
+def _collide(reference: dict[str, Any], engine: str) -> Collision:
+    scene = Scene.from_dict(reference["scene"])
+    return collide(
+        scene,
+        stokes=reference["impact"]["stokes"],
+        angle=reference["impact"]["angle"],
+        rtol=RTOL,
+        engine=engine,
+    )
+
+
+def _same(found: float | None, expected: float | None, tolerance: float, name: str) -> None:
+    if expected is None:
+        assert found is None, name
+    else:
+        assert found == pytest.approx(expected, rel=tolerance, abs=0.0 if expected else tolerance), name
+
+
+@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
+def test_reference_collisions(reference: dict[str, Any], engine: str) -> None:
+    """Outcome, separation quantities, events, energies and conservation laws equal the reference's."""
+    expected = reference["results"]
+    found = _collide(reference, engine).to_dict()
+    assert found["outcome"] == expected["outcome"]
+    for quantity in QUANTITIES:
+        _same(found[quantity], expected[quantity], TOLERANCE, quantity)
+    for number in ("stokes", "centrifugal", "capillary"):
+        _same(found[number], expected[number], 1e-13, number)
+    initial = found["energy"]["initial"]
+    assert abs(found["energy"]["residual"]) < 1e-8 * initial
+    if reference["scene"]["model"]["arm"] == "midgap" and "pendulum" not in reference["scene"]:
+        assert found["angular_momentum_drift"] < 1e-9
+    if expected["outcome"] == "stick":
+        return
+    assert found["reversal"] == expected["reversal"]
+    assert [event["kind"] for event in found["events"]] == [event["kind"] for event in expected["events"]]
+    for mine, theirs in zip(found["events"], expected["events"], strict=True):
+        assert mine["time"] == pytest.approx(theirs["time"], rel=TOLERANCE, abs=1e-300), mine["kind"]
+    for term, value in expected["energy"].items():
+        assert found["energy"][term] == pytest.approx(value, abs=TOLERANCE * initial), term
+
+
+def test_rtol_is_honoured(reference: dict[str, Any]) -> None:
+    """The default engine's error in e_n falls with the tolerance, and at 1e-12 is below 1e-9 times the conditioning."""
+    expected, impact = reference["results"], reference["impact"]
+    if expected["outcome"] == "stick":
+        pytest.skip("a stick has no restitution to compare")
+    scene = Scene.from_dict(reference["scene"])
+    errors = []
+    for rtol in (1e-5, 1e-12):
+        found = collide(scene, stokes=impact["stokes"], angle=impact["angle"], rtol=rtol, ledger=False)
+        errors.append(abs(found.restitution / expected["restitution"] - 1))
+    assert errors[1] <= errors[0]
+    assert errors[1] < 1e-9 * max(1.0, reference["kappa"])
+
+
+def test_ledger_off_leaves_the_collision_alone(reference: dict[str, Any]) -> None:
+    """Without the ledger the reduced equations are flown: same answer, energy and drift null."""
+    impact = reference["impact"]
+    scene = Scene.from_dict(reference["scene"])
+    full = collide(scene, stokes=impact["stokes"], angle=impact["angle"], rtol=RTOL)
+    lean = collide(scene, stokes=impact["stokes"], angle=impact["angle"], rtol=RTOL, ledger=False)
+    assert lean.energy is None
+    assert lean.angular_momentum_drift is None
+    assert lean.outcome == full.outcome
+    assert lean.restitution == pytest.approx(full.restitution, rel=TOLERANCE)
+    assert lean.to_dict()["energy"] is None
