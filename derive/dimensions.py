@@ -11,6 +11,7 @@ from fractions import Fraction
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,9 @@ class DimensionError(ValueError):
     """An expression is not dimensionally homogeneous; the message names the term at fault."""
 
 
-_TRANSCENDENTAL = (sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan)
+_TRANSCENDENTAL = (
+    sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan, sp.sinh, sp.cosh, sp.tanh,
+)  # fmt: skip
 
 
 def dimension_of(
@@ -98,6 +101,8 @@ def dimension_of(
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
         if isinstance(node, sp.Piecewise):
+            for relation in node.atoms(Relational):
+                _common(relation, relation.args)
             return _common(node, [value for value, _ in node.args])
         if isinstance(node, _TRANSCENDENTAL):
             _demand_pure(node, node.args[0])

@@ -121,7 +121,7 @@ class BarrierProof:
         self.model, self.p, self.rtol = model, p, rtol
         self.groups = dict(zip(model.groups, p, strict=True))
         self.theorem = model.choice.law("arm") != "surface"
-        self._fixed: tuple[Barrier, ...] | None = None
+        self._known: tuple[float, tuple[Barrier, ...]] | None = None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
@@ -142,11 +142,14 @@ class BarrierProof:
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
-        if not self.theorem:
-            return self._search(y)
-        if self._fixed is None:
-            self._fixed = self._search(y)
-        return self._fixed
+        momentum = self._momentum(y)
+        if self._known is None or (self._known[0] != momentum and not self.theorem):
+            self._known = (momentum, self._search(y))
+        return self._known[1]
+
+    def _momentum(self, y: np.ndarray) -> float:
+        """Angular momentum as the search sees it; where it is conserved the value does not matter."""
+        return 0.0 if self.theorem else self.model.values("angular_momentum", y, self.p)["angular_momentum"]
 
     def _drift(self, y: np.ndarray, phase: Phase) -> float:
         """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).

@@ -27,6 +27,7 @@ _ZOOM = 5.0  # the approach has a column of its own if the flight is longer than
 _NEXT = 2.6  # ... which reaches up to the next event, if that comes within this many of it
 _DECADE = 10.0  # gaps that span more are drawn on a logarithmic axis
 _LETTER = 0.078  # inches of width per character of an event's label
+_MANY, _LABELS = 50, 6  # lines and labels of events in a column, at most
 _STRIP = WIDTH - 0.5
 
 
@@ -69,7 +70,8 @@ def draw(collision: Collision) -> Figure:
     if rows:
         _time_panels(figure, grid[0], collision, rows, pictures)
     axes = figure.add_subplot(grid[-1])
-    draw_strip(axes, collision, pictures, [_caption(frame, collision, duration or pictures[-1].time) for frame in pictures])
+    latest = duration or pictures[-1].time
+    draw_strip(axes, collision, pictures, [_caption(frame, collision, latest) for frame in pictures])
     _letter(axes, "c" if rows == 4 else "b" if rows else "", 0)
     figure.supxlabel(_note(collision, pictures), fontsize=7.5, color=GREY)
     return figure
@@ -85,6 +87,10 @@ def _figures(value: float, unit: str) -> str:
     return f"{number} {_micro(name)}"
 
 
+def _short(value: float) -> str:
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
+
+
 def _title(collision: Collision) -> str:
     name = name_of(collision.scene).replace("$", r"\$")
     numbers = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°, $e_n$ = {collision.restitution:.4g}"
@@ -93,22 +99,22 @@ def _title(collision: Collision) -> str:
 
 
 def _note(collision: Collision, pictures: Sequence[Frame]) -> str:
-    text = "Seen from above, to scale, film and liquid bridge in blue; arrows: velocities; lines: marks that met at first touch."
-    if pictures[-1].free:
+    text = "Seen from above, to scale, film and liquid bridge in blue; arrows: velocities"
+    text += "; lines: marks that met at first touch."
+    if collision.contact_time == 0 or collision.until == 0:
+        text += "\nThe outcome is certain at first touch: there is no flight to follow."
+    elif pictures[-1].free:
         strings = ", strings left out" if collision.scene.pendulum is not None else ""
         text += f"\nLast picture: drawn on after rupture along straight lines{strings}."
-    elif collision.outcome == "stick":
-        if collision.until == 0:
-            text += "\nThe outcome is certain at first touch: nothing had to be integrated."
-        elif collision.certified:
-            text += "\nThe outcome is certain from the last picture on: the flight was not followed further."
+    elif collision.certified:
+        text += "\nThe outcome is certain from the last picture on: the flight was not followed further."
     return text
 
 
 def _caption(frame: Frame, collision: Collision, latest: float) -> str:
     factor, unit = prefix(latest)
-    time = "first touch" if frame.time == 0 else f"{frame.time / factor:.3g} {_micro(unit + 's')}"
-    turned = f"\nβ = {math.degrees(frame.angle):.3g}°" if collision.angle else ""
+    time = "first touch" if frame.time == 0 else f"{_short(frame.time / factor)} {_micro(unit + 's')}"
+    turned = f"\nβ = {_short(math.degrees(frame.angle))}°" if collision.angle else ""
     return f"{time}{turned}" + ("\napart" if frame.free else "")
 
 
@@ -118,20 +124,19 @@ def _time_panels(figure: Figure, place: Any, collision: Collision, rows: int, pi
     time = np.asarray(data["time"])
     duration, zoom = float(time[-1]), _zoom(collision, float(time[-1]))
     grid = place.subgridspec(rows, 2 if zoom else 1, width_ratios=[1, 1.7] if zoom else [1])
-    panels = np.array([[figure.add_subplot(grid[row, column]) for column in range(grid.ncols)] for row in range(rows)])
-    whole = Column(0.0, duration, "whole flight" if zoom else "", panels[:, -1], 5.0 if zoom else 8.0, zoom or 0.0)
-    columns = [Column(0.0, zoom, "approach", panels[:, 0], 2.9), whole] if zoom else [whole]
+    panels = [[figure.add_subplot(grid[row, column]) for row in range(rows)] for column in range(grid.ncols)]
+    whole = Column(0.0, duration, "whole flight" if zoom else "", panels[-1], 5.0 if zoom else 8.0, zoom or 0.0)
+    columns = [Column(0.0, zoom, "approach", panels[0], 2.9), whole] if zoom else [whole]
     for column in columns:
         _fill(column, collision, rows)
         _events(column, collision)
     _match(columns, time, np.asarray(data["opening_velocity"]))
     for row, letter in ((0, "a"), (2, "b")):
         if row < rows:
-            _letter(panels[row, 0], letter, -46)
+            _letter(panels[0][row], letter, -46)
     if rows == 4:
-        for frame in pictures:
-            if not frame.free:
-                whole.panels[3].plot(frame.time / whole.unit[0], math.degrees(frame.angle), "o", color=INK, markersize=4, fillstyle="none")
+        shown = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
+        whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
 
 
 def _zoom(collision: Collision, duration: float) -> float | None:
@@ -168,10 +173,10 @@ def _fill(column: Column, collision: Collision, rows: int) -> None:
         angle.set_ylabel("angle β (deg)")
     margin = 0.02 * (column.end - column.start) / factor
     for panel in column.panels:
-        after = margin if collision.trajectory is not None and column.end == time[-1] * factor else 0.2 * margin
+        after = 0.2 * margin if column.title == "approach" else margin
         panel.set_xlim(column.start / factor - margin, column.end / factor + after)
         panel.tick_params(labelbottom=panel is column.panels[-1], labelsize=8)
-        panel.yaxis.label.set_size(8.5)
+        panel.yaxis.label.set_fontsize(8.5)
         panel.spines[["top", "right"]].set_visible(False)
         if panel.get_yscale() == "linear":
             panel.yaxis.set_major_locator(MaxNLocator(4))
@@ -225,12 +230,17 @@ def _events(column: Column, collision: Collision) -> None:
     marks = [(event.time, event.kind) for event in collision.events]
     if collision.outcome == "stick" and collision.until is not None and collision.certified:
         marks.append((collision.until, "proved to stick"))
-    for time, _kind in marks:
-        if time <= column.end * (1 + 1e-9):
-            for panel in column.panels:
-                panel.axvline(time / factor, color=GREY, linewidth=0.8, linestyle="--", zorder=1)
+    lines = [time for time, _ in marks if time <= column.end * (1 + 1e-9)]
+    if len(lines) > _MANY:  # of a chatter, one per place
+        lines = list({round(200 * time / span): time for time in lines}.values())
+    for time in lines:
+        for panel in column.panels:
+            panel.axvline(time / factor, color=GREY, linewidth=0.8, linestyle="--", zorder=1)
     taken: list[float] = []  # right end of the last label on each level, inches
-    for time, text in _grouped([mark for mark in marks if column.shows(mark[0])], 0.02 * span):
+    shown, near = [mark for mark in marks if column.shows(mark[0])], 0.02 * span
+    while len(_grouped(shown, near)) > _LABELS:
+        near *= 2
+    for time, text in _grouped(shown, near):
         at = (time - column.start + 0.02 * span) / span * column.width
         size = _LETTER * len(text)
         side = "left" if at < 0.5 * column.width else "right"
@@ -267,7 +277,7 @@ def _match(columns: Sequence[Column], time: np.ndarray, velocity: np.ndarray) ->
     zoomed, whole = columns
     for row, panel in enumerate(zoomed.panels):
         if row == 3:  # the angle has its own scale in each, too
-            turned = panel.lines[0].get_ydata()[time <= zoomed.end * (1 + 1e-9)]
+            turned = np.asarray(panel.lines[0].get_ydata())[time <= zoomed.end * (1 + 1e-9)]
             panel.set_ylim(-0.08 * turned.max(), 1.12 * turned.max())
         elif row != 1:
             whole.panels[row].sharey(panel)

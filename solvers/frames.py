@@ -1,10 +1,10 @@
-"""The doublet at a few instants, seen from above: where the spheres are, how they have turned, and a strip of pictures."""
+"""The doublet at a few instants, seen from above: where the spheres are, how they have turned, and their picture."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,10 +13,11 @@ from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 from .result import Collision
 from .scene import Scene
 
-LIQUID, FIRST, SECOND, INK = "#56B4E9", "#E8E8E8", "#BDBDBD", "#202020"
+LIQUID, VELOCITY, FIRST, SECOND, INK = "#56B4E9", "#D55E00", "#E8E8E8", "#BDBDBD", "#202020"
 _FLOWN = 5  # frames of a flight that shows something; else 3
 _APART = 0.8  # of R: how much further apart the last frame of a separated pair is
 _BETWEEN = 0.7  # of R: space between frames
+_ARROW = 1.15  # of R: length of the fastest velocity's arrow
 
 Vector = tuple[float, float]
 
@@ -71,15 +72,17 @@ def frames(collision: Collision) -> list[Frame]:
     still = np.ptp(rotation) < math.radians(20) and np.ptp(gap) < 0.2 * radius
     instants = np.linspace(0.0, time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
     approach = (-collision.speed, collision.speed * math.tan(collision.angle) * (1 + gap[0] / (2 * radius)))
-    found = [
-        Frame(float(t), *(float(np.interp(t, time, values)) for values in (gap, rotation, turned)), radius)
-        for t in (instants if time[-1] > 0 else [0.0])
-    ]
-    first = found[0]
-    found[0] = Frame(first.time, float(gap[0]), float(rotation[0]), first.turned, radius, approach)
+
+    def at(instant: float) -> Frame:
+        here, angle, own = (float(np.interp(instant, time, values)) for values in (gap, rotation, turned))
+        return Frame(float(instant), here, angle, own, radius)
+
+    found = [at(instant) for instant in (instants if time[-1] > 0 else [0.0])]
+    found[0] = replace(found[0], relative=approach)
     if collision.outcome != "stick":
+        last = Frame(float(time[-1]), float(gap[-1]), float(rotation[-1]), float(turned[-1]), radius)
         rates = (float(data[name][-1]) for name in ("opening_velocity", "rotation_rate", "spin"))
-        after = _free_flight(Frame(float(time[-1]), float(gap[-1]), float(rotation[-1]), float(turned[-1]), radius), *rates)
+        after = _free_flight(last, *rates)
         found += [after] if after else []
     return found
 
@@ -113,7 +116,7 @@ def _free_flight(last: Frame, opening: float, rate: float, spin: float) -> Frame
 
 
 def wetted_radius(scene: Scene, gap: float) -> float:
-    """Return the radius of the liquid between the spheres, m: a bridge's from its volume, else where the film is filled.
+    """Return the radius of the liquid between the spheres, m: of a bridge, else where the film is filled.
 
     Surfaces are parabolas, h = x + s^2/R; with a bridge, the volume between them inside s is V R^3.
     """
@@ -164,15 +167,14 @@ def _draw(axes: Axes, collision: Collision, frame: Frame, place: float, fastest:
         ball = Circle(centre, 1.0, facecolor=shade, edgecolor=INK, linewidth=0.8, zorder=3)
         ball.set_gid("sphere")
         axes.add_patch(ball)
-        mark = (math.cos(start + frame.turned), math.sin(start + frame.turned))
-        axes.plot([centre[0], centre[0] + mark[0]], [centre[1], centre[1] + mark[1]], color=INK, linewidth=1.2, zorder=4)
+        rim = (centre[0] + math.cos(start + frame.turned), centre[1] + math.sin(start + frame.turned))
+        axes.plot(*zip(centre, rim), color=INK, linewidth=1.2, zorder=4)
         axes.plot(*centre, marker="o", markersize=2.2, color=INK, zorder=4)
     if frame.relative:
-        for centre, sign in zip(centres, (-1, 1), strict=True):
-            tip = (centre[0] + sign * 1.15 * frame.relative[0] / fastest, centre[1] + sign * 1.15 * frame.relative[1] / fastest)
-            arrow = FancyArrowPatch(
-                centre, tip, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0, color="#D55E00", linewidth=1.4, zorder=5
-            )
+        for centre, length in zip(centres, (-_ARROW / fastest, _ARROW / fastest), strict=True):
+            tip = (centre[0] + length * frame.relative[0], centre[1] + length * frame.relative[1])
+            arrow = FancyArrowPatch(centre, tip, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0, zorder=5)
+            arrow.set(color=VELOCITY, linewidth=1.4)
             axes.add_patch(arrow)
 
 

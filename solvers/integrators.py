@@ -87,14 +87,13 @@ class Plain:
 
 
 @lru_cache(maxsize=512)
-def plain(flow: Flow, plugin: str, rtol: float, outputs: int = 1) -> Plain:
-    """The integrator of a flow; with `outputs` > 1 the solution at that many equal parts of the duration."""
+def plain(flow: Flow, plugin: str, rtol: float, grid: tuple[float, ...] = (1.0,)) -> Plain:
+    """The integrator of a flow, with the solution at the parts of the duration that `grid` names."""
     parts = expressions(flow)
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
-    grid = [(k + 1) / outputs for k in range(outputs)]
     with quiet():
-        return Plain(integrator("flow", plugin, dae, 0, grid, _tolerances(rtol, plugin)), plugin)
+        return Plain(integrator("flow", plugin, dae, 0, list(grid), _tolerances(rtol, plugin)), plugin)
 
 
 @dataclass(frozen=True)

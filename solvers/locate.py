@@ -225,7 +225,7 @@ class Locate:
                 return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
         holds = False
-        if abs(after["opening"]) < REST_SPEED and inward > 0:
+        if inward > 0 and self._too_weak(after["opening"], inward):
             if kind == "glass":
                 phase = phase.with_(motion=CLOSING)  # no solid holds the gap: it closes again from rest
             else:
@@ -234,6 +234,13 @@ class Locate:
                 holds = True
                 self.y[1] = 0.0
         self._next(Step(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
+
+    def _too_weak(self, rebound: float, inward: float) -> bool:
+        """A rebound that decides nothing: slower than REST_SPEED, or rising by less than the tolerance of the gap.
+
+        Without drag it rises by u^2/(2 inward); what follows is chatter, a geometric series that dies in the same spot.
+        """
+        return rebound < REST_SPEED or rebound**2 / (2 * inward) < self.rtol * float(self.y[0])
 
     def _error(self, message: str, advice: str) -> ComputationError:
         state = dict(zip(self.model.state, map(float, self.y), strict=False))

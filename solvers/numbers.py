@@ -36,8 +36,8 @@ class Numbers:
         return self.groups["obliquity"] > 0
 
 
-def si_values(scene: Scene, speed: float, angle: float) -> dict[str, float]:
-    """The scene's quantities under the vocabulary's names, SI."""
+def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[str, float]:
+    """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
     particles, liquid = scene.particles, scene.liquid
     values = {
         "reduced_radius": particles.reduced_radius,
@@ -47,9 +47,8 @@ def si_values(scene: Scene, speed: float, angle: float) -> dict[str, float]:
         "viscosity": liquid.viscosity,
         "film_thickness": liquid.film_thickness,
         "glass_transition_pressure": liquid.glass_transition_pressure,
-        "speed": speed,
-        "angle": angle,
     }
+    values |= {name: value for name, value in (("speed", speed), ("angle", angle)) if value is not None}
     if particles.youngs_modulus is not None and particles.poisson_ratio is not None:
         values |= {"youngs_modulus": particles.youngs_modulus, "poisson_ratio": particles.poisson_ratio}
     if liquid.density is not None:

@@ -150,29 +150,18 @@ class Scene:
         """x_f in m: of the bridge, or without one of the film."""
         if self.bridge is None:
             return self.liquid.film_thickness
-        wetting = 1 + self.bridge.contact_angle / 2
-        return 2 * self.particles.reduced_radius * math.cbrt(self.bridge.volume) * wetting
-
-    @property
-    def elastic(self) -> float | None:
-        """theta_e = 2 (1 - nu^2)/(pi E) in 1/Pa, or None without elastic constants."""
-        return self.particles.elastic
+        return _scaled("rupture_gap", self) * self.liquid.film_thickness
 
     def elastic_length(self, speed: float) -> float | None:
         """Return x_r in m, the gap at which the spheres' own elasticity stops `speed` (m/s); None without it."""
-        if self.elastic is None:
+        if self.particles.youngs_modulus is None:
             return None
-        a = self.particles.reduced_radius
-        length: float = (
-            3 * math.pi * self.elastic * self.liquid.viscosity * a * math.sqrt(a) * speed / math.sqrt(2)
-        ) ** 0.4
-        return length
+        return _scaled("elastic_gap", self, speed) * self.liquid.film_thickness
 
     @property
     def stokes_per_speed(self) -> float:
         """m/(6 pi mu a^2) in s/m: a Stokes number over its normal speed."""
-        a = self.particles.reduced_radius
-        return self.particles.reduced_mass / (6 * math.pi * self.liquid.viscosity * a * a)
+        return _scaled("stokes", self, speed=1.0)
 
     def stokes_of(self, speed: float) -> float:
         """Return the Stokes number of a normal speed (m/s)."""
@@ -205,3 +194,15 @@ class Scene:
         if self.angle is None:
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
         return self.speed, self.angle
+
+
+def _scaled(group: str, scene: Scene, speed: float | None = None) -> float:
+    """Return a group by its emitted formula; inf where a double overflows."""
+    from ..generated import scaling
+    from .numbers import si_values
+
+    values = si_values(scene, speed, None)
+    try:
+        return float(getattr(scaling, group)(*(values[name] for name in scaling.ARGUMENTS[group])))
+    except (OverflowError, ZeroDivisionError):
+        return math.inf

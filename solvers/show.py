@@ -113,11 +113,12 @@ def _outcome(collision: Collision) -> list[str]:
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
     if collision.outcome == "stick" and collision.reversal:
         lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
+    speed = (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s")
     rotation = collision.rotation
     turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
     return [
         *lines,
-        _line("approach speed", (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s"), "normal component"),
+        _line("approach speed", speed, "normal component"),
         _line("restitution e_n", plain(restitution), gained),
         _line("tangential e_t", plain(collision.tangential_restitution)),
         _line("rotation", degrees(rotation), turns),

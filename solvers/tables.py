@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -33,13 +32,6 @@ class Particles(Table):
     dry_restitution: float
     youngs_modulus: float | None = None
     poisson_ratio: float | None = None
-
-    @property
-    def elastic(self) -> float | None:
-        """theta_e = 2 (1 - nu^2)/(pi E) in 1/Pa, or None without elastic constants."""
-        if self.youngs_modulus is None or self.poisson_ratio is None:
-            return None
-        return 2 * (1 - self.poisson_ratio**2) / (math.pi * self.youngs_modulus)
 
 
 @dataclass(frozen=True)

@@ -157,9 +157,10 @@ class Printer:
         return text
 
     def _piecewise(self, node: sp.Piecewise) -> str:
-        """Nested if_else. A branch not taken is still evaluated, so each sees its variable held inside its own range:
-        neither its value nor any derivative can then be NaN or infinite (clamping to the bound would not do: sqrt(1 - x)
-        has no derivative at 1).
+        """Nested if_else, each branch seeing its variable held inside the branch's own range.
+
+        A branch not taken is evaluated all the same; held so, neither its value nor a derivative of any order can be
+        NaN. (Clamping to the bound would not do: sqrt(1 - x) has no derivative at 1.)
         """
         if node.args[-1][1] != sp.true:
             raise EmissionError(f"Piecewise without a final otherwise: {node}")
@@ -173,7 +174,8 @@ class Printer:
                 )
             names.add(condition.lhs.name)
         if len(names) > 1:
-            raise EmissionError(f"Piecewise conditions on {', '.join(sorted(names))} together cannot be guarded: {node}")
+            both = ", ".join(sorted(names))
+            raise EmissionError(f"Piecewise conditions on {both} together cannot be guarded: {node}")
         choose = self._name("if_else")
         text = ""
         facts: list[tuple[sp.Basic, bool]] = []  # conditions that hold or fail where a branch is taken
@@ -196,7 +198,7 @@ class Printer:
                 raise EmissionError(
                     f"branch {value} of {node} is not regular at {variable} = {point}, so it cannot be guarded"
                 )
-        guard, held = variable.name, self._print(point)[0]
+        guard, held = self._print(variable)[0], self._print(point)[0]
         for condition, holds in facts:
             test = self._print(condition)[0]
             guard = f"if_else({test}, {guard}, {held})" if holds else f"if_else({test}, {held}, {guard})"

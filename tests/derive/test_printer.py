@@ -1,0 +1,290 @@
+"""The printer: exact numbers, right precedence, guarded branches, a refusal by name of what it does not know."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import casadi
+import pytest
+import sympy as sp
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from wetdoublet.derive.emit.printer import EmissionError, Printer
+from wetdoublet.derive.laws import slot_call
+
+x, y, z = sp.symbols("x y z", real=True)
+p, q = sp.symbols("p q", positive=True)
+
+
+def source(expression: sp.Expr) -> tuple[str, dict[str, object]]:
+    """Printed text and the CasADi names it asks for, as a namespace."""
+    printer = Printer()
+    text = printer(expression)
+    return text, {name: getattr(casadi, name) for name in printer.imports}
+
+
+def evaluate(expression: sp.Expr, values: dict[str, float]) -> float:
+    """The printed text, evaluated by CasADi at floats."""
+    text, names = source(expression)
+    symbols = {name: casadi.SX.sym(name) for name in values}
+    value = eval(text, {"__builtins__": {}}, {**names, **symbols})
+    function = casadi.Function("f", list(symbols.values()), [casadi.SX(value)])
+    return float(function(*values.values()))
+
+
+UNKNOWN = {
+    "erf": sp.erf(x),
+    "zeta": sp.zeta(x),
+    "Heaviside": sp.Heaviside(x),
+    "gamma": sp.gamma(p),
+    "besselj": sp.besselj(0, x),
+    "floor": sp.floor(x),
+    "atan2": sp.atan2(x, y),
+    "Derivative": sp.Derivative(sp.Function("f")(x), x),
+    "Integral": sp.Integral(x, (x, 0, y)),
+    "And": sp.And(x < 1, y < 2),
+    "Equality": sp.Eq(x, y),
+    "ImaginaryUnit": sp.I,
+    "Exp1": sp.E,
+    "EulerGamma": sp.EulerGamma,
+    "Infinity": sp.oo,
+    "NaN": sp.nan,
+    "DiracDelta": sp.DiracDelta(x),
+    "BooleanTrue": sp.true,
+    "f": sp.Function("f")(x),
+}
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_an_unknown_node_is_refused_by_name(name: str):
+    """A node without CasADi source is an error that names it, alone and deep inside an expression."""
+    node = UNKNOWN[name]
+    with pytest.raises(EmissionError, match=name):
+        Printer()(node)
+    if isinstance(node, sp.Expr) and node.is_finite is not False and node is not sp.nan:
+        with pytest.raises(EmissionError, match=name):
+            Printer()(sp.sin(2 + p * node))
+
+
+@pytest.mark.parametrize("name", ["a b", "1x", "x'", ""])
+def test_a_symbol_that_is_no_name_is_refused(name: str):
+    """A symbol that Python could not parse is refused, quoted."""
+    with pytest.raises(EmissionError, match="not a Python name"):
+        Printer()(sp.Symbol(name))
+
+
+def test_only_imported_names_are_used():
+    """Every function name in the text is one the printer asks to import, so nothing leaks from elsewhere."""
+    expression = sp.exp(x) + sp.sqrt(p) * sp.log(p) + sp.sin(x) / sp.cos(x) + sp.pi * sp.Max(x, y) + sp.Abs(z)
+    text, names = source(expression)
+    used = {word for word in text.replace("(", " ( ").replace("*", " ").split() if word.isidentifier()}
+    assert used - {"x", "y", "z", "p"} <= names.keys()
+    assert {"exp", "sqrt", "log", "sin", "cos", "pi", "fmax", "fabs"} == names.keys()
+
+
+def test_a_slot_call_goes_to_its_law():
+    """A law's slot is printed as a call of the law."""
+    assert Printer()(slot_call("bridge", "force", x / 2, y)) == "laws.bridge.force(x/2, y)"
+
+
+# Numbers
+
+
+@given(st.fractions(max_denominator=10**12).filter(lambda value: abs(value) < 10**15))
+def test_a_rational_is_its_nearest_double(value: Fraction):
+    """A rational's text, a decimal or p/q, is the correctly rounded double of the rational."""
+    text, _ = source(sp.Rational(value.numerator, value.denominator))
+    assert eval(text) == value.numerator / value.denominator  # Python's int/int rounds correctly
+
+
+@given(st.integers(-(10**9), 10**9), st.integers(0, 15))
+def test_a_decimal_coefficient_keeps_its_digits(digits: int, places: int):
+    """A finite decimal, such as a published coefficient, is printed as the double that its decimal text denotes."""
+    text, _ = source(sp.Rational(digits, 10**places))
+    assert eval(text) == float(f"{digits}e-{places}")
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_float_round_trips(value: float):
+    """A double is printed by its repr and read back bit for bit."""
+    text, _ = source(sp.Float(value))
+    assert eval(text) == value
+
+
+def test_a_float_of_more_digits_is_refused():
+    """A number that no double holds is an error and not silently rounded."""
+    with pytest.raises(EmissionError, match="round-trip"):
+        Printer()(sp.Float("0.1", 40))
+
+
+@given(st.fractions(-20, 20, max_denominator=40), st.floats(0.1, 10))
+def test_powers_of_every_rational(power: Fraction, base: float):
+    """p**(n/d) is evaluated with the double nearest n/d, negative powers as quotients."""
+    found = evaluate(p ** sp.Rational(power.numerator, power.denominator), {"p": base})
+    assert found == pytest.approx(base ** float(power), rel=1e-14)  # |ln base * power| < 50, each half an ulp
+
+
+# Precedence
+
+leaves = st.one_of(
+    st.sampled_from([x, y, z, p, q, sp.pi]),
+    st.integers(-3, 3).map(sp.Integer),
+    st.fractions(-3, 3, max_denominator=12).map(lambda value: sp.Rational(value.numerator, value.denominator)),
+)
+
+
+def _grow(children: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
+    two = st.tuples(children, children)
+    half, third = sp.Rational(1, 2), sp.Rational(1, 3)
+    safe_power = st.sampled_from([-2, -1, -half, third, half, 3 * half, 2, 3])
+    return st.one_of(
+        st.lists(children, min_size=2, max_size=4).map(lambda terms: sp.Add(*terms)),
+        st.lists(children, min_size=2, max_size=3).map(lambda factors: sp.Mul(*factors)),
+        two.map(lambda pair: pair[0] - pair[1]),
+        two.map(lambda pair: pair[0] / (2 + pair[1] ** 2)),
+        two.map(lambda pair: (1 + pair[0] ** 2) ** sp.cos(pair[1])),
+        st.tuples(children, safe_power).map(lambda pair: (2 + sp.sin(pair[0])) ** pair[1]),
+        st.tuples(children, st.sampled_from([2, 3])).map(lambda pair: pair[0] ** pair[1]),
+        children.map(lambda child: -child),
+        children.map(sp.Abs),
+        children.map(sp.cos),
+        children.map(lambda child: sp.exp(-(child**2))),
+        children.map(lambda child: sp.log(1 + child**2)),
+        children.map(sp.tanh),
+        two.map(lambda pair: sp.Min(*pair)),
+        two.map(lambda pair: sp.Max(*pair)),
+        two.map(lambda pair: sp.Mul(sp.Integer(-1), sp.Add(*pair), evaluate=False)),
+        two.map(lambda pair: sp.Pow(sp.Pow(2 + sp.cos(pair[0]), half, evaluate=False), 2 + sp.cos(pair[1]))),
+    )
+
+
+trees = st.recursive(leaves, _grow, max_leaves=8)
+VALUES = {"x": 0.7, "y": -1.3, "z": 0.4, "p": 1.9, "q": 0.6}
+
+
+EXACTLY = {symbol: sp.Rational(Fraction(VALUES[symbol.name])) for symbol in (x, y, z, p, q)}
+
+
+@settings(max_examples=150, deadline=None)
+@given(trees)
+def test_printed_text_means_what_the_expression_means(tree: sp.Expr):
+    """Any tree of the whitelist evaluates, as printed, to what sympy makes of it in 30 digits."""
+    assume(not tree.has(sp.re, sp.im, sp.sign))  # what sympy may make of Abs; not in the whitelist
+    exact = tree.subs(EXACTLY).evalf(30)
+    assume(exact.is_real and abs(exact) < 1e6)
+    # Rounding in any node moves the result by at most a few hundred ulps (8 leaves, slopes of order one) of the
+    # largest number on the way.
+    on_the_way = (node.subs(EXACTLY).evalf() for node in sp.preorder_traversal(tree) if isinstance(node, sp.Expr))
+    largest = max([1.0, *(abs(float(value)) for value in on_the_way if value.is_real)])
+    assert abs(evaluate(tree, VALUES) - float(exact)) <= 1e-13 * largest, source(tree)[0]
+
+
+PRECEDENCE = [
+    -(x**2),
+    (-x) ** 2,
+    sp.Pow(sp.Integer(-2), x, evaluate=False),
+    sp.Pow(sp.Rational(-1, 3), 2, evaluate=False),
+    p ** (q**x),
+    (p**q) ** x,
+    p ** (-q),
+    1 / (p * q),
+    1 / (p / q),
+    x - (y - z),
+    x / (y * z) / p,
+    sp.Mul(x, sp.Add(y, z), -1, evaluate=False),
+    sp.Mul(sp.Rational(-2, 3), x, -y - z, evaluate=False),
+    sp.sqrt(p) ** 3,
+    1 / sp.sqrt(p),
+    p ** sp.Rational(-2, 3),
+    x * (y - z) * (z - y),
+    -(x - y) * (z - x),
+    sp.exp(-p) ** 2,
+    (x + y) ** 2 / (x - z) ** 3,
+]
+
+
+@pytest.mark.parametrize("expression", PRECEDENCE, ids=str)
+def test_precedence(expression: sp.Expr):
+    """Signs, powers of powers, quotients of quotients and differences keep their meaning in Python's precedence."""
+    values = {**VALUES, "x": 2.0} if expression.has(sp.Integer(-2)) and expression.is_Pow else VALUES
+    exact = expression.subs({symbol: sp.Rational(Fraction(values[symbol.name])) for symbol in expression.free_symbols})
+    assert evaluate(expression, values) == pytest.approx(float(exact.evalf(30)), rel=1e-13)
+
+
+# Branches
+
+BRANCHED = {
+    "root | log": (sp.Piecewise((sp.sqrt(1 - x), x < 1), (sp.log(x), True)), (-2.0, 0.3, 1.7, 4.0)),
+    "log | root": (sp.Piecewise((sp.log(x), x > 1), (sp.sqrt(1 - x), True)), (-2.0, 0.3, 1.7, 4.0)),
+    "inclusive": (sp.Piecewise((sp.log(2 - x), x <= 1), (sp.log(x), True)), (-2.0, 0.3, 1.0, 1.7, 4.0)),
+    "chain": (
+        sp.Piecewise((sp.sqrt(1 - x), x < 1), (sp.sqrt(x - 1) * sp.sqrt(3 - x), x < 3), (sp.log(x - 3), True)),
+        (-1.0, 0.5, 1.5, 2.9, 3.5, 9.0),
+    ),
+    "positive": (sp.Piecewise((sp.log(p) * sp.sqrt(1 - p), p < 1), (sp.acos(1 / p), True)), (0.01, 0.5, 1.5, 7.0)),
+    "symbolic bound": (sp.Piecewise((sp.sqrt(y**2 - x), x < y**2), (sp.log(x - y**2), True)), (-2.0, 1.0, 2.5)),
+    "of a product": (3 * x - 2 * sp.Piecewise((sp.sqrt(1 - x), x < 1), (sp.log(x), True)), (-2.0, 1.7)),
+}
+
+
+@pytest.mark.parametrize("name", BRANCHED)
+def test_a_branch_not_taken_yields_no_nan(name: str):
+    """Value, gradient (forward and reverse) and second derivative are the taken branch's, where the other is NaN."""
+    expression, points = BRANCHED[name]
+    (variable,) = expression.free_symbols - {y}
+    text, names = source(expression)
+    point, other = casadi.SX.sym(variable.name), casadi.SX.sym("y")
+    value = eval(text, {"__builtins__": {}}, {**names, variable.name: point, "y": other})
+    forward, reverse = casadi.jtimes(value, point, 1), casadi.jtimes(value, point, 1, True)
+    second = casadi.jtimes(reverse, point, 1, True)
+    function = casadi.Function("f", [point, other], [value, forward, reverse, second])
+    backward = function.reverse(1)
+    for at in points:
+        here = {variable: sp.Float(at, 30), y: sp.Float(VALUES["y"], 30)}
+        exact = [expression.diff(variable, order).subs(here) for order in (0, 1, 1, 2)]
+        found = [float(each) for each in function(at, VALUES["y"])]
+        assert found == pytest.approx([float(each.evalf(25)) for each in exact], rel=1e-12), at
+        seeded = backward(at, VALUES["y"], *found, 1, 0, 0, 0)
+        assert float(seeded[0]) == pytest.approx(found[1], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("condition", "named"),
+    [
+        (x**2 < 1, r"x\*\*2"),
+        (sp.And(x < 1, x > 0), "x"),
+        (sp.Eq(x, 1), "Eq"),
+        (x < x * y, "x"),
+        (sp.sin(x) < sp.cos(y), "sin"),
+    ],
+)
+def test_an_unguardable_condition_is_refused_by_name(condition: sp.Basic, named: str):
+    """A condition that gives the branches no range of one symbol is an error that shows it."""
+    with pytest.raises(EmissionError, match=f"(?s)condition .*{named}.*guarded"):
+        Printer()(sp.Piecewise((sp.sqrt(p), condition), (q, True)))
+
+
+def test_conditions_on_two_symbols_are_refused():
+    """Branches chosen by two different symbols are refused, both named."""
+    with pytest.raises(EmissionError, match="x, y"):
+        Printer()(sp.Piecewise((p, x < 1), (q, y < 1), (p * q, True)))
+
+
+def test_a_piecewise_must_cover_everything():
+    """Without a last branch for everything else there is nothing to emit."""
+    with pytest.raises(EmissionError, match="otherwise"):
+        Printer()(sp.Piecewise((p, x < 1), (q, x < 2)))
+
+
+def test_a_branch_without_a_regular_point_is_refused():
+    """A branch that is not even real where it is taken is refused, named, rather than emitted as NaN."""
+    with pytest.raises(EmissionError, match="not regular"):
+        Printer()(sp.Piecewise((sp.log(x - 5), x < 1), (x, True)))
+
+
+def test_minimum_and_maximum_of_many():
+    """Min and Max of three arguments nest fmin and fmax."""
+    assert evaluate(sp.Max(x, y, z), VALUES) == 0.7
+    assert evaluate(sp.Min(x, y, z), VALUES) == -1.3
+    assert math.isclose(evaluate(sp.Max(x, 2 * p, z), VALUES), 3.8)

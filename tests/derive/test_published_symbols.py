@@ -1,0 +1,278 @@
+"""The derivation arrives at the published equations (retyped here), symbol for symbol."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+from wetdoublet.derive import quantities as q
+from wetdoublet.derive import scaling
+from wetdoublet.derive.laws import LAWS, fill, film, glass, shear, strings
+from wetdoublet.derive.laws.reversal import elastic_compliance, elastic_length
+from wetdoublet.derive.laws.rupture import rupture_distance
+from wetdoublet.derive.laws.start import start_values
+from wetdoublet.derive.mechanics import (
+    F_c,
+    F_n,
+    F_t,
+    S_n,
+    S_t,
+    arm,
+    doublet_inertia,
+    equations_of_motion,
+    sphere_inertia,
+    string_forces,
+)
+from wetdoublet.derive.model import FILM, SHEAR, Model, force_laws
+
+a, m, x, u, omega, xi = q.a, q.m, q.x, q.u, q.omega, q.xi
+mu, x0, v0, sigma, beta, g, length = q.mu, q.x0, q.v0, q.sigma, q.beta, q.g, q.l_s
+r = 4 * a + x
+St, Ca, eps, tan0, s = q.stokes, q.capillary, q.aspect, q.obliquity, q.gap
+
+
+def same(left: sp.Expr, right: sp.Expr) -> bool:
+    """Whether two expressions are identically equal."""
+    return sp.simplify(left - right) == 0
+
+
+def test_inertia_of_a_sphere_is_two_fifths():
+    """One sphere of mass 2m and radius 2a has (2/5)(2m)(2a)^2 about a diameter."""
+    assert same(sphere_inertia(), sp.Rational(2, 5) * (2 * m) * (2 * a) ** 2)
+
+
+def test_inertia_of_the_doublet_is_the_papers():
+    """I(x) = m a^2 [(4 + x/a)^2 + 32/5], as the paper prints it."""
+    assert same(doublet_inertia(), m * a**2 * ((4 + x / a) ** 2 + sp.Rational(32, 5)))
+
+
+def test_kinetic_energy_of_translation_and_spin():
+    """T = 1/2 m (u^2 + r^2 omega^2) + 1/2 (32/5) m a^2 xi^2."""
+    published = m * (u**2 + r**2 * omega**2) / 2 + sp.Rational(32, 5) * m * a**2 * xi**2 / 2
+    assert same(equations_of_motion().kinetic_energy, published)
+
+
+def test_kinetic_energy_of_a_rigid_doublet():
+    """With omega = xi the energy is 1/2 m u^2 + 1/2 I omega^2, I as the paper prints it."""
+    rigid = equations_of_motion().kinetic_energy.subs(xi, omega)
+    inertia = m * a**2 * ((4 + x / a) ** 2 + sp.Rational(32, 5))
+    assert same(rigid, m * u**2 / 2 + inertia * omega**2 / 2)
+
+
+def test_normal_equation():
+    """The normal equation is m du/dt = m r omega^2 - F_n - F_c - S_n."""
+    assert same(m * equations_of_motion().separation_acceleration, m * r * omega**2 - F_n - F_c - S_n)
+
+
+def test_orbital_equation():
+    """The tangential equation is m (r domega/dt + 2 u omega) = -F_t - S_t."""
+    assert same(m * (r * equations_of_motion().orbital_acceleration + 2 * u * omega), -F_t - S_t)
+
+
+def test_spin_equation():
+    """The spin equation of either sphere is (16/5) m a^2 dxi/dt = F_t arm."""
+    assert same(sp.Rational(16, 5) * m * a**2 * equations_of_motion().spin_acceleration, F_t * arm)
+
+
+def test_angular_momentum_and_its_rate():
+    """L = m [r^2 omega + (32/5) a^2 xi]; the orbital part changes at -r (F_t + S_t)."""
+    motion = equations_of_motion()
+    assert same(motion.angular_momentum, m * (r**2 * omega + sp.Rational(32, 5) * a**2 * xi))
+    assert same(motion.orbital_momentum_rate, -r * (F_t + S_t))
+
+
+def test_film_pressure_on_a_squeezed_disc():
+    """The pressure is p = 3 mu a (-u) (1/h^2 - 1/x0^2): it vanishes at the rim h = x0 and solves Reynolds' equation."""
+    h = sp.Symbol("h", positive=True)
+    assert same(film.pressure(), 3 * mu * a * (-u) * (1 / h**2 - 1 / x0**2))
+
+
+def test_film_force_is_the_integral():
+    """F_n = (6 pi mu a^2 u/x)(1 - x/x0)^2."""
+    assert same(film.normal_force(), 6 * sp.pi * mu * a**2 * u / x * (1 - x / x0) ** 2)
+
+
+def test_film_force_has_a_kink_and_no_jump_at_the_rim():
+    """At x = x0 the force and its slope vanish from inside, while the curvature jumps to zero outside."""
+    force = film.normal_force()
+    assert force.subs(x, x0) == 0
+    assert same(force.diff(x).subs(x, x0), sp.Integer(0))
+    assert same(force.diff(x, 2).subs(x, x0), 12 * sp.pi * mu * a**2 * u / x0**3)
+
+
+def test_film_force_of_an_unbounded_film():
+    """For x0 -> infinity the force is Taylor's 6 pi mu a^2 u/x."""
+    assert same(sp.limit(film.normal_force(), x0, sp.oo), 6 * sp.pi * mu * a**2 * u / x)
+
+
+@pytest.mark.parametrize(("name", "outer"), [("immersed", 2 * a), ("film", x0)])
+def test_tangential_force(name: str, outer: sp.Expr):
+    """F_t = 8 pi mu a^2 (omega - xi) ln(outer/x), which vanishes at its own edge and in rigid rotation."""
+    found = fill(force_laws()[F_t], {"shear": LAWS["shear"][name]}).subs(SHEAR, 1)
+    published = 8 * sp.pi * mu * a**2 * (omega - xi) * sp.log(outer / x)
+    assert sp.simplify(sp.expand_log(found - published, force=True)) == 0
+    edge = LAWS["shear"][name]["edge"](x0 / a) * x0
+    assert same(edge, outer)
+    assert found.subs(xi, omega) == 0
+
+
+def test_tangential_force_is_of_a_pure_number():
+    """The integral over the film gives one logarithm, of a ratio of two thicknesses."""
+    (logarithm,) = shear.tangential_force().atoms(sp.log)
+    assert logarithm.args[0] == sp.Symbol("h_outer", positive=True) / x
+
+
+def test_film_law_fills_the_force():
+    """The nondimensional resistance put back in SI is the integrated film force."""
+    found = fill(force_laws()[F_n], {"film": LAWS["film"]["finite"]}).subs(FILM, 1)
+    assert same(found, 6 * sp.pi * mu * a**2 * u / x * (1 - x / x0) ** 2)
+
+
+@pytest.mark.parametrize(("name", "lever"), [("midgap", r / 2), ("surface", 2 * a)])
+def test_arms(name: str, lever: sp.Expr):
+    """The arm is r/2 = 2a + x/2 at mid-gap and 2a on the surface."""
+    assert same(fill(force_laws()[arm], {"arm": LAWS["arm"][name]}), lever)
+
+
+def test_swing_of_either_sphere():
+    """Either sphere swings out by d, d^2 = 1/4 (r^2 + 16 a^2 - 8 a r cos beta)."""
+    published = (strings.r**2 + 16 * a**2 - 8 * a * strings.r * sp.cos(beta)) / 4
+    assert same(strings.swing_squared(), published)
+
+
+@pytest.mark.parametrize("name", ["exact", "small-angle"])
+def test_string_forces(name: str):
+    """S_n = m g (r - 4a cos beta)/D, S_t = m g 4a sin(beta)/D, D = sqrt(l^2 - d^2), or l for small angles."""
+    swing = (r**2 + 16 * a**2 - 8 * a * r * sp.cos(beta)) / 4
+    across = length if name == "small-angle" else sp.sqrt(length**2 - swing)
+    laws = {"strings": LAWS["strings"][name]}
+    assert same(fill(force_laws()[S_n], laws), m * g * (r - 4 * a * sp.cos(beta)) / across)
+    assert same(fill(force_laws()[S_t], laws), m * g * 4 * a * sp.sin(beta) / across)
+
+
+def test_string_potential():
+    """U_s = 4 m g (l - sqrt(l^2 - d^2)): two spheres of mass 2m, each lifted by a pendulum of length l."""
+    swing = (strings.r**2 + 16 * a**2 - 8 * a * strings.r * sp.cos(beta)) / 4
+    assert same(strings.potential(False), 4 * m * g * (length - sp.sqrt(length**2 - swing)))
+    assert same(strings.potential(True), 4 * m * g * swing / (2 * length))
+
+
+def test_long_strings_are_harmonic():
+    """For l -> infinity at fixed g/l the exact forces become those of the small-angle variant."""
+    exact, small = (string_forces(strings.potential(flag), strings.r, beta) for flag in (False, True))
+    ratio = sp.Symbol("k", positive=True)
+    for full, linear in zip(exact, small, strict=True):
+        assert same(sp.limit(full.subs(g, ratio * length), length, sp.oo), linear.subs(g, ratio * length))
+
+
+def test_strings_at_rest_pull_nothing():
+    """At the rest gap, r = 4a and beta = 0, neither force acts and no energy is stored."""
+    rest = {strings.r: 4 * a, beta: 0}
+    for flag in (False, True):
+        forces = string_forces(strings.potential(flag), strings.r, beta)
+        assert [force.subs(rest) for force in forces] == [0, 0]
+        assert sp.simplify(strings.potential(flag).subs(rest)) == 0
+
+
+@pytest.mark.parametrize("name", ["literal", "film-corrected"])
+def test_glass_criterion(name: str):
+    """The axis pressure is 3 mu a |u|/x^2, or with the rim 3 mu a |u| (1/x^2 - 1/x0^2)."""
+    rim = 1 / x0**2 if name == "film-corrected" else 0
+    speed = sp.Symbol("U", positive=True)
+    scaled = LAWS["glass"][name]["pressure"](x / x0, speed / v0)
+    assert same(3 * mu * a * v0 / x0**2 * scaled, 3 * mu * a * speed * (1 / x**2 - rim))
+    assert glass.approach.name == "approach"
+
+
+def test_elastic_length():
+    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5) with theta_e = 2 (1 - nu^2)/(pi E)."""
+    theta = 2 * (1 - q.nu**2) / (sp.pi * q.E)
+    assert same(elastic_compliance(), theta)
+    fifth_power = (3 * sp.pi * theta * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** 2
+    assert same(elastic_length() ** 5, fifth_power)
+
+
+def test_rupture_distance():
+    """x_f = 2a V^(1/3)(1 + phi/2) with a bridge, x0 without."""
+    assert same(rupture_distance(True), 2 * a * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2))
+    assert rupture_distance(False) == x0
+
+
+def test_start():
+    """At first touch x = x0, u = -v0, omega = v0 tan(theta0)/(4a), xi = beta = 0."""
+    published = {x: x0, u: -v0, omega: v0 * sp.tan(q.theta0) / (4 * a), xi: 0, beta: 0}
+    assert start_values() == published
+
+
+GROUPS = {
+    "stokes": m * v0 / (6 * sp.pi * mu * a**2),
+    "capillary": 3 * mu * a * v0 / (sigma * x0),
+    "centrifugal": m * (v0 * sp.tan(q.theta0) / (4 * a)) ** 2 / sigma,
+    "reynolds": q.rho * v0 * x0 / mu,
+    "aspect": x0 / a,
+    "obliquity": sp.tan(q.theta0),
+    "glass_number": q.p_gt * x0**2 / (3 * mu * a * v0),
+    "weight": g * x0 / v0**2,
+    "string_ratio": length / a,
+    "rough_gap": q.x_b / x0,
+    "rupture_gap": 2 * a * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2) / x0,
+    "elastic_gap": (6 * (1 - q.nu**2) / q.E * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5) / x0,
+}
+
+
+def test_no_group_is_untested():
+    """The published definitions above are those of every group there is."""
+    assert GROUPS.keys() == {symbol.name for symbol in scaling.group_definitions()}
+
+
+@pytest.mark.parametrize("name", GROUPS)
+def test_group(name: str):
+    """Each group is the published combination of SI quantities."""
+    found = scaling.group_definitions()[q.VOCABULARY[name].symbol]
+    assert same(found / GROUPS[name], sp.Integer(1))
+
+
+def test_groups_undo_the_scaling():
+    """Every SI quantity written in groups gives the group back when its definition is formed from it."""
+    rules = scaling.to_groups()
+    for group, definition in scaling.group_definitions().items():
+        quantities = definition.free_symbols & {m, x0, sigma, q.p_gt, g, length}
+        if group.name in ("centrifugal", "elastic_gap", "rough_gap", "rupture_gap", "reynolds") or not quantities:
+            continue
+        assert same(definition.subs(rules, simultaneous=True), group), group
+
+
+def test_start_of_the_states(models: dict[str, Model]):
+    """The dimensionless start is s = 1, w = -1, J = (4 + x0/a)^2, no spin, no angle."""
+    outputs = dict(models["oblique_strings"]["start"].outputs)
+    published = {"gap": 1, "opening": -1, "orbit": (4 + eps) ** 2, "spin": 0, "rotation": 0}
+    assert outputs == published
+
+
+def test_closing_alone_in_the_film(models: dict[str, Model]):
+    """Head-on, the film alone leaves -u/v0 = 1 - Lf(s)/St with Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2."""
+    model = models["head_on"]
+    rates = dict(model["right_hand_side"].outputs)
+    acceleration = fill(model.expanded(rates["opening"]), {"film": LAWS["film"]["finite"]}).subs(FILM, 1)
+    slope = sp.simplify(acceleration / q.opening)  # dw/ds = (dw/dtau)/w
+    opening = -1 + sp.integrate(sp.expand(slope), (s, 1, s))
+    closed_form = 1 - (sp.log(1 / s) - sp.Rational(3, 2) + 2 * s - s**2 / 2) / St
+    assert sp.simplify(sp.expand_log(-opening - closed_form, force=True)) == 0
+
+
+@pytest.mark.parametrize("name", ["oblique_bridge", "oblique_bridge_reduced"])
+def test_certificate_slope(models: dict[str, Model], name: str):
+    """The certificate's slope is d/ds of U_eff = L^2/(2 I(x)) + W_c(x) at fixed L, over m v0^2."""
+    model = models[name]
+    outputs = dict(model["effective_potential"].outputs)
+    found = {key: fill(model.expanded(value), {"bridge": LAWS["bridge"]["constant"]}) for key, value in outputs.items()}
+    at = x0 * s
+    momentum, theta = sp.Symbol("L", positive=True), q.theta0
+    inertia = m * a**2 * ((4 + at / a) ** 2 + sp.Rational(32, 5))
+    work = sp.pi * 2 * a * sigma * 2 * sp.cos(q.contact_angle) * at  # of the constant law from s = 0
+    level = momentum**2 / (2 * inertia) + work
+    spinning = sp.Rational(32, 5) * q.spin if name == "oblique_bridge" else (4 + eps) ** 2 - q.orbit
+    held = m * a**2 * v0 * sp.tan(theta) / (4 * a) * (q.orbit + spinning)
+    groups = {St: GROUPS["stokes"], Ca: GROUPS["capillary"], eps: x0 / a, tan0: sp.tan(theta)}
+    scale = m * v0**2
+    assert same((level.diff(s).subs(momentum, held) / scale).subs(groups), found["slope"].subs(groups))
+    assert same(((level - work).subs(momentum, held) / scale).subs(groups), found["energy"].subs(groups))

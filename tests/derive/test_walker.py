@@ -1,0 +1,173 @@
+"""The dimension walker looks at every term and names what is wrong; the checks fail where they must."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+from wetdoublet.derive import checks
+from wetdoublet.derive.dimensions import (
+    FORCE,
+    LENGTH,
+    MASS,
+    ONE,
+    SPEED,
+    TIME,
+    Dimension,
+    DimensionError,
+    demand_dimension,
+    dimension_of,
+)
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.mechanics import equations_of_motion
+from wetdoublet.derive.quantities import DIMENSIONS, a, m, mu, u, v0, x, x0
+from wetdoublet.derive.structure import Structure
+
+ANY = sp.Symbol("unheard_of")
+
+
+@pytest.mark.parametrize("wrong", [m * u, x**2 * mu, x0])
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_a_wrong_addend_is_named_wherever_it_stands(wrong: sp.Expr, place: int):
+    """An addend of another dimension is found in first, second or third place, and named."""
+    right = [6 * sp.pi * mu * a * u, mu * x * u]
+    terms = [*right[:place], wrong, *right[place:]]
+    total = sp.Add(*terms, evaluate=False)
+    with pytest.raises(DimensionError, match="has dimension") as caught:
+        dimension_of(total, DIMENSIONS)
+    assert str(wrong) in str(caught.value)
+    assert dimension_of(sp.Add(*right), DIMENSIONS) == FORCE
+
+
+@pytest.mark.parametrize("function", [sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.atan])
+def test_a_transcendental_of_a_length_is_refused(function: type):
+    """log(x) is refused and log(x/a) is a pure number."""
+    with pytest.raises(DimensionError, match="separation.*pure number"):
+        dimension_of(function(x), DIMENSIONS)
+    assert dimension_of(function(x / a), DIMENSIONS) == ONE
+
+
+def test_a_dimensional_exponent_is_refused():
+    """Neither 2^x nor x^e with a symbolic exponent has a dimension; (x/a)^e has."""
+    exponent = sp.Symbol("poisson_ratio", real=True)
+    for bad in (2**x, x**exponent):
+        with pytest.raises(DimensionError, match="pure number"):
+            dimension_of(bad, DIMENSIONS)
+    assert dimension_of((x / a) ** exponent, DIMENSIONS) == ONE
+
+
+def test_an_unknown_symbol_is_named():
+    """A symbol outside the vocabulary is an error that names it."""
+    with pytest.raises(DimensionError, match="unheard_of"):
+        dimension_of(x + ANY, DIMENSIONS)
+
+
+def test_an_unknown_function_is_named():
+    """A function the walker does not know is an error that names it, not a guess."""
+    with pytest.raises(DimensionError, match="erf"):
+        dimension_of(sp.erf(x / a), DIMENSIONS)
+
+
+def test_a_whole_equation_of_the_wrong_dimension_is_named():
+    """A homogeneous equation of the wrong dimension is refused under its own name."""
+    with pytest.raises(DimensionError, match="film force: .* expected M L T\\^-2"):
+        demand_dimension("film force", mu * a * u * x, FORCE, DIMENSIONS)
+    demand_dimension("film force", mu * a * u, FORCE, DIMENSIONS)
+
+
+def test_zero_fits_anywhere():
+    """An exact zero has no dimension of its own, alone, as a factor or as an addend."""
+    assert dimension_of(sp.Integer(0), DIMENSIONS) is None
+    demand_dimension("nothing", sp.Integer(0), FORCE, DIMENSIONS)
+    kept = sp.Add(x, sp.Integer(0), evaluate=False)
+    assert dimension_of(kept, DIMENSIONS) == LENGTH
+
+
+@pytest.mark.parametrize("slot_argument", [x, m * u])
+def test_slots_take_pure_numbers(slot_argument: sp.Expr):
+    """A law slot is handed dimensionless arguments or refused."""
+    call = sp.Function("film.resistance")
+    with pytest.raises(DimensionError, match="pure number"):
+        dimension_of(call(slot_argument), DIMENSIONS, slots=lambda _: ONE)
+    assert dimension_of(call(x / x0), DIMENSIONS, slots=lambda _: ONE) == ONE
+
+
+def test_derivatives_divide_by_their_variable():
+    """dx/dt is a speed."""
+    t = sp.Symbol("time", real=True)
+    path = sp.Function("path")(t)
+    assert dimension_of(path.diff(t), {**DIMENSIONS, path: LENGTH}) == SPEED
+
+
+def test_piecewise_and_extrema_need_one_dimension():
+    """All branches of Piecewise, Min and Max must agree, and so must the sides of a condition."""
+    ok = sp.Piecewise((x, x < x0), (x0, True))
+    assert dimension_of(ok, DIMENSIONS) == LENGTH
+    assert dimension_of(sp.Max(x, x0), DIMENSIONS) == LENGTH
+    for bad in (sp.Piecewise((x, x < x0), (m, True)), sp.Max(x, m), sp.Piecewise((x, x < m), (x0, True))):
+        with pytest.raises(DimensionError, match="dimension"):
+            dimension_of(bad, DIMENSIONS)
+
+
+powers = st.fractions(min_value=-4, max_value=4, max_denominator=6)
+dimensions = st.builds(Dimension, powers, powers, powers)
+
+
+@given(dimensions, dimensions, powers)
+def test_dimensions_are_a_vector_space(one: Dimension, other: Dimension, power: Fraction):
+    """Products add exponents and powers scale them: (A B)^p = A^p B^p, A/A = 1."""
+    assert (one * other) ** power == one**power * other**power
+    assert one / one == ONE
+    assert one * other / other == one
+
+
+@given(powers)
+def test_walker_takes_powers_as_they_are(power: Fraction):
+    """A power of a length has that power of length and of nothing else."""
+    found = dimension_of(x ** sp.Rational(power.numerator, power.denominator), DIMENSIONS)
+    assert found == Dimension(length=power)
+
+
+def test_every_symbolic_check_holds():
+    """Dimensions, conservation laws, limits and groups all hold of the derivation."""
+    found = checks.symbolic_checks()
+    assert [check for check in found if not check.ok] == []
+    assert len({check.name for check in found}) == len(found)
+    assert all(check.statement and check.figure for check in found)
+
+
+def test_a_wrong_equation_fails_its_check_by_name():
+    """A dimension check given one false equation fails and names that equation and no other."""
+    rooms = checks.si_equations()
+    rooms["mechanics"]["du/dt"] = (rooms["mechanics"]["du/dt"][0] + v0, LENGTH / TIME**2)
+    failed = [check for check in checks.dimension_checks(rooms) if not check.ok]
+    assert [check.name for check in failed] == ["dimensions: mechanics"]
+    assert failed[0].figure.startswith("du/dt:")
+    assert "speed" in failed[0].figure
+
+
+def test_the_surface_arm_does_not_conserve_angular_momentum():
+    """The check of L can fail: with the surface arm the rate is not zero, and vanishes in contact."""
+    rate = checks.momentum_rate(Structure(True, False, False), {"arm": LAWS["arm"]["surface"]})
+    assert rate != 0
+    gap = next(s for s in rate.free_symbols if s.name == "gap")
+    assert rate.subs(gap, 0) == 0
+
+
+def test_a_lost_term_fails_the_energy_balance():
+    """The energy balance is sensitive to every loss: without any one of them it is not zero."""
+    structure = Structure(True, True, True)
+    model = checks.derive(structure)
+    assert checks.energy_balance(structure) == 0
+    for _, loss in model["energy_rates"].outputs:
+        assert model.expanded(loss) != 0
+
+
+def test_momenta_have_their_dimension():
+    """Both momenta are M L^2/T: what the walker finds is what the mechanics says."""
+    motion = equations_of_motion()
+    for momentum in (motion.orbital_momentum, motion.spin_momentum):
+        assert dimension_of(momentum, DIMENSIONS) == MASS * LENGTH**2 / TIME

@@ -1,0 +1,216 @@
+"""Every emitted function against the expression it was printed from, in 30 digits."""
+
+from __future__ import annotations
+
+import importlib
+import random
+from collections.abc import Callable, Iterator
+from functools import cache
+from types import ModuleType
+
+import casadi
+import mpmath
+import pytest
+import sympy as sp
+from wetdoublet.derive.laws import LAWS, Law, LawFunction, fill
+from wetdoublet.derive.model import FILM, SHEAR, Model, derive
+from wetdoublet.derive.quantities import VOCABULARY
+from wetdoublet.derive.scaling import group_definitions
+from wetdoublet.derive.structure import Structure, structures
+from wetdoublet.generated import scaling
+from wetdoublet.generated.assemble import Laws, casadi_functions
+
+DIGITS = 30
+REGIONS = ((1, 1), (0, 1), (0, 0))
+RANGES = {
+    "gap": (0.02, 0.98),
+    "opening": (-1.5, 1.5),
+    "orbit": (6.0, 18.0),
+    "spin": (-0.5, 1.0),
+    "rotation": (0.3, 3.0),
+    "stokes": (0.02, 3.0),
+    "aspect": (0.05, 0.3),
+    "obliquity": (0.3, 3.0),
+    "capillary": (0.5, 50.0),
+    "volume": (0.01, 0.2),
+    "contact_angle": (0.0, 1.0),
+    "weight": (0.001, 0.5),
+    "string_ratio": (30.0, 200.0),
+    "glass_number": (1.0, 1e4),
+    "elastic_gap": (1e-3, 0.1),
+    "rough_gap": (1e-3, 0.1),
+    "rupture_gap": (2.0, 30.0),
+    "dry_restitution": (0.5, 1.0),
+    # arguments of laws
+    "gap_over_radius": (1e-3, 0.5),
+    "distance": (4.0, 6.0),
+    "approach": (0.1, 2.0),
+    "offset_squared": (0.01, 20.0),
+    # SI
+    "reduced_radius": (1e-5, 1e-2),
+    "reduced_mass": (1e-9, 0.1),
+    "viscosity": (0.01, 20.0),
+    "film_thickness": (1e-6, 1e-3),
+    "speed": (1e-3, 3.0),
+    "angle": (0.1, 1.4),
+    "surface_tension": (0.01, 0.1),
+    "density": (500.0, 2000.0),
+    "glass_transition_pressure": (1e6, 1e8),
+    "gravity": (1.0, 20.0),
+    "string_length": (0.1, 2.0),
+    "youngs_modulus": (1e9, 3e11),
+    "poisson_ratio": (0.1, 0.45),
+    "roughness": (1e-8, 1e-5),
+}
+
+
+def emitted(name: str) -> ModuleType:
+    """An emitted module of `generated`."""
+    return importlib.import_module(f"wetdoublet.generated.{name}")
+
+
+def magnitude(node: sp.Basic) -> sp.Basic:
+    """The expression with every term of every sum taken positive: the scale that cancellation is measured against."""
+    if isinstance(node, sp.Add):
+        return sp.Add(*map(magnitude, node.args))
+    if isinstance(node, sp.Mul):
+        return sp.Mul(*map(magnitude, node.args))
+    if isinstance(node, sp.Pow) and node.exp.is_Number and node.exp.is_positive:
+        return magnitude(node.base) ** node.exp
+    return sp.Abs(node)
+
+
+Exact = Callable[..., list[mpmath.mpf]]
+
+
+def exactly(arguments: list[sp.Symbol], expressions: list[sp.Expr]) -> Exact:
+    """Values of the expressions, then of their magnitudes, in DIGITS digits."""
+    return sp.lambdify(arguments, [*expressions, *map(magnitude, expressions)], modules="mpmath", cse=True)
+
+
+def compare(label: str, exact: Exact, found: list[float], arguments: list[float]) -> None:
+    """Demand 1e-12 of the largest term: a few thousand roundings of that size, many times what is done."""
+    with mpmath.workdps(DIGITS):
+        values = exact(*map(mpmath.mpf, arguments))
+    assert len(values) == 2 * len(found), label
+    for index, number in enumerate(found):
+        value, scale = values[index], values[index + len(found)]
+        assert abs(number - value) <= 1e-12 * scale, (label, index, number, value, scale, arguments)
+
+
+def draw(generator: random.Random, names: list[str]) -> list[float]:
+    return [generator.uniform(*RANGES[name]) for name in names]
+
+
+# Laws and groups
+
+
+def _law_functions() -> Iterator[tuple[Law, LawFunction]]:
+    for laws in LAWS.values():
+        for law in laws.values():
+            for function in law.functions:
+                yield law, function
+
+
+@pytest.mark.parametrize(
+    ("law", "function"), list(_law_functions()), ids=lambda each: getattr(each, "module", each.name)
+)
+def test_law(law: Law, function: LawFunction):
+    """A law's emitted function, as CasADi evaluates it, is its expression."""
+    names = [argument.name for argument in function.arguments]
+    symbols = [casadi.SX.sym(name) for name in names]
+    value = getattr(emitted(f"laws.{law.module}"), function.name)(*symbols)
+    compiled = casadi.Function("law", symbols, [casadi.SX(value)])
+    exact = exactly(list(function.arguments), [function(*function.arguments)])
+    generator = random.Random(f"{law.module}.{function.name}")
+    for _ in range(20):
+        arguments = draw(generator, names)
+        compare(law.module, exact, [float(compiled(*arguments))], arguments)
+
+
+@pytest.mark.parametrize("group", group_definitions(), ids=lambda symbol: symbol.name)
+def test_group(group: sp.Symbol):
+    """A group's emitted function is its definition, of floats and of CasADi symbols alike."""
+    names = list(scaling.ARGUMENTS[group.name])
+    function = getattr(scaling, group.name)
+    symbols = [casadi.SX.sym(name) for name in names]
+    compiled = casadi.Function("group", symbols, [casadi.SX(function(*symbols))])
+    exact = exactly([VOCABULARY[name].symbol for name in names], [group_definitions()[group]])
+    generator = random.Random(group.name)
+    for _ in range(10):
+        arguments = draw(generator, names)
+        compare(group.name, exact, [float(compiled(*arguments))], arguments)
+        compare(group.name, exact, [float(function(*arguments))], arguments)
+
+
+# Structures
+
+CHOICES = [
+    {"arm": "midgap", "shear": "immersed", "bridge": "mikami", "strings": "exact", "glass": "literal"},
+    {"arm": "surface", "shear": "film", "bridge": "rabinovich", "strings": "small-angle", "glass": "film-corrected"},
+]
+
+
+@cache
+def _filled(structure: Structure, choice: int) -> tuple[Model, dict[str, list[sp.Expr]]]:
+    """Every function's outputs as closed expressions, with the Jacobian and the event rates by sympy's derivatives."""
+    model = derive(structure)
+    laws = {slot: LAWS[slot][CHOICES[choice].get(slot, "finite")] for slot in model.slots}
+    columns = {
+        function.name: [fill(model.expanded(sp.sympify(value)), laws) for _, value in function.outputs]
+        for function in model.functions
+    }
+    rates = columns["right_hand_side"]
+    columns["jacobian"] = [rate.diff(state) for state in model.states for rate in rates]  # column by column, as CasADi
+    columns["event_rates"] = [
+        sp.Add(*(event.diff(state) * rate for state, rate in zip(model.states, rates, strict=True)))
+        for event in columns["events"]
+    ]
+    return model, columns
+
+
+@pytest.mark.parametrize("choice", range(len(CHOICES)))
+@pytest.mark.parametrize("structure", structures(), ids=lambda structure: structure.name)
+def test_structure(structure: Structure, choice: int):
+    """Every function of a structure, its Jacobian and event rates too, is its expression; in all regions."""
+    model, columns = _filled(structure, choice)
+    module = emitted(structure.name)
+    laws = Laws(
+        **{slot: emitted(f"laws.{LAWS[slot][CHOICES[choice].get(slot, 'finite')].module}") for slot in module.SLOTS}
+    )
+    arguments = [*model.states, *model.groups]
+    exact = {name: exactly([*arguments, FILM, SHEAR], column) for name, column in columns.items()}
+    generator = random.Random(f"{structure.name} {choice}")
+    for film, shear in REGIONS:
+        functions = casadi_functions(module, laws, film=film, shear=shear)
+        assert functions.keys() == columns.keys()
+        for _ in range(2):
+            numbers = draw(generator, [symbol.name for symbol in arguments])
+            state, groups = numbers[: len(model.states)], numbers[len(model.states) :]
+            for name, function in functions.items():
+                found = casadi.densify(function(state, casadi.DM(groups) if groups else casadi.DM(0, 1)))
+                compare(
+                    f"{structure.name}.{name}", exact[name], list(map(float, found.elements())), [*numbers, film, shear]
+                )
+
+
+@pytest.mark.parametrize("structure", structures(), ids=lambda structure: structure.name)
+def test_module_lists_what_the_model_has(structure: Structure):
+    """STATES, GROUPS, SLOTS, FUNCTIONS and REGIONAL are the model's, and each function returns its outputs by name."""
+    model, module = derive(structure), emitted(structure.name)
+    assert tuple(s.name for s in model.states) == module.STATES
+    assert tuple(s.name for s in model.groups) == module.GROUPS
+    assert model.slots == module.SLOTS
+    assert tuple(f.name for f in model.functions) == module.FUNCTIONS
+    assert tuple(f.name for f in model.functions if f.regional) == module.REGIONAL
+    laws = Laws(**{slot: emitted(f"laws.{next(iter(LAWS[slot].values())).module}") for slot in module.SLOTS})
+    point = {name: sum(RANGES[name]) / 2 for name in (*module.STATES, *module.GROUPS)}
+    for function in model.functions:
+        outputs = getattr(module, function.name)(point, point, laws)
+        assert tuple(outputs) == tuple(name for name, _ in function.outputs)
+
+
+def test_an_empty_slot_is_named():
+    """A structure whose slot no law fills says which slot."""
+    with pytest.raises(AttributeError, match="'bridge'"):
+        _ = Laws(film=emitted("laws.film_finite")).bridge

@@ -1,0 +1,231 @@
+"""The committed folder is what the derivation emits, byte for byte, on any hash seed; and it stands on its own."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib.util
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+from wetdoublet.derive.emit.write import GENERATED, check, emitted, generate
+
+DERIVE = GENERATED.parent / "derive"
+TEXTS = sorted(name for name in emitted() if name.endswith(".py"))
+
+
+@cache
+def texts() -> dict[str, str]:
+    """What the derivation emits, once."""
+    return emitted()
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    """A copy of the committed folder."""
+    return Path(shutil.copytree(GENERATED, tmp_path / "generated", ignore=shutil.ignore_patterns("__pycache__")))
+
+
+def test_committed_folder_is_fresh():
+    """Nothing in generated/ differs from what would be emitted; if it does, run `wetdoublet generate`."""
+    assert check() == []
+
+
+def test_an_edit_is_shown(copy: Path):
+    """An edited file is named, with a diff of the lines that differ and of no other file."""
+    path = copy / "laws" / "arm_surface.py"
+    path.write_text(path.read_text().replace("return 2", "return 3"))
+    lines = check(copy)
+    assert lines[0] == "differs: laws/arm_surface.py"
+    assert "-    return 3" in lines
+    assert "+    return 2" in lines
+    assert sum(line.startswith(("differs", "missing", "extra")) for line in lines) == 1
+
+
+def test_a_changed_line_ending_is_a_difference(copy: Path):
+    """The comparison is of bytes: a file with other line endings is named."""
+    path = copy / "oblique.py"
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert "differs: oblique.py" in check(copy)
+
+
+def test_a_missing_file_is_named(copy: Path):
+    """A file that would be emitted and is not there is named."""
+    (copy / "head_on.py").unlink()
+    assert check(copy) == ["missing: head_on.py"]
+
+
+def test_an_extra_file_is_named(copy: Path):
+    """A file that nothing emits, in any subfolder, is named; Python's caches are not."""
+    (copy / "laws" / "bridge_wishful.py").write_text("")
+    (copy / "__pycache__").mkdir()
+    (copy / "__pycache__" / "oblique.pyc").write_text("")
+    assert check(copy) == ["extra: laws/bridge_wishful.py"]
+
+
+def test_generate_repairs_and_makes_the_folder(tmp_path: Path):
+    """What generate writes into a new folder, check finds nothing wrong with."""
+    written = generate(tmp_path / "new")
+    assert check(tmp_path / "new") == []
+    assert {path.relative_to(tmp_path / "new").as_posix() for path in written} == texts().keys()
+
+
+_HASH = """
+import hashlib
+from wetdoublet.derive.emit.write import emitted
+files = emitted()
+print(hashlib.sha256("\\n".join(name + "\\n" + text for name, text in files.items()).encode()).hexdigest())
+"""
+
+
+def test_emission_does_not_depend_on_the_hash_seed():
+    """Three fresh interpreters with hash seeds 0, 1 and 2 emit the same bytes as this one."""
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", _HASH], env={**os.environ, "PYTHONHASHSEED": seed}, stdout=subprocess.PIPE, text=True
+        )
+        for seed in "012"
+    ]
+    found = [process.communicate(timeout=120)[0].strip() for process in running]
+    here = "\n".join(f"{name}\n{text}" for name, text in texts().items())
+    assert found == [hashlib.sha256(here.encode()).hexdigest()] * 3
+
+
+_BLOCKED = """
+import importlib, pkgutil, sys
+
+class NoSympy:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] == "sympy":
+            raise ImportError("sympy is blocked here")
+
+sys.meta_path.insert(0, NoSympy())
+count = 0
+for package in ("wetdoublet.generated", "wetdoublet.solvers"):
+    root = importlib.import_module(package)
+    for found in pkgutil.walk_packages(root.__path__, package + "."):
+        if not found.name.endswith("__main__"):
+            importlib.import_module(found.name)
+            count += 1
+assert "sympy" not in sys.modules
+try:
+    import wetdoublet.derive.model
+except ImportError:
+    print(count)
+"""
+
+
+def test_generated_and_solvers_live_without_sympy():
+    """Every module of generated and solvers is imported where importing sympy raises (and derive is not)."""
+    done = subprocess.run([sys.executable, "-c", _BLOCKED], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    own = [path for path in (GENERATED, GENERATED.parent / "solvers") for path in path.rglob("*.py")]
+    expected = [
+        path
+        for path in own
+        if path.name != "__main__.py" and path.parent not in (GENERATED, GENERATED.parent / "solvers")
+    ]
+    assert int(done.stdout) >= len(expected)
+
+
+def _imports(text: str) -> list[tuple[int, str]]:
+    """(level, module) of every import anywhere in a source."""
+    found = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            found += [(0, alias.name) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            found += [(node.level, node.module or alias.name) for alias in node.names]
+    return found
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_generated_imports_only_casadi_and_the_standard_library(name: str):
+    """An emitted module imports casadi, the standard library, and nothing of ours outside generated."""
+    for level, module in _imports(texts()[name]):
+        top = module.split(".")[0]
+        assert level == 0 or level <= name.count("/") + 1, module
+        assert level > 0 or top == "casadi" or top in sys.stdlib_module_names, module
+
+
+def test_derive_imports_nothing_downstream():
+    """No module of derive imports solvers, generated, casadi or numpy: the flow has one direction."""
+    sources = sorted(DERIVE.rglob("*.py"))
+    assert len(sources) > 15
+    for path in sources:
+        depth = len(path.relative_to(DERIVE).parts)  # that many dots reach derive itself
+        for level, module in _imports(path.read_text()):
+            words = set(module.split("."))
+            assert not words & {"solvers", "generated", "casadi", "numpy", "wetdoublet"}, (path.name, module)
+            assert level <= depth, (path.name, module)
+
+
+@pytest.mark.parametrize("name", sorted(texts()))
+def test_emitted_text_is_timeless_and_placeless(name: str):
+    """No dates, no times, no absolute paths, no tabs or trailing blanks, one newline at the end."""
+    text = texts()[name]
+    assert not re.search(r"\b(19|20)\d\d-\d\d|\b\d\d:\d\d\b", text)
+    assert not re.search(r"(?<![\w)\]*/])/(home|tmp|work|usr|Users)\b|[A-Z]:\\", text)
+    assert str(GENERATED.parent) not in text
+    assert "\t" not in text
+    assert all(line == line.rstrip() for line in text.splitlines())
+    assert not text or (text.endswith("\n") and not text.endswith("\n\n"))
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_module_compiles_and_says_where_it_is_from(name: str):
+    """Each module compiles, opens with its provenance and has a docstring."""
+    text = texts()[name]
+    tree = ast.parse(text)
+    assert text.startswith("# Emitted by wetdoublet from its derivation. Do not edit:")
+    assert ast.get_docstring(tree)
+    compile(text, name, "exec", dont_inherit=True)
+
+
+def _digests() -> dict[str, str]:
+    manifest = json.loads((GENERATED / "manifest.json").read_text())
+    laws = {f"laws/{module}.py": entry["digest"] for module, entry in manifest["laws"].items()}
+    return laws | {
+        f"{name}.py": digest for part in ("structures", "scaling") for name, digest in manifest[part].items()
+    }
+
+
+def test_the_manifest_lists_every_module():
+    """The manifest has a digest for each law, each structure and the scaling, and for nothing else."""
+    derived = {name for name in TEXTS if not name.endswith("__init__.py") and name != "assemble.py"}
+    assert _digests().keys() == derived
+
+
+@pytest.mark.parametrize("name", sorted(_digests()))
+def test_digests_agree(name: str):
+    """The digest in a module's header, and its DIGEST if it is a structure, is the manifest's."""
+    text = (GENERATED / name).read_text()
+    assert text.splitlines()[1] == f"# Equations sha256 {_digests()[name]}"
+    if "/" not in name and name != "scaling.py":
+        spec = importlib.util.spec_from_file_location("one", GENERATED / name)
+        assert spec is not None
+        assert spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        assert _digests()[name] == module.DIGEST
+
+
+def test_every_used_name_is_imported_and_every_import_used():
+    """An emitted module imports from casadi exactly the names it uses."""
+    for name in TEXTS:
+        tree = ast.parse(texts()[name])
+        imported = {
+            a.name for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) and n.module == "casadi" for a in n.names
+        }
+        used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+        assert imported <= used, name
+        called = {n.func.id for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)}
+        local = {n.name for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.ClassDef))}
+        assert called <= imported | local | {"setattr", "AttributeError", "getattr"}, name

@@ -1,0 +1,212 @@
+"""The figure of a collision, and the doublet's frames in it."""
+
+import math
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.patches import Circle
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.draw import draw
+from wetdoublet.solvers.frames import frames, orientation, wetted_radius
+from wetdoublet.solvers.result import Event
+
+IMPACTS = {
+    "escapes": ("granulation", {}),
+    "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),
+    "sticks at touch": ("granulation", {"stokes": 0.012, "angle": "50 deg"}),
+    "sticks later": ("granulation", {"stokes": 0.03, "angle": "40 deg"}),
+    "half turn": ("pendulum", {"stokes": 1.0, "angle": "45 deg"}),
+    "pendulum bounces": ("pendulum", {"stokes": 1.5, "angle": "45 deg"}),
+    "head-on": ("granulation", {"stokes": 0.125, "angle": 0.0}),
+    "glass at touch": ("granulation", {"stokes": 0.3, "angle": "70 deg"}),
+    "parts at touch": ("granulation-dry-bridge", {"stokes": 0.3, "angle": "70 deg"}),
+}
+
+
+@pytest.fixture(scope="module")
+def collisions():
+    return {name: collide(scene, **impact, trajectory=True) for name, (scene, impact) in IMPACTS.items()}
+
+
+@pytest.fixture(scope="module")
+def figures(collisions):
+    return {name: draw(collision) for name, collision in collisions.items()}
+
+
+def words(figure):
+    return [text.get_text() for axes in figure.axes for text in axes.texts if text.get_text()]
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_nothing_is_clipped(figures, name):
+    """Everything drawn lies inside the figure."""
+    figure = figures[name]
+    figure.draw_without_rendering()
+    box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
+    assert box.x0 >= 0
+    assert box.y0 >= 0
+    assert box.x1 <= width
+    assert box.y1 <= height
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_pictures_lie_inside_their_strip(figures, name):
+    """No sphere is cut off by the edge of the strip of frames, and all frames are drawn to one scale."""
+    strip = figures[name].axes[-1]
+    spheres = [patch for patch in strip.patches if patch.get_gid() == "sphere"]
+    (low_x, high_x), (low_y, high_y) = strip.get_xlim(), strip.get_ylim()
+    for sphere in spheres:
+        (x, y), radius = sphere.center, sphere.radius
+        assert radius == 1
+        assert low_x < x - radius < x + radius < high_x
+        assert low_y < y - radius < y + radius < high_y
+    assert strip.get_aspect() == 1
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_every_axis_has_its_unit(collisions, figures, name):
+    """Each panel over time names its quantity with the unit, and the time with its own."""
+    *panels, _ = figures[name].axes
+    expected = {"gap", "velocity", *({"rates", "angle"} if collisions[name].angle else ())}
+    named = [panel.get_ylabel() for panel in panels if panel.get_ylabel()]
+    timed = [panel.get_xlabel() for panel in panels if panel.get_xlabel()]
+    if collisions[name].trajectory["time"][-1] == 0:
+        assert panels == []
+        return
+    assert len(named) == len(expected)
+    assert all(any(word in label for label in named) for word in expected)
+    assert all(label.endswith(")") and "(" in label for label in named + timed)
+    assert all(label.startswith("time") for label in timed)
+    assert len(timed) in (1, 2)
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_every_event_is_marked(collisions, figures, name):
+    """Each event of a flight has its label, once, and a line at its time through each panel of the whole flight."""
+    collision, figure = collisions[name], figures[name]
+    if collision.trajectory["time"][-1] == 0:
+        return
+    labels = ", ".join(words(figure))
+    for event in collision.events:
+        assert labels.count(event.kind) == 1
+    whole = [panel for panel in figure.axes[:-1] if panel.get_subplotspec().is_last_col()]
+    assert len(whole) == (4 if collision.angle else 2)
+    last = float(collision.trajectory["time"][-1])
+    for panel in whole:
+        drawn = panel.lines[0].get_xdata()[-1]
+        marks = [line.get_xdata()[0] for line in panel.lines if line.get_linestyle() == "--"]
+        for event in collision.events:
+            assert any(mark * last / drawn == pytest.approx(event.time, rel=1e-9, abs=1e-12) for mark in marks)
+
+
+def test_a_short_approach_has_its_own_column(figures):
+    """Where the approach is a small part of the flight it is shown a second time, in a column of its own."""
+    assert [panel.get_xlabel() for panel in figures["escapes"].axes if panel.get_xlabel()] == [
+        "time, approach (µs)",
+        "time, whole flight (ms)",
+    ]
+    assert "time (µs)" in [panel.get_xlabel() for panel in figures["glass at touch"].axes]
+
+
+def test_chatter_does_not_flood_the_figure(collisions):
+    """Hundreds of events on one spot share a label that counts them."""
+    rupture = collisions["escapes"].events[-1]
+    events = (*(Event("rough", 2e-5 + 1e-8 * count) for count in range(300)), Event("rests", 2.31e-5), rupture)
+    figure = draw(replace(collisions["escapes"], events=events))
+    assert len([word for word in words(figure) if "rough" in word]) <= 6
+    assert any("rough (x" in word for word in words(figure))
+    assert all(len(panel.lines) < 60 for panel in figure.axes[:-1])
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_frames_are_of_the_trajectory(collisions, name):
+    """Frames start at first touch; their centres are 4a + x apart about a resting centre of mass, turned by beta."""
+    collision = collisions[name]
+    data, a = collision.trajectory, collision.scene.particles.reduced_radius
+    pictures = frames(collision)
+    assert pictures[0].time == 0
+    assert [frame.free for frame in pictures[:-1]] == [False] * (len(pictures) - 1)
+    assert pictures[-1].free == (collision.outcome != "stick")
+    for frame in pictures:
+        (x1, y1), (x2, y2) = frame.centres
+        assert math.hypot(x2 - x1, y2 - y1) == pytest.approx(4 * a + frame.gap, rel=1e-12)
+        assert (x1 + x2, y1 + y2) == (0, 0)
+        if not frame.free and frame.time > 0:
+            assert frame.gap == pytest.approx(float(np.interp(frame.time, data["time"], data["gap"])), rel=1e-12)
+            assert frame.angle == pytest.approx(float(np.interp(frame.time, data["time"], data["rotation"])), rel=1e-12)
+
+
+def test_spheres_of_a_strip_are_the_frames(collisions, figures):
+    """The circles drawn are 4a + x apart in units of the radius: the gap is to scale."""
+    pictures = frames(collisions["escapes"])
+    spheres = [p for p in figures["escapes"].axes[-1].patches if isinstance(p, Circle) and p.get_gid() == "sphere"]
+    assert len(spheres) == 2 * len(pictures)
+    for frame, first, second in zip(pictures, spheres[::2], spheres[1::2], strict=True):
+        apart = math.dist(first.center, second.center)
+        assert apart == pytest.approx(frame.distance / frame.radius, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", sorted({*IMPACTS} - {"half turn", "sticks later", "sticks at touch"}))
+def test_after_rupture_the_pair_flies_straight(collisions, name):
+    """The last frame of a separated pair is on the straight line that leaves the frame of rupture."""
+    collision = collisions[name]
+    *_, before, after = frames(collision)
+    (x0, y0), (x1, y1) = before.centres[1], after.centres[1]
+    wait = after.time - before.time
+    assert wait > 0
+    assert 2 * (x1 - x0) == pytest.approx(after.relative[0] * wait, rel=1e-9, abs=1e-9 * before.radius)
+    assert 2 * (y1 - y0) == pytest.approx(after.relative[1] * wait, rel=1e-9, abs=1e-9 * before.radius)
+    opening = after.relative[0] * math.cos(before.angle) + after.relative[1] * math.sin(before.angle)
+    assert opening == pytest.approx(collision.restitution * collision.speed, rel=1e-6)
+    assert after.gap - before.gap == pytest.approx(0.8 * before.radius)
+
+
+def test_orientation_is_the_integral_of_spin():
+    """A sphere's orientation is int xi dt: exact where it turns with the doublet, to second order where it slips."""
+    time = np.linspace(0, 2, 401)
+    beta, omega = time**3, 3 * time**2
+    assert orientation(time, beta, omega, omega) == pytest.approx(beta, abs=0)
+    slipping = omega - np.exp(-time)
+    exact = beta - (1 - np.exp(-time))
+    assert orientation(time, beta, omega, slipping) == pytest.approx(exact, abs=1e-5)
+
+
+def test_wetted_radius():
+    """The film's disc vanishes at x = x0; the bridge holds V R^3 between parabolas at every gap."""
+    pendulum, granulation = Scene.load("pendulum"), Scene.load("granulation")
+    film = pendulum.liquid.film_thickness
+    assert wetted_radius(pendulum, film) == 0
+    assert wetted_radius(pendulum, 0.5 * film) == pytest.approx(math.sqrt(0.5 * film * 2 * 0.0063))
+    radius = 2 * granulation.particles.reduced_radius
+    for gap in (1e-7, 8e-6, granulation.rupture_gap):
+        s = wetted_radius(granulation, gap)
+        assert math.pi * (s**2 * gap + s**4 / (2 * radius)) == pytest.approx(0.1 * radius**3)
+
+
+def test_refused_without_a_trajectory():
+    """Drawing a collision that kept no trajectory says which argument keeps it."""
+    with pytest.raises(ValueError, match="trajectory=True"):
+        collide("granulation").plot()
+
+
+@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
+def test_written_as(collisions, tmp_path, suffix):
+    """The figure is written in each format that --plot accepts; a name full of mathematics stays a name."""
+    scene = Scene.load("granulation").with_entries({"name": "cost: 5$ or $x_"})
+    file = tmp_path / f"picture.{suffix}"
+    figure = replace(collisions["head-on"], scene=scene).plot(file)
+    assert file.stat().st_size > 5000
+    assert figure.get_suptitle().startswith(r"cost: 5\$ or \$x_: bounce")
+
+
+def test_pyplot_stays_out():
+    """Drawing needs no display and leaves matplotlib's global state alone: pyplot is never imported."""
+    code = (
+        "import sys; from wetdoublet.solvers import collide; c = collide('granulation', trajectory=True);"
+        "assert 'matplotlib' not in sys.modules; str(c); assert 'matplotlib' not in sys.modules;"
+        "c.plot(); assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,141 @@
+"""The table of a collision for a person."""
+
+from dataclasses import replace
+
+import pytest
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.result import Event
+from wetdoublet.solvers.show import name_of, prefix, quantity, table
+
+IMPACTS = {
+    "escapes": ("granulation", {}),
+    "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),
+    "sticks at touch": ("granulation", {"stokes": 0.012, "angle": "50 deg"}),
+    "sticks later": ("granulation", {"stokes": 0.03, "angle": "40 deg"}),
+    "half turn": ("pendulum", {"stokes": 1.0, "angle": "45 deg"}),
+    "rotation reverses": ("pendulum", {"stokes": 0.6, "angle": "40 deg"}),
+    "reversed, sticks": ("pendulum", {"stokes": 1.37, "angle": "20 deg"}),
+    "head-on": ("granulation", {"stokes": 0.125, "angle": 0.0}),
+    "gains": ("granulation", {"stokes": 0.3, "angle": "70 deg"}),
+    "film alone": ("granulation-dry-bridge", {"stokes": 0.05, "angle": 0.0}),
+    "parts at touch": ("granulation-dry-bridge", {"stokes": 0.3, "angle": "70 deg"}),
+}
+
+
+@pytest.fixture(scope="module")
+def collisions():
+    return {name: collide(scene, **impact) for name, (scene, impact) in IMPACTS.items()}
+
+
+def row(text, name):
+    """Return what a row of the table says."""
+    (line,) = [line for line in text.splitlines() if line.strip().startswith(name)]
+    return line.strip().removeprefix(name).strip()
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_fits_a_terminal(collisions, name):
+    """Every table is ASCII, at most 88 columns wide, without trailing blanks, and what print() shows."""
+    text = str(collisions[name])
+    assert text == table(collisions[name])
+    assert text.isascii()
+    assert max(map(len, text.splitlines())) <= 88
+    assert all(line == line.rstrip() for line in text.splitlines())
+    assert not {"nan", "inf", "None"} & set(text.replace(",", " ").split())
+
+
+@pytest.mark.parametrize(
+    ("name", "outcome", "why"),
+    [
+        ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no criterion met"),
+        ("bounces", "bounce", "reversed by the glass criterion"),
+        ("sticks at touch", "stick", "proved at first touch: energy below the barrier"),
+        ("sticks later", "stick", "proved after 5.973 us: energy below the barrier"),
+        ("half turn", "stick", "cut off after 765.2 ms: half a turn"),
+        ("rotation reverses", "stick", "cut off after 450.5 ms: the strings turn the rotation back"),
+        ("reversed, sticks", "stick", "the glass criterion had reversed it on the way"),
+        ("film alone", "stick", "proved at first touch: the film stops it"),
+    ],
+)
+def test_outcome_has_its_reason(collisions, name, outcome, why):
+    """The outcome stands with the reason why it came about."""
+    text = table(collisions[name])
+    assert row(text, "outcome") == outcome
+    assert why in text
+
+
+def test_a_stick_without_proof_says_so(collisions):
+    """A stick found by the level test of the surface arm is not called proved."""
+    unproved = table(replace(collisions["sticks later"], certified=False))
+    assert "no proof" in unproved
+    assert "proved" not in unproved
+
+
+def test_restitution_above_one_is_noted(collisions):
+    """A restitution above 1 is remarked on, one below is not."""
+    assert "> 1" in row(table(collisions["gains"]), "restitution e_n")
+    assert row(table(collisions["bounces"]), "restitution e_n") == "0.9596"
+
+
+def test_undefined_prints_as_a_dash(collisions):
+    """What a stick leaves undefined is a dash; so is e_t head-on, and the ledger that was not asked for."""
+    text = table(collisions["sticks later"])
+    names = ("tangential e_t", "rotation  ", "contact time", "smallest gap", "final rotation rate", "final spin")
+    assert all(row(text, name).split()[0] == "-" for name in names)
+    assert row(table(collisions["head-on"]), "tangential e_t") == "-"
+    assert row(table(collide("granulation", ledger=False)), "energy").startswith("-")
+
+
+def test_absent_tables_leave_no_lines(collisions):
+    """Strings are named only with a pendulum, Ce, Ca and capillary work only with a bridge, Re only with a density."""
+    granulation, pendulum = table(collisions["escapes"]), table(collisions["half turn"])
+    assert "strings" not in granulation
+    assert "capillary work" in granulation
+    assert "Ce 4.612, Ca 815.6" in granulation
+    assert "\n  strings" in pendulum
+    assert not any(word in pendulum for word in ("capillary", "Ce ", "Ca "))
+    assert "Re " not in granulation
+    dense = Scene.load("granulation").with_entries({"liquid.density": "1000 kg/m^3"})
+    assert ", Re 0.002175" in table(collide(dense))
+
+
+def test_events_and_ledger_are_those_of_the_result(collisions):
+    """Events stand with their times; the ledger's percentages are of the initial energy and add up to 100."""
+    text = table(collisions["escapes"])
+    assert row(text, "turned") == "17.12 us"
+    assert row(text, "rupture") == "1.975 ms"
+    assert row(text, "kinetic, initial").endswith("100.000")
+    spent = ("kinetic, final", "normal lub", "tangential lub", "dry contact", "capillary work")
+    assert sum(float(row(text, name).split()[-1]) for name in spent) == pytest.approx(100, abs=0.003)
+    assert row(text, "engine") == f"cvodes, {collisions['escapes'].steps} steps"
+
+
+def test_many_events_are_shortened(collisions):
+    """A chatter's hundreds of events do not fill the screen: first and last stand, the others are counted."""
+    events = (*(Event("rough", 1e-6 * count) for count in range(300)), Event("rests", 4e-4))
+    text = table(replace(collisions["escapes"], events=events))
+    assert len(text.splitlines()) < 50
+    assert row(text, "...") == "289 more"
+    assert row(text, "rests") == "400 us"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.0, "0 s"), (None, "-"), (1.5e-3, "1.5 ms"), (9.99999e-4, "1 ms"), (5e-6, "5 us"), (3e-9, "3 ns"), (-2, "-2 s")],
+)
+def test_prefixes(value, text):
+    """A quantity takes the prefix of its rounded size; None is a dash."""
+    assert quantity(value, "s") == text
+
+
+def test_no_prefix_beyond_reason():
+    """Sizes no prefix fits stay in the unit itself."""
+    assert prefix(1e-20) == prefix(1e9) == prefix(float("inf")) == (1.0, "")
+
+
+def test_a_name_is_one_short_line():
+    """Control characters and line breaks of a scene's name do not reach the terminal, nor does a novel."""
+    scene = Scene.load("granulation").with_entries({"name": "a\n\x1b[2J " + "b" * 99})
+    assert name_of(scene, 20) == "a [2J bbbbbbbbbbb..."
+    assert max(map(len, table(collide(scene)).splitlines())) <= 88
+    assert name_of(scene.with_entries({"name": ""})) == "unnamed scene"
