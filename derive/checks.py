@@ -242,7 +242,7 @@ def energy_balance(structure: Structure) -> sp.Expr:
     stored = [model.expanded(expression) for _, expression in model["energies"].outputs]
     total = sum((_slope(each, state) * rate for state, rate in _rates(model).items() for each in stored), sp.Integer(0))
     lost = sum((model.expanded(expression) for _, expression in model["energy_rates"].outputs), sp.Integer(0))
-    return sp.factor(sp.expand(total + lost))
+    return sp.factor(sp.expand(strings.half_angles(total + lost)))
 
 
 def energy() -> tuple[Check, ...]:

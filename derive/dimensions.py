@@ -37,7 +37,11 @@ class Dimension:
         return (self.mass, self.length, self.time)
 
     def __str__(self) -> str:
-        parts = [f"{base}^{power}" if power != 1 else base for base, power in zip("MLT", self.exponents, strict=True) if power]
+        parts = [
+            f"{base}^{power}" if power != 1 else base
+            for base, power in zip("MLT", self.exponents, strict=True)
+            if power
+        ]
         return " ".join(parts) or "1"
 
 
@@ -122,7 +126,9 @@ def dimension_of(
             if first is None:
                 first = (term, dimension)
             elif dimension != first[1]:
-                raise DimensionError(f"term {term} has dimension {dimension} beside {first[0]} of dimension {first[1]} in {whole}")
+                raise DimensionError(
+                    f"term {term} has dimension {dimension} beside {first[0]} of dimension {first[1]} in {whole}"
+                )
         return first[1] if first else None
 
     def _power(node: sp.Pow) -> Dimension | None:

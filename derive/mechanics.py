@@ -59,7 +59,10 @@ def kinetic_energy() -> sp.Expr:
     half = (4 * a + q.x) / 2
     position = sp.Matrix([half * sp.cos(q.beta), half * sp.sin(q.beta)])  # the other sphere mirrors this one
     velocity = position.diff(time)
-    per_sphere = sp.Rational(1, 2) * 2 * m * velocity.dot(velocity) + sp.Rational(1, 2) * sphere_inertia() * q.spin_angle.diff(time) ** 2
+    per_sphere = (
+        sp.Rational(1, 2) * 2 * m * velocity.dot(velocity)
+        + sp.Rational(1, 2) * sphere_inertia() * q.spin_angle.diff(time) ** 2
+    )
     return sp.simplify(2 * per_sphere)
 
 

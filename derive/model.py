@@ -117,15 +117,23 @@ def force_laws() -> dict[sp.Symbol, sp.Expr]:
 
 
 def _scaled_strings(oblique: bool) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """String pull, sideways force and potential energy, scaled; head-on beta = 0."""
+    """String pull, sideways force and the squared swing over a^2, scaled; head-on beta = 0."""
     turn = beta if oblique else sp.Integer(0)
-    swing = sp.expand((swing_squared() / a**2).subs(string_distance, a * DISTANCE)).subs(beta, turn)
+    apart = swing_squared().subs(string_distance - 4 * a, x)  # x and r = 4a + x kept apart: no cancellation
+    by_distance = apart.diff(x) + apart.diff(string_distance)
+    by_angle = sp.simplify(apart.diff(beta) / string_distance)
+
+    def scaled(expression: sp.Expr) -> sp.Expr:
+        return expression.subs(beta, turn).subs({x: a * aspect * gap, string_distance: a * DISTANCE}, simultaneous=True)
+
     stiffness = slot_call("strings", "stiffness", string_ratio, offset_squared)
     pull = nondimensional(4 * m * g / INERTIA) * stiffness / 2
     sideways = nondimensional(4 * m * g / TANGENTIAL) * stiffness / 2 if oblique else sp.Integer(0)
-    by_distance = sp.expand((swing_squared() / a).diff(string_distance).subs(string_distance, a * DISTANCE).subs(beta, turn))
-    by_angle = sp.expand((swing_squared() / (a * string_distance)).diff(beta).subs(string_distance, a * DISTANCE))
-    return sp.expand(2 * by_distance) * (pull / 2), sp.expand(by_angle) * sideways, swing
+    return (
+        sp.expand(2 * scaled(by_distance) / a) * (pull / 2),
+        sp.expand(scaled(by_angle) / a) * sideways,
+        sp.expand(scaled(apart) / a**2),
+    )
 
 
 @cache
@@ -156,8 +164,12 @@ def derive(structure: Structure) -> Model:
         definitions.append((SLIP, ORBITAL_RATE - spin))
         definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (m * a**2))))
         slip_form = _scaled(laws[F_t], TANGENTIAL)
-        definitions.append((SHEAR_FORCE, sp.factor(slip_form.subs(orbit, ORBITAL_RATE * DISTANCE**2)).subs(ORBITAL_RATE - spin, SLIP)))
-        definitions.append((CENTRIFUGAL_FORCE, nondimensional(m * r * omega**2 / INERTIA).subs(orbit, ORBITAL_RATE * DISTANCE**2)))
+        definitions.append(
+            (SHEAR_FORCE, sp.factor(slip_form.subs(orbit, ORBITAL_RATE * DISTANCE**2)).subs(ORBITAL_RATE - spin, SLIP))
+        )
+        definitions.append(
+            (CENTRIFUGAL_FORCE, nondimensional(m * r * omega**2 / INERTIA).subs(orbit, ORBITAL_RATE * DISTANCE**2))
+        )
     definitions.append((FILM_FORCE, _scaled(laws[F_n], INERTIA)))
     if bridge:
         definitions.append((BRIDGE_FORCE, _scaled(laws[F_c], INERTIA)))
@@ -170,7 +182,7 @@ def derive(structure: Structure) -> Model:
     if oblique and not structure.reduced:
         definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
 
-    functions = _functions(structure, tuple(states), definitions)
+    functions = _functions(structure, tuple(states))
     used = _closure(functions, definitions)
     definitions = [(s, e) for s, e in definitions if s in used]
     groups = [q for q in _GROUP_ORDER if q in used]
@@ -197,7 +209,11 @@ def _closure(functions: tuple[ModelFunction, ...], definitions: list[Definition]
 def _rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """Time derivatives of the states per v0/x0, out of the equations of motion."""
     motion = equations_of_motion()
-    named = {F_n: FILM_FORCE, F_c: BRIDGE_FORCE if structure.bridge else 0, S_n: STRING_PULL if structure.strings else 0}
+    named = {
+        F_n: FILM_FORCE,
+        F_c: BRIDGE_FORCE if structure.bridge else 0,
+        S_n: STRING_PULL if structure.strings else 0,
+    }
     named_tangential = {F_t: SHEAR_FORCE, S_t: STRING_SIDEWAYS if structure.strings else 0}
     normal = {force: INERTIA * value for force, value in named.items()}
     tangential = {force: TANGENTIAL * value for force, value in named_tangential.items()}
@@ -220,8 +236,7 @@ def _rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     return rate
 
 
-def _functions(structure: Structure, states: tuple[sp.Symbol, ...], definitions: list[Definition]) -> tuple[ModelFunction, ...]:
-    oblique, bridge, strings = structure.oblique, structure.bridge, structure.strings
+def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[ModelFunction, ...]:
     rates = _rates(structure)
     inward = -(rates[opening].subs(FILM_FORCE, 0))
     functions = [
@@ -232,7 +247,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...], definitions:
             regional=True,
         )
     ]
-    if oblique:
+    if structure.oblique:
         held = {gap: sp.Integer(0), opening: sp.Integer(0)}
         functions.append(
             ModelFunction(
@@ -249,7 +264,13 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...], definitions:
                 ((beta.name, nondimensional(omega * x0 / v0).subs(orbit, ORBITAL_RATE * DISTANCE**2)),),
             )
         )
-    functions.append(ModelFunction("inward_force", "What holds a doublet at rest together, over m v0^2/x0: positive inward.", (("inward_force", inward),)))
+    functions.append(
+        ModelFunction(
+            "inward_force",
+            "What holds a doublet at rest together, over m v0^2/x0: positive inward.",
+            (("inward_force", inward),),
+        )
+    )
     functions.append(_events(structure, inward))
     functions.append(
         ModelFunction(
@@ -258,11 +279,17 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...], definitions:
             tuple((s.name, -e_dry * opening if s == opening else s) for s in states),
         )
     )
-    start: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), opening: sp.Integer(-1), orbit: (4 + aspect) ** 2, spin: sp.Integer(0), beta: sp.Integer(0)}
+    start: dict[sp.Symbol, sp.Expr] = {
+        gap: sp.Integer(1),
+        opening: sp.Integer(-1),
+        orbit: (4 + aspect) ** 2,
+        spin: sp.Integer(0),
+        beta: sp.Integer(0),
+    }
     functions.append(ModelFunction("start", "State at first touch.", tuple((s.name, start[s]) for s in states)))
     functions += _ledger(structure)
     functions.append(_outputs(structure))
-    functions += _level(structure, bridge, strings)
+    functions += _level(structure)
     return tuple(functions)
 
 
@@ -304,7 +331,13 @@ def _kinetic(structure: Structure) -> sp.Expr:
 def _ledger(structure: Structure) -> list[ModelFunction]:
     energies = [("kinetic", _kinetic(structure))]
     if structure.strings:
-        energies.append(("strings", nondimensional(4 * m * g * a / (m * v0**2)) * slot_call("strings", "rise", string_ratio, offset_squared)))
+        energies.append(
+            (
+                "strings",
+                nondimensional(4 * m * g * a / (m * v0**2))
+                * slot_call("strings", "rise", string_ratio, offset_squared),
+            )
+        )
     rates = [("normal_lubrication", FILM_FORCE * opening)]
     if structure.bridge:
         rates.append(("capillary", BRIDGE_FORCE * opening))
@@ -313,12 +346,23 @@ def _ledger(structure: Structure) -> list[ModelFunction]:
         power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * omega0 * ORBITAL_RATE - 2 * a * LEVER * xi)
         rates.append(("tangential_lubrication", nondimensional(power * x0 / v0 / (m * v0**2))))
         drift = MOMENTUM / (4 + aspect) ** 2
-        functions.append(ModelFunction("angular_momentum", "Angular momentum over its start value.", (("angular_momentum", drift),)))
+        functions.append(
+            ModelFunction("angular_momentum", "Angular momentum over its start value.", (("angular_momentum", drift),))
+        )
     dry = sp.Rational(1, 2) * opening**2 * (1 - e_dry**2)
     return [
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies)),
-        ModelFunction("energy_rates", "Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.", tuple(rates), regional=True),
-        ModelFunction("reversal_loss", "Energy lost in a reversal that starts from this state, over m v0^2.", (("dry_contact", dry),)),
+        ModelFunction(
+            "energy_rates",
+            "Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.",
+            tuple(rates),
+            regional=True,
+        ),
+        ModelFunction(
+            "reversal_loss",
+            "Energy lost in a reversal that starts from this state, over m v0^2.",
+            (("dry_contact", dry),),
+        ),
         *functions,
     ]
 
@@ -335,9 +379,9 @@ def _outputs(structure: Structure) -> ModelFunction:
     return ModelFunction("outputs", doc, tuple(outputs))
 
 
-def _level(structure: Structure, bridge: bool, strings: bool) -> list[ModelFunction]:
+def _level(structure: Structure) -> list[ModelFunction]:
     """Pieces of the stick certificate: least energy at a gap for the state's angular momentum, and its slope."""
-    if structure.oblique and strings:
+    if structure.oblique and structure.strings:
         return []
     energy, slope = sp.Integer(0), sp.Integer(0)
     if structure.oblique:
@@ -345,10 +389,15 @@ def _level(structure: Structure, bridge: bool, strings: bool) -> list[ModelFunct
         energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
         body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
         slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
-    if bridge:
+    if structure.bridge:
         slope += BRIDGE_FORCE
-    if strings:
-        energy += nondimensional(4 * m * g * a / (m * v0**2)) * slot_call("strings", "rise", string_ratio, offset_squared)
+    if structure.strings:
+        energy += nondimensional(4 * m * g * a / (m * v0**2)) * slot_call(
+            "strings", "rise", string_ratio, offset_squared
+        )
         slope += STRING_PULL
-    doc = "Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the slope with it."
+    doc = (
+        "Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, "
+        "and the slope with it."
+    )
     return [ModelFunction("effective_potential", doc, (("energy", energy), ("slope", slope)))]

@@ -38,7 +38,9 @@ class Quantity:
 _ALL: dict[str, Quantity] = {}
 
 
-def _quantity(name: str, latex: str, dimension: Dimension, unit: str, meaning: str, source: str = PAPER, **assumptions: bool) -> sp.Symbol:
+def _quantity(
+    name: str, latex: str, dimension: Dimension, unit: str, meaning: str, source: str = PAPER, **assumptions: bool
+) -> sp.Symbol:
     symbol = sp.Symbol(name, **(assumptions or {"positive": True}))
     if name in _ALL:
         raise ValueError(f"{name} stands twice in the vocabulary")
@@ -52,7 +54,9 @@ m = _quantity("reduced_mass", "m", MASS, "kg", "reduced mass, M/2 for equal sphe
 x_b = _quantity("roughness", "x_b", LENGTH, "m", "height of the surface roughness")
 e_dry = _quantity("dry_restitution", "e_{dry}", ONE, "1", "restitution of the dry contact", nonnegative=True)
 E = _quantity("youngs_modulus", "E", PRESSURE, "Pa", "Young's modulus of the spheres", "Davis, Rager & Good 2002")
-nu = _quantity("poisson_ratio", r"\nu", ONE, "1", "Poisson's ratio of the spheres", "Davis, Rager & Good 2002", real=True)
+nu = _quantity(
+    "poisson_ratio", r"\nu", ONE, "1", "Poisson's ratio of the spheres", "Davis, Rager & Good 2002", real=True
+)
 mu = _quantity("viscosity", r"\mu", PRESSURE * TIME, "Pa s", "viscosity of the liquid")
 x0 = _quantity("film_thickness", "x_0", LENGTH, "m", "film thickness: the gap at first touch")
 p_gt = _quantity("glass_transition_pressure", "p_{gt}", PRESSURE, "Pa", "glass-transition pressure of the liquid")
@@ -87,7 +91,9 @@ aspect = _quantity("aspect", r"\varepsilon", ONE, "1", "film thickness over redu
 obliquity = _quantity("obliquity", r"\tan\theta_0", ONE, "1", "tangent of the impact angle", nonnegative=True)
 glass_number = _quantity("glass_number", r"\Pi_{gt}", ONE, "1", "glass-transition pressure over 3 mu a v0/x0^2")
 volume = _quantity("volume", "V", ONE, "1", "bridge volume over R^3 (constant)")
-contact_angle = _quantity("contact_angle", r"\phi", ONE, "rad", "contact angle of the liquid on the sphere", nonnegative=True)
+contact_angle = _quantity(
+    "contact_angle", r"\phi", ONE, "rad", "contact angle of the liquid on the sphere", nonnegative=True
+)
 weight = _quantity("weight", r"g x_0/v_0^2", ONE, "1", "gravity over impact deceleration, g x0/v0^2")
 string_ratio = _quantity("string_ratio", "l/a", ONE, "1", "string length over reduced radius")
 elastic_gap = _quantity("elastic_gap", "x_r/x_0", ONE, "x0", "elastic length over film thickness", nonnegative=True)

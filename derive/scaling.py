@@ -101,6 +101,12 @@ def group_definitions() -> dict[sp.Symbol, sp.Expr]:
 
 
 @cache
+def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
+    """Scales that are not themselves quantities of a scene."""
+    return {omega0: initial_rate()}
+
+
+@cache
 def to_groups() -> dict[sp.Symbol, sp.Expr]:
     """SI quantities in terms of groups, a, v0 and mu (which must cancel from every dimensionless expression)."""
     film = aspect * a

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-"""From the functions of a structure module to CasADi Functions over vectors ordered as STATES and GROUPS."""
+"""From a structure module to CasADi Functions over vectors ordered as its STATES and GROUPS."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b235cac5e20900213dc3ad7c5f1aa38f14d9230fab9f4b84cafa0e32357b6a20
+# Equations sha256 f0b20b62c19306fecd277594115e7eadec309be4f5615ff9ea3647abe3252d4c
 """Head-on doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -60,7 +60,7 @@ FUNCTIONS = (
     "effective_potential",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "b235cac5e20900213dc3ad7c5f1aa38f14d9230fab9f4b84cafa0e32357b6a20"
+DIGEST = "f0b20b62c19306fecd277594115e7eadec309be4f5615ff9ea3647abe3252d4c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -68,7 +68,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 23
+    Total operations: 20
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -79,11 +79,10 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     contact_angle = groups["contact_angle"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
     film_force = film*opening*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    offset_squared = distance**2/4 - 2*distance + 4
-    string_pull = weight*(distance - 4)*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
         "gap": opening,
         "opening": -bridge_force - film_force - string_pull,
@@ -93,7 +92,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What holds a doublet at rest together, over m v0^2/x0: positive inward.
 
-    Total operations: 17
+    Total operations: 14
     """
     gap = state["gap"]
     stokes = groups["stokes"]
@@ -103,10 +102,9 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     contact_angle = groups["contact_angle"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    offset_squared = distance**2/4 - 2*distance + 4
-    string_pull = weight*(distance - 4)*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
         "inward_force": bridge_force + string_pull,
     }
@@ -162,15 +160,14 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 13
+    Total operations: 10
     """
     gap = state["gap"]
     opening = state["opening"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
-    offset_squared = distance**2/4 - 2*distance + 4
+    offset_squared = aspect**2*gap**2/4
     return {
         "kinetic": opening**2/2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
@@ -226,7 +223,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
     slope with it.
 
-    Total operations: 21
+    Total operations: 18
     """
     gap = state["gap"]
     stokes = groups["stokes"]
@@ -236,10 +233,9 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     contact_angle = groups["contact_angle"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    offset_squared = distance**2/4 - 2*distance + 4
-    string_pull = weight*(distance - 4)*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
         "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
         "slope": bridge_force + string_pull,

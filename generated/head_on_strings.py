@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 1d3fce5230007124f1b405bdf6041dcca1930da8969d073bf44ae5c260d83818
+# Equations sha256 aafdf7bd894cab42b42af18127168205f77157c7141fc168a55a98bb61489b3c
 """Head-on doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -52,7 +52,7 @@ FUNCTIONS = (
     "effective_potential",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "1d3fce5230007124f1b405bdf6041dcca1930da8969d073bf44ae5c260d83818"
+DIGEST = "aafdf7bd894cab42b42af18127168205f77157c7141fc168a55a98bb61489b3c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 17
+    Total operations: 14
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -68,10 +68,9 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
     film_force = film*opening*laws.film.resistance(gap)/stokes
-    offset_squared = distance**2/4 - 2*distance + 4
-    string_pull = weight*(distance - 4)*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
         "gap": opening,
         "opening": -film_force - string_pull,
@@ -81,15 +80,14 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What holds a doublet at rest together, over m v0^2/x0: positive inward.
 
-    Total operations: 11
+    Total operations: 8
     """
     gap = state["gap"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
-    offset_squared = distance**2/4 - 2*distance + 4
-    string_pull = weight*(distance - 4)*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
         "inward_force": string_pull,
     }
@@ -143,15 +141,14 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 13
+    Total operations: 10
     """
     gap = state["gap"]
     opening = state["opening"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
-    offset_squared = distance**2/4 - 2*distance + 4
+    offset_squared = aspect**2*gap**2/4
     return {
         "kinetic": opening**2/2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
@@ -201,15 +198,14 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
     slope with it.
 
-    Total operations: 15
+    Total operations: 12
     """
     gap = state["gap"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
-    offset_squared = distance**2/4 - 2*distance + 4
-    string_pull = weight*(distance - 4)*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
         "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
         "slope": string_pull,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 79a16be68a322b19f131de1293a6bbb108d55f36fdd63f4ac5b0270490eaca31
+# Equations sha256 82ea5e7fe1e33a2006f946f5aa6a97ed622a09fbedb04940f8bd061db54412a1
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -32,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import cos, pi, sin
+from casadi import pi, sin
 
 
 Values = Mapping[str, Any]
@@ -69,7 +69,7 @@ FUNCTIONS = (
     "outputs",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "79a16be68a322b19f131de1293a6bbb108d55f36fdd63f4ac5b0270490eaca31"
+DIGEST = "82ea5e7fe1e33a2006f946f5aa6a97ed622a09fbedb04940f8bd061db54412a1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -77,7 +77,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 59
+    Total operations: 65
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -99,8 +99,10 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     film_force = film*opening*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    offset_squared = distance**2/4 - 2*distance*cos(rotation) + 4
-    string_pull = weight*(distance - 4*cos(rotation))*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_pull = (
+        weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
+    )
     string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
     lever = laws.arm.lever(distance)
     return {
@@ -117,7 +119,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 35
+    Total operations: 38
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -132,7 +134,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     orbital_rate = orbit/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    offset_squared = distance**2/4 - 2*distance*cos(rotation) + 4
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
     lever = laws.arm.lever(distance)
     return {
@@ -163,7 +165,7 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What holds a doublet at rest together, over m v0^2/x0: positive inward.
 
-    Total operations: 30
+    Total operations: 36
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -180,8 +182,10 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbit/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    offset_squared = distance**2/4 - 2*distance*cos(rotation) + 4
-    string_pull = weight*(distance - 4*cos(rotation))*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_pull = (
+        weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
+    )
     return {
         "inward_force": bridge_force - centrifugal_force + string_pull,
     }
@@ -191,7 +195,7 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Event functions, each positive before its event: the criteria while closing, `turning` the opening
     velocity (its sign tells closing from opening), `release` in resting contact.
 
-    Total operations: 40
+    Total operations: 46
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -213,8 +217,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbit/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    offset_squared = distance**2/4 - 2*distance*cos(rotation) + 4
-    string_pull = weight*(distance - 4*cos(rotation))*laws.strings.stiffness(string_ratio, offset_squared)
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_pull = (
+        weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
+    )
     return {
         "glass": glass_number - laws.glass.pressure(gap, -opening),
         "elastic": gap - elastic_gap,
@@ -267,7 +273,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 29
+    Total operations: 32
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -280,7 +286,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
     orbital_rate = orbit/distance**2
-    offset_squared = distance**2/4 - 2*distance*cos(rotation) + 4
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     return {
         "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,

@@ -1,8 +1,8 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 aebac6a7aea801e9ed2a7bd6927108166334298c517ade790a915843e8e10414
-"""Dimensionless groups from SI quantities, as ratios of the model's terms.
+# Equations sha256 9f8f3e863d23bc450ee5011432afc0ee2e84fd7e613815134e4e5bd5146ab6b7
+"""Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.
 
-A function a group, of floats or CasADi expressions; ARGUMENTS names what each takes, in order.
+A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ ARGUMENTS: dict[str, tuple[str, ...]] = {
     "elastic_gap": ("reduced_radius", "youngs_modulus", "poisson_ratio", "viscosity", "film_thickness", "speed"),
     "rough_gap": ("roughness", "film_thickness"),
     "rupture_gap": ("reduced_radius", "film_thickness", "volume", "contact_angle"),
+    "initial_rate": ("reduced_radius", "speed", "angle"),
 }
 
 
@@ -153,3 +154,13 @@ def rupture_gap(reduced_radius: Any, film_thickness: Any, volume: Any, contact_a
     - contact_angle [rad]: contact angle of the liquid on the sphere
     """
     return 2*reduced_radius*volume**(1/3)*(contact_angle/2 + 1)/film_thickness
+
+
+def initial_rate(reduced_radius: Any, speed: Any, angle: Any) -> Any:
+    """initial angular velocity, v0 tan(theta0)/(4a) [rad/s].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at first touch
+    - angle [rad]: impact angle, 0 head-on
+    """
+    return speed*tan(angle)/(4*reduced_radius)

@@ -9,10 +9,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .simulate import collide
-    from .result import Collision
     from .errors import CheckFailed, ComputationError, InputError, WetDoubletError
+    from .result import Collision
     from .scene import Scene
+    from .simulate import collide
 
 _HOMES = {
     "CheckFailed": "errors",

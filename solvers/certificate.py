@@ -186,9 +186,7 @@ class BarrierProof:
         inside = np.geomspace(start, 1.0, 81)
         grid = np.unique(np.concatenate([inside, np.linspace(1.0, end, 81)])) if end > 1 else inside
         slope = self._slope(grid, y)
-        tops = [
-            self._root(grid[k], grid[k + 1], y) for k in range(grid.size - 1) if slope[k] > 0 >= slope[k + 1]
-        ]
+        tops = [self._root(grid[k], grid[k + 1], y) for k in range(grid.size - 1) if slope[k] > 0 >= slope[k + 1]]
         if slope[-1] > 0:
             tops.append(float(grid[-1]))
         at_touch = np.array([1.0, *y[1:]])

@@ -88,7 +88,9 @@ def fly(path: Path, plugin: str, rtol: float, kind: Flow, start: np.ndarray) -> 
     return flown
 
 
-def _flight(engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p: np.ndarray) -> tuple[float, np.ndarray]:
+def _flight(
+    engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p: np.ndarray
+) -> tuple[float, np.ndarray]:
     """Duration and end of one phase, on the event's surface."""
     y = engine(flown.y, p, step.duration)
     flown.steps += engine.steps
@@ -109,4 +111,3 @@ def _flight(engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p
         y = engine(flown.y, p, duration)
         flown.steps += engine.steps
     raise Diverged(step, flown.time + duration, y)
-

@@ -34,7 +34,7 @@ def quiet() -> Iterator[None]:
         yield
     for line in heard.getvalue().splitlines():
         if line and _EXPECTED not in line:
-            print(line, file=sys.stderr)
+            sys.stderr.write(line + "\n")
 
 
 def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
@@ -99,7 +99,8 @@ def plain(flow: Flow, plugin: str, rtol: float, grid: tuple[float, ...] = (1.0,)
 @dataclass(frozen=True)
 class Stop:
     """Where a locating integrator stopped: the event's name (None: none yet), its time, the state, and whether the
-    event's function had already dipped below zero before (its true crossing is then earlier)."""
+    event's function had already dipped below zero before (its true crossing is then earlier).
+    """
 
     event: str | None
     time: float

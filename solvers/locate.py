@@ -101,7 +101,9 @@ class Locate:
                 return self.path
             if self.path.separated:
                 return self.path
-        raise self._error(f"{_MAX_STEPS} phases have not decided the outcome", "look at its events: this is chatter without end")
+        raise self._error(
+            f"{_MAX_STEPS} phases have not decided the outcome", "look at its events: this is chatter without end"
+        )
 
     def _criterion_met(self) -> str | None:
         """A criterion already true where a phase starts, by rule: glass, elastic, rough."""
@@ -142,7 +144,7 @@ class Locate:
                 stretch *= GROWTH
         raise self._error(
             f"no event within {flown:.3g} x0/v0",
-            "the scene is within its tolerance of a boundary or creeps beyond all bounds: try a smaller --rtol, or another angle or Stokes number",
+            "it lies within its tolerance of a boundary, or creeps beyond all bounds: try a smaller --rtol, or another impact",
         )
 
     def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
@@ -199,7 +201,9 @@ class Locate:
             self.path.separated = True
             return True
         else:
-            self._stop(Step(phase, flown, event, ({"half_turn": "half turn", "unwinding": "rotation reverses"}[event],)))
+            self._stop(
+                Step(phase, flown, event, ({"half_turn": "half turn", "unwinding": "rotation reverses"}[event],))
+            )
             return True
         return False
 

@@ -1,4 +1,4 @@
-"""The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions and functions."""
+"""The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions."""
 
 from __future__ import annotations
 
@@ -108,9 +108,13 @@ class Model:
     def parameters(self) -> SX:
         return vector(self.groups)
 
-    def __call__(self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int] | None = None) -> dict[str, SX]:
+    def __call__(
+        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int] | None = None
+    ) -> dict[str, SX]:
         """A function of the structure module as named expressions."""
-        found: dict[str, SX] = getattr(self.structure, name)(self.state if state is None else state, self.groups, self.laws, **(region or {}))
+        found: dict[str, SX] = getattr(self.structure, name)(
+            self.state if state is None else state, self.groups, self.laws, **(region or {})
+        )
         return found
 
     def has(self, name: str) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -55,7 +54,11 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
         values["density"] = liquid.density
     if scene.bridge is not None:
         bridge = scene.bridge
-        values |= {"surface_tension": bridge.surface_tension, "volume": bridge.volume, "contact_angle": bridge.contact_angle}
+        values |= {
+            "surface_tension": bridge.surface_tension,
+            "volume": bridge.volume,
+            "contact_angle": bridge.contact_angle,
+        }
     if scene.pendulum is not None:
         values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
     return values
@@ -73,14 +76,14 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     for name, arguments in scaling.ARGUMENTS.items():
         if all(argument in values for argument in arguments):
             groups[name] = float(getattr(scaling, name)(*(values[argument] for argument in arguments)))
-    a, x0 = scene.particles.reduced_radius, scene.liquid.film_thickness
+    x0 = scene.liquid.film_thickness
     return Numbers(
         groups=groups,
         angle=angle,
         speed=speed,
         length=x0,
         time=x0 / speed,
-        rate=speed * math.tan(angle) / (4 * a),
+        rate=groups["initial_rate"],
         energy=scene.particles.reduced_mass * speed**2,
         stokes=groups["stokes"],
         centrifugal=groups.get("centrifugal"),

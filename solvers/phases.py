@@ -93,7 +93,9 @@ def expressions(flow: Flow) -> Expressions:
     return Expressions(
         variables=vertcat(model.column, *extras.values()),
         extras=extras,
-        rates=densify(vertcat(*(SX(rate) for rate in rates.values()), *(SX(extra_rates[name]) for name in flow.extras))),
+        rates=densify(
+            vertcat(*(SX(rate) for rate in rates.values()), *(SX(extra_rates[name]) for name in flow.extras))
+        ),
     )
 
 

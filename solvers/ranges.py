@@ -19,6 +19,7 @@ def parse_range(text: str, label: str, read: Callable[[str], float], *, unit: st
         label: option that the range belongs to, for the error.
         read: turns one end into an SI number, or raises InputError.
         unit: said of LO and HI in the error (`in degrees`).
+
     Raises:
         InputError: not a range, LO above HI, a count that is no whole number or does not fit.
     """

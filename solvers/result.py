@@ -34,7 +34,15 @@ class Energy:
         return self.initial - self.final - spent
 
     def to_dict(self) -> dict[str, float]:
-        names = ("initial", "final", "normal_lubrication", "tangential_lubrication", "capillary", "dry_contact", "strings")
+        names = (
+            "initial",
+            "final",
+            "normal_lubrication",
+            "tangential_lubrication",
+            "capillary",
+            "dry_contact",
+            "strings",
+        )
         return {name: getattr(self, name) for name in (*names, "residual")}
 
 
@@ -89,8 +97,9 @@ class Collision:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
         plain = (
-            "outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap", "final_spin",
-            "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle", "reversal", "certified", "until",
+            "outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap",
+            "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
+            "reversal", "certified", "until",
         )  # fmt: skip
         result: dict[str, Any] = {name: getattr(self, name) for name in plain}
         if self.reynolds is not None:

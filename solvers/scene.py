@@ -25,6 +25,7 @@ class Scene:
         name: any text, may be empty.
         given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
         comments: (dotted name, `assumed ...`) for entries that are guesses.
+
     Raises:
         InputError: names the first entry that is wrong, its value, and what is accepted.
 
@@ -139,7 +140,7 @@ class Scene:
         if not changes:
             return self
         rules.check_entries(changes)
-        replaced = {"impact.stokes", "impact.speed"} if len({*changes} - {"impact.angle"}) else set()
+        replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
         return type(self)(self.name, tuple({**kept, **changes}.items()), self.comments)
 

@@ -24,7 +24,7 @@ def read_text(source: str | Path) -> tuple[str, str]:
         return (_FOLDER / f"{source}.toml").read_text(encoding="utf-8"), source
     accepted = "a scene file (TOML) or a preset: " + ", ".join(PRESETS)
     try:
-        with open(source, "rb") as file:
+        with Path(source).open("rb") as file:
             content = file.read(_LARGEST + 1)
     except FileNotFoundError:
         is_name = isinstance(source, str) and not re.search(r"[/\\]|\.toml$", source)

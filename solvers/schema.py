@@ -66,7 +66,8 @@ class Field:
         Arguments:
             raw: text with a unit, a number (SI), or a choice.
             label: name in the error, when it is not the field's own (an option).
-            from_file: TOML knows numbers from text and has no SI by default, so a quantity must be text, a number must not.
+            from_file: TOML tells numbers from text and has no default unit: a quantity must be text, a number not.
+
         Raises:
             InputError: anything else, and a number outside the range.
         """

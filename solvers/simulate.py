@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .chain import Diverged, Flown, fly
-from .result import Collision, Energy, Event
 from .errors import ComputationError
 from .integrators import IntegrationFailed
 from .locate import Path, locate
 from .model import Model, choose, load
 from .numbers import Numbers, numbers
 from .phases import Flow, Region
+from .result import Collision, Energy, Event
 from .scene import Scene
 from .settings import check_engine, check_rtol
 
@@ -68,7 +68,9 @@ def collide(
     return _result(loaded, dimensionless, located, flown, model, plugin, rtol, trajectory)
 
 
-def _compute(scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool) -> tuple[Path, Flown, Flow]:
+def _compute(
+    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool
+) -> tuple[Path, Flown, Flow]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary."""
     small = load(choose(scene, n.oblique))
     choice = choose(scene, n.oblique, full=ledger or trajectory)
@@ -115,7 +117,9 @@ def _in_si(error: ComputationError, n: Numbers) -> ComputationError:
     return ComputationError(error.message, error.phase, time, state, error.advice)
 
 
-def _result(scene: Scene, n: Numbers, path: Path, flown: Flown, flow: Flow, plugin: str, rtol: float, trajectory: bool) -> Collision:
+def _result(
+    scene: Scene, n: Numbers, path: Path, flown: Flown, flow: Flow, plugin: str, rtol: float, trajectory: bool
+) -> Collision:
     model, separated = flow.model, path.separated
     p = model.group_values(n.groups)
     outputs = model.values("outputs", flown.y, p) if separated else {}

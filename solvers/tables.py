@@ -11,6 +11,8 @@ from .schema import FIELDS
 
 @dataclass(frozen=True)
 class Table:
+    """Base of the tables: every entry is read as the schema says."""
+
     name: ClassVar[str]
 
     def __post_init__(self) -> None:

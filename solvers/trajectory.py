@@ -10,7 +10,7 @@ from .integrators import plain
 from .model import Model
 from .numbers import Numbers
 
-# Per phase, crowded towards both of its ends, where the fast transients are; the integrator's steps do not depend on them.
+# Per phase, crowded towards its ends, where the fast transients are; the integrator's steps do not depend on them.
 _POINTS = 64
 _PART = np.linspace(0, 1, _POINTS + 1)
 _GRID = _PART**3 * (10 - 15 * _PART + 6 * _PART**2)
@@ -43,7 +43,9 @@ def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) ->
     zero = np.zeros(time.size)
     values = {"gap": y[0] * n.length, "opening_velocity": y[1] * n.speed}
     if model.oblique:
-        outputs = dict(zip(model.names("outputs"), np.asarray(model.function("outputs")(y[:size], p).full()), strict=True))
+        outputs = dict(
+            zip(model.names("outputs"), np.asarray(model.function("outputs")(y[:size], p).full()), strict=True)
+        )
         names = (*model.state, *flown.extras)
         values |= {
             "rotation_rate": outputs["final_rotation_rate"] * n.rate,
@@ -53,7 +55,8 @@ def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) ->
     else:
         values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
     variables = {
-        name: ("time", value, {"units": _VARIABLES[name][0], "long_name": _VARIABLES[name][1]}) for name, value in values.items()
+        name: ("time", value, {"units": _VARIABLES[name][0], "long_name": _VARIABLES[name][1]})
+        for name, value in values.items()
     }
     coordinates = {
         "time": ("time", time, {"units": "s", "long_name": "time since first touch"}),

@@ -88,8 +88,10 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
         si: the unit of the result, a key of `DIMENSIONS`.
         field: name of the entry or option, for the error.
         accepted: what is accepted there, for the error.
+
     Returns:
         the value in `si`, finite; correctly rounded for the units of `COMMON`.
+
     Raises:
         InputError: no number, not finite, unit missing, unknown or of another dimension.
     """

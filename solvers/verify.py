@@ -62,7 +62,13 @@ class Report:
             lines += [f"## {group}", "", "| | check | statement | figure | bound |", "|---|---|---|---|---|"]
             for finding in self.findings:
                 if finding.group == group:
-                    cells = ("ok" if finding.ok else "**FAIL**", finding.name, finding.statement, finding.figure, finding.bound)
+                    cells = (
+                        "ok" if finding.ok else "**FAIL**",
+                        finding.name,
+                        finding.statement,
+                        finding.figure,
+                        finding.bound,
+                    )
                     lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
             lines.append("")
         return "\n".join([*lines, self.summary])
@@ -71,7 +77,9 @@ class Report:
     def summary(self) -> str:
         if self.ok:
             return f"{len(self.findings)} checks hold"
-        return f"{len(self.failed)} of {len(self.findings)} checks fail: " + "; ".join(finding.name for finding in self.failed)
+        return f"{len(self.failed)} of {len(self.findings)} checks fail: " + "; ".join(
+            finding.name for finding in self.failed
+        )
 
 
 def verify(scene: Scene | None = None) -> Report:
@@ -102,7 +110,12 @@ def numeric(scene: Scene) -> Iterator[Finding]:
     both = [one for pair in pairs for one in pair]
     worst = max(both, key=_residual)
     yield _bounded(
-        group, "energy ledger", "T(0) = T(end) + losses + works, residual over T(0)", _residual(worst), RESIDUAL, _where(worst)
+        group,
+        "energy ledger",
+        "T(0) = T(end) + losses + works, residual over T(0)",
+        _residual(worst),
+        RESIDUAL,
+        _where(worst),
     )
     drifting = [one for one in both if one.angular_momentum_drift is not None]
     if drifting:
@@ -116,7 +129,14 @@ def numeric(scene: Scene) -> Iterator[Finding]:
     yield _bounded(group, "engines agree", "cvodes and rosenbrock: outcome and e_n", apart, AGREEMENT, _where(one))
     count = sum(one.certified for one in both)
     sticks = sum(one.outcome == "stick" for one in both)
-    yield Finding(group, "sticks proved", "sticks that carry a certificate", f"{count} of {sticks} ({len(both)} collisions)", "", True)
+    yield Finding(
+        group,
+        "sticks proved",
+        "sticks that carry a certificate",
+        f"{count} of {sticks} ({len(both)} collisions)",
+        "",
+        True,
+    )
 
 
 def _flights(scene: Scene) -> tuple[list[tuple[Collision, Collision]], list[str]]:

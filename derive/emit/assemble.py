@@ -1,6 +1,6 @@
 """Text of `generated/assemble.py`: how a structure's functions become CasADi Functions over named vectors."""
 
-ASSEMBLE = '''"""From the functions of a structure module to CasADi Functions over vectors ordered as STATES and GROUPS."""
+ASSEMBLE = '''"""From a structure module to CasADi Functions over vectors ordered as its STATES and GROUPS."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ import sympy as sp
 from ..laws.base import Law
 from ..model import FILM, SHEAR, Model
 from ..quantities import VOCABULARY
-from ..scaling import group_definitions
+from ..scaling import group_definitions, scale_definitions
 from .printer import Printer
 from .text import INDENT, assignment, docstring, module, needed, operations
 
@@ -28,6 +28,7 @@ def _header(source: str) -> str:
 
 
 def law_digest(law: Law) -> str:
+    """Digest of a law's mathematics."""
     parts: list[object] = [law.slot, law.name]
     for function in law.functions:
         parts += [function.name, *function.arguments, function.result]
@@ -48,7 +49,11 @@ def law_module(law: Law) -> str:
         for symbol, expression in kept:
             body += assignment(symbol.name, expression, printer)
         lines = assignment("result", function.result, printer)
-        body += [f"{INDENT}return {printer(function.result)}", ""] if len(lines) == 1 else [*lines, f"{INDENT}return result", ""]
+        body += (
+            [f"{INDENT}return {printer(function.result)}", ""]
+            if len(lines) == 1
+            else [*lines, f"{INDENT}return result", ""]
+        )
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
     return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
 
@@ -58,6 +63,7 @@ def _casadi(printer: Printer) -> list[str]:
 
 
 def model_digest(model: Model) -> str:
+    """Digest of a structure's mathematics."""
     parts: list[object] = [model.structure.name, *model.states, *model.groups, *model.slots]
     parts += [part for pair in model.definitions for part in pair]
     for function in model.functions:
@@ -133,14 +139,19 @@ def _function(model: Model, name: str, printer: Printer) -> list[str]:
 
 
 def scaling_digest() -> str:
-    return digest(*(part for pair in group_definitions().items() for part in pair))
+    """Digest of the groups and scales."""
+    return digest(*(part for pair in _scaling().items() for part in pair))
+
+
+def _scaling() -> dict[sp.Symbol, sp.Expr]:
+    return group_definitions() | scale_definitions()
 
 
 def scaling_module() -> str:
     """The groups as functions of SI quantities, one a function, and which quantities each takes."""
     printer = Printer()
     body: list[str] = ["", "ARGUMENTS: dict[str, tuple[str, ...]] = {"]
-    definitions = group_definitions()
+    definitions = _scaling()
     arguments = {
         group.name: tuple(name for name in VOCABULARY if VOCABULARY[name].symbol in expression.free_symbols)
         for group, expression in definitions.items()
@@ -154,5 +165,8 @@ def scaling_module() -> str:
         units = "\n".join(f"- {name} [{VOCABULARY[name].unit}]: {VOCABULARY[name].meaning}" for name in names)
         body += docstring(f"{VOCABULARY[group.name].meaning} [{VOCABULARY[group.name].unit}].\n\n{units}", INDENT)
         body += [f"{INDENT}return {printer(expression)}", ""]
-    doc = "Dimensionless groups from SI quantities, as ratios of the model's terms.\n\nA function a group, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
+    doc = (
+        "Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.\n\n"
+        "A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
+    )
     return module(_header(scaling_digest()), doc, ["from typing import Any", "", *_casadi(printer)], body)

@@ -96,7 +96,7 @@ class Printer:
     @staticmethod
     def _float(node: sp.Float) -> tuple[str, int]:
         value = float(node)
-        if sp.Float(value, node._prec) != node and sp.Float(value) != node:
+        if sp.Float(value, 50) != sp.Float(node, 50):
             raise EmissionError(f"number {node} does not round-trip through a double")
         return repr(value), _ATOM if value >= 0 else _UNARY
 

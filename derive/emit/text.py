@@ -20,11 +20,12 @@ def docstring(text: str, indent: str = "") -> list[str]:
     wrapped: list[str] = []
     for paragraph in paragraphs:
         hanging = "  " if paragraph.startswith(("- ", "  ")) else ""
-        wrapped += textwrap.wrap(paragraph, WIDTH - len(indent), subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False) or [""]
+        wrapped += textwrap.wrap(
+            paragraph, WIDTH - len(indent), subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False
+        ) or [""]
     if len(wrapped) == 1 and len(wrapped[0]) + len(indent) + 6 <= WIDTH:
         return [f'{indent}"""{wrapped[0]}"""']
-    lines = [f'{indent}"""{wrapped[0]}', *(f"{indent}{line}" if line else "" for line in wrapped[1:]), f'{indent}"""']
-    return lines
+    return [f'{indent}"""{wrapped[0]}', *(f"{indent}{line}" if line else "" for line in wrapped[1:]), f'{indent}"""']
 
 
 def assignment(name: str, expression: sp.Expr, printer: Printer) -> list[str]:
@@ -48,7 +49,9 @@ def operations(expressions: Iterable[sp.Expr]) -> int:
     return sum(int(sp.count_ops(expression)) for expression in expressions)
 
 
-def needed(outputs: Sequence[sp.Expr], definitions: Sequence[tuple[sp.Symbol, sp.Expr]]) -> tuple[list[tuple[sp.Symbol, sp.Expr]], set[sp.Symbol]]:
+def needed(
+    outputs: Sequence[sp.Expr], definitions: Sequence[tuple[sp.Symbol, sp.Expr]]
+) -> tuple[list[tuple[sp.Symbol, sp.Expr]], set[sp.Symbol]]:
     """The definitions that the outputs reach, in order, and every symbol that occurs in either."""
     used: set[sp.Symbol] = set()
     for expression in outputs:
@@ -64,7 +67,7 @@ def needed(outputs: Sequence[sp.Expr], definitions: Sequence[tuple[sp.Symbol, sp
 def module(header: str, doc: str, imports: Sequence[str], body: Sequence[str]) -> str:
     """A whole module."""
     lines = [f"# {line}" for line in header.splitlines()]
-    lines += docstring(doc) + ["", "from __future__ import annotations", ""]
+    lines += [*docstring(doc), "", "from __future__ import annotations", ""]
     if imports:
         lines += [*imports]
     text = "\n".join([*lines, "", *body]).rstrip() + "\n"

@@ -24,11 +24,15 @@ GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
 
 
+def _package(doc: str) -> str:
+    return f'# {_PROVENANCE}\n"""{doc}"""\n'
+
+
 def emitted() -> dict[str, str]:
     """Relative path -> text of every file of `generated/`, manifest included."""
     files = {
-        "__init__.py": f'# {_PROVENANCE}\n"""Emitted CasADi modules: a structure a module, its laws in `laws`, its groups in `scaling`."""\n',
-        "laws/__init__.py": f'# {_PROVENANCE}\n"""Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."""\n',
+        "__init__.py": _package("Emitted CasADi modules: a structure a module, laws in `laws`, groups in `scaling`."),
+        "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
         "assemble.py": f"# {_PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": scaling_module(),
         "py.typed": "",

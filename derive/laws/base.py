@@ -26,7 +26,9 @@ class LawFunction:
         for symbol, expression in (*self.definitions, (sp.Symbol(self.name), self.result)):
             unknown = expression.free_symbols - known
             if unknown:
-                raise ValueError(f"{self.name}: {symbol} uses {sorted(map(str, unknown))}, which no argument or definition gives")
+                raise ValueError(
+                    f"{self.name}: {symbol} uses {sorted(map(str, unknown))}, which no argument or definition gives"
+                )
             known.add(symbol)
 
     def __call__(self, *values: sp.Expr) -> sp.Expr:
@@ -62,6 +64,7 @@ def slot_call(slot: str, function: str, *arguments: sp.Expr) -> sp.Expr:
 
 
 def is_slot_call(node: sp.Basic) -> bool:
+    """Whether a node is a call to a law not yet chosen."""
     return isinstance(node, AppliedUndef) and "." in node.func.__name__
 
 
@@ -71,7 +74,11 @@ def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
         calls = [node for node in expression.atoms(AppliedUndef) if is_slot_call(node)]
         if not calls:
             return expression
-        innermost = [node for node in calls if not any(is_slot_call(inner) for part in node.args for inner in part.atoms(AppliedUndef))]
+        innermost = [
+            node
+            for node in calls
+            if not any(is_slot_call(inner) for part in node.args for inner in part.atoms(AppliedUndef))
+        ]
         replaced = {}
         for node in innermost:
             slot, function = node.func.__name__.split(".")

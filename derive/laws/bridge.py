@@ -145,5 +145,10 @@ BRIDGES = (
         "0.0018",
         sp.log(V),
     ),
-    _law("constant", "gap-independent upper bound, the force at contact", "2 cos(phi): Derjaguin limit at h = 0", 2 * sp.cos(phi)),
+    _law(
+        "constant",
+        "gap-independent upper bound, the force at contact",
+        "2 cos(phi): Derjaguin limit at h = 0",
+        2 * sp.cos(phi),
+    ),
 )

@@ -29,7 +29,13 @@ def _literal() -> sp.Expr:
 
 def _law(name: str, pressure: sp.Expr, meaning: str) -> Law:
     function = LawFunction("pressure", (gap, approach), pressure, "Film pressure on the axis over 3 mu a v0/x0^2.")
-    return Law("glass", name, meaning, "Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure", (function,))
+    return Law(
+        "glass",
+        name,
+        meaning,
+        "Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure",
+        (function,),
+    )
 
 
 GLASSES = (

@@ -17,5 +17,6 @@ def elastic_compliance() -> sp.Expr:
 
 def elastic_length() -> sp.Expr:
     """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which the film's pressure has stored the motion as
-    elastic energy (ELASTIC_SOURCE)."""
+    elastic energy (ELASTIC_SOURCE).
+    """
     return (3 * sp.pi * elastic_compliance() * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)

@@ -47,9 +47,14 @@ def _law(name: str, outer: sp.Expr, meaning: str, source: str) -> Law:
         source=source,
         functions=(
             LawFunction(
-                "log_factor", (gap, aspect), log_factor(outer), "Tangential force over 8 pi mu a^2 (omega - xi), inside its edge."
+                "log_factor",
+                (gap, aspect),
+                log_factor(outer),
+                "Tangential force over 8 pi mu a^2 (omega - xi), inside its edge.",
             ),
-            LawFunction("edge", (aspect,), edge, "Gap (in film thicknesses) beyond which there is no tangential force."),
+            LawFunction(
+                "edge", (aspect,), edge, "Gap (in film thicknesses) beyond which there is no tangential force."
+            ),
         ),
     )
 

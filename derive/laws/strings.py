@@ -13,13 +13,25 @@ r = sp.Symbol("r", positive=True)  # distance between the centres
 offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, horizontal swing of either sphere over a
 
 
+def half_angles(expression: sp.Expr) -> sp.Expr:
+    """The expression in sines and cosines of beta/2 only, in which the swing is written."""
+    half = beta / 2
+    return expression.subs({sp.sin(beta): 2 * sp.sin(half) * sp.cos(half), sp.cos(beta): 1 - 2 * sp.sin(half) ** 2})
+
+
 @cache
 def swing_squared() -> sp.Expr:
-    """d^2: either sphere's horizontal distance from below its pivot, half the change of the separation vector."""
+    """d^2: either sphere's horizontal distance from below its pivot, half the change of the separation vector.
+
+    Written in r - 4a and sin(beta/2): the form r^2 + 16 a^2 - 8 a r cos(beta) cancels at small swings.
+    """
     now = sp.Matrix([r * sp.cos(beta), r * sp.sin(beta)])
     rest = sp.Matrix([4 * a, 0])
     half = (now - rest) / 2
-    return sp.expand(sp.trigsimp(sp.expand(half.dot(half))))
+    sound = (r - 4 * a) ** 2 / 4 + 4 * a * r * sp.sin(beta / 2) ** 2
+    if sp.simplify(half.dot(half) - sound) != 0:
+        raise ArithmeticError("the swing is not what its cancellation-free form says")
+    return sound
 
 
 @cache
@@ -41,7 +53,9 @@ def rise(small_angle: bool) -> sp.Expr:
 @cache
 def potential(small_angle: bool) -> sp.Expr:
     """U_s(r, beta) in SI: two spheres, each of mass 2m, lifted by `rise`."""
-    scaled = height(small_angle).subs({offset_squared: swing_squared() / a**2, string_ratio: l_s / a}, simultaneous=True)
+    scaled = height(small_angle).subs(
+        {offset_squared: swing_squared() / a**2, string_ratio: l_s / a}, simultaneous=True
+    )
     return 4 * m * g * a * scaled
 
 
@@ -55,7 +69,12 @@ def _law(name: str, small_angle: bool, meaning: str) -> Law:
         source="Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight",
         functions=(
             LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
-            LawFunction("stiffness", arguments, stiffness, "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2)."),
+            LawFunction(
+                "stiffness",
+                arguments,
+                stiffness,
+                "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2).",
+            ),
         ),
     )
 

@@ -276,6 +276,7 @@ def test_emitted_groups_are_the_published_ones():
             "glass_number": extra["p"] / (3 * mu * a * v0 / x0**2),
             "elastic_gap": (3 * pi * theta_e * mu * a**1.5 * v0 / sqrt(2)) ** 0.4 / x0,
             "rough_gap": extra["b"] / x0,
+            "initial_rate": v0 * math.tan(scene["theta"]) / (4 * a),
             "rupture_gap": 2 * a * scene["V"] ** (1 / 3) * (1 + scene["phi"] / 2) / x0,
         }
         assert published.keys() == scaling.ARGUMENTS.keys()

@@ -32,7 +32,7 @@ St, Ca, eps, tan0, s = q.stokes, q.capillary, q.aspect, q.obliquity, q.gap
 
 def same(left: sp.Expr, right: sp.Expr) -> bool:
     """Whether two expressions are identically equal."""
-    return sp.simplify(left - right) == 0
+    return sp.simplify(strings.half_angles(left) - strings.half_angles(right)) == 0
 
 
 def test_inertia_of_a_sphere_is_two_fifths():

@@ -111,7 +111,8 @@ def test_without_capillary_force_only_head_on_sticks() -> None:
 def test_slow_escape_follows_the_one_fifth_power() -> None:
     """An oblique doublet held by the film alone: e_n ~ St^(1/5) for small St (MODEL.md section 6)."""
     low, high = (
-        collide("granulation-dry-bridge", stokes=stokes, angle="45 deg", rtol=1e-10).restitution for stokes in (1e-6, 1e-5)
+        collide("granulation-dry-bridge", stokes=stokes, angle="45 deg", rtol=1e-10).restitution
+        for stokes in (1e-6, 1e-5)
     )
     assert math.log10(high / low) == pytest.approx(0.2, abs=0.01)
 
@@ -152,7 +153,9 @@ def test_similarity(length: float, mass: float, time: float, stokes: float, angl
 def test_energy_and_angular_momentum(data: st.DataObject) -> None:
     """Any scene: kinetic energy is accounted for, dissipation is not negative, L is kept where it must be."""
     law = data.draw(
-        st.sampled_from(["mikami", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant", "mikami-log10"])
+        st.sampled_from(
+            ["mikami", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant", "mikami-log10"]
+        )
     )
     entries = {
         "bridge.law": law,

@@ -93,7 +93,7 @@ def test_a_preset_does_not_wait_for_pint():
 
 
 def test_spheres_from_radius_mass_or_density():
-    """a = R/2, m = M/2, M = 4/3 pi R^3 rho; the entries keep what was given."""
+    """A = R/2, m = M/2, M = 4/3 pi R^3 rho; the entries keep what was given."""
     rest = {name: value for name, value in BASE.items() if "reduced" not in name}
     sphere = Scene.from_dict(tables({"particles.radius": "100 um", "particles.density": "2500 kg/m^3", **rest}))
     assert sphere.particles.reduced_radius == 50e-6
