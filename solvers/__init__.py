@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .errors import CheckFailed, ComputationError, InputError, WetDoubletError
+    from .many import collide_many
     from .result import Collision
     from .scene import Scene
     from .simulate import collide
@@ -22,9 +23,19 @@ _HOMES = {
     "Scene": "scene",
     "WetDoubletError": "errors",
     "collide": "simulate",
+    "collide_many": "many",
 }
 
-__all__ = ["CheckFailed", "Collision", "ComputationError", "InputError", "Scene", "WetDoubletError", "collide"]
+__all__ = [
+    "CheckFailed",
+    "Collision",
+    "ComputationError",
+    "InputError",
+    "Scene",
+    "WetDoubletError",
+    "collide",
+    "collide_many",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -129,7 +129,7 @@ class BarrierProof:
             return None
         kinetic = float(sum(self.model.values("energies", y, self.p).values()))
         scale = kinetic + (abs(float(y[-1])) if self.model.bridge else 0.0) + abs(ahead[0].height)
-        return ahead[0].height - _SAFETY * self.rtol * scale - self._drift(y, phase)
+        return ahead[0].height - _SAFETY * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
         level = self.level(y, phase)
@@ -151,7 +151,7 @@ class BarrierProof:
         """Angular momentum as the search sees it; where it is conserved the value does not matter."""
         return 0.0 if self.theorem else self.model.values("angular_momentum", y, self.p)["angular_momentum"]
 
-    def _drift(self, y: np.ndarray, phase: Phase) -> float:
+    def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
         """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).
 
         |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
@@ -161,12 +161,12 @@ class BarrierProof:
             return 0.0
         state = dict(zip(self.model.state, y, strict=False))
         aspect, obliquity = self.groups["aspect"], self.groups["obliquity"]
-        inside, outside = 4 + aspect * state["gap"], 4 + aspect * self.groups["rupture_gap"]
+        inside, outside = 4 + aspect * state["gap"], 4 + aspect * barrier
         rate = state["orbit"] / inside**2
         change = abs(rate - state["spin"])
         reach = state["gap"]
         if not phase.resting:
-            reach = self.groups["rupture_gap"]
+            reach = barrier
             change += rate * (outside**2 - 16.0) / (16.0 + 6.4)
         lost = 1.6 * aspect * reach * change
         return float(2 * max(rate, state["spin"]) * lost * obliquity**2 / 16)
@@ -199,15 +199,13 @@ class BarrierProof:
         return tuple(reversed(highest_after))
 
     def _root(self, low: float, high: float, y: np.ndarray) -> float:
-        while high - low > 4e-16 * high:
-            middle = 0.5 * (low + high)
-            if middle in (low, high):
-                break
-            if self._slope(np.array([middle]), y)[0] > 0:
-                low = middle
-            else:
-                high = middle
-        return 0.5 * (low + high)
+        """Where the slope turns negative, by repeated division into 32."""
+        for _ in range(10):
+            parts = np.linspace(low, high, 33)
+            inward = self._slope(parts[1:-1], y) > 0
+            last = int(np.argmin(inward)) if not inward.all() else inward.size
+            low, high = parts[last], parts[last + 1]
+        return float(0.5 * (low + high))
 
     def _rise(self, top: float, y: np.ndarray) -> float:
         """Effective potential at `top` less that at first touch, by Gauss-Legendre panels in ln(gap)."""

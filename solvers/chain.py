@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .integrators import Plain, landing, plain
+from .integrators import Plain, Tolerance, landing, plain
 from .locate import Path, Step
 from .phases import Flow, Watch
 
@@ -43,21 +43,25 @@ class Flown:
 
     y: np.ndarray
     extras: tuple[str, ...] = ()
+    offset: float = 0.0
     time: float = 0.0
     steps: int = 0
     smallest_gap: float = 1.0
     dry_loss: float = 0.0
     events: list[tuple[str, float]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
-    rests: bool = False
+
+    def extra(self, name: str) -> float:
+        """A quadrature's value at the end."""
+        return float(self.y[len(self.y) - len(self.extras) + self.extras.index(name)]) - self.offset
 
 
-def fly(path: Path, plugin: str, rtol: float, kind: Flow, start: np.ndarray) -> Flown:
+def fly(path: Path, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Flown:
     """Fly `path` with an integrator plugin.
 
     Arguments:
         kind: the model to fly and its extras (the regions come from the path).
-        start: state at first touch, extras included.
+        start: state at first touch.
 
     Raises:
         Diverged: the engine's solution misses an event of the path.
@@ -66,12 +70,13 @@ def fly(path: Path, plugin: str, rtol: float, kind: Flow, start: np.ndarray) -> 
     model = kind.model
     known = dict(zip(path.model.groups, path.p, strict=True))
     p = model.group_values(known)
-    flown = Flown(start.copy(), kind.extras)
+    start = np.concatenate([start, np.full(len(kind.extras), tolerance.offset)])
+    flown = Flown(start, kind.extras, tolerance.offset)
     size = len(model.state)
     for step in path.steps:
         flow = Flow(kind.choice, step.phase.region, kind.extras)
         if step.duration > 0:
-            engine = plain(flow, plugin, rtol)
+            engine = plain(flow, plugin, tolerance)
             before = flown.y
             duration, flown.y = _flight(engine, flow, path.watch, step, flown, p)
             flown.pieces.append(Piece(str(step.phase), flow, before, flown.time, duration))
@@ -84,7 +89,6 @@ def fly(path: Path, plugin: str, rtol: float, kind: Flow, start: np.ndarray) -> 
             flown.y = np.concatenate([list(after.values()), flown.y[size:]])
         if step.holds:
             flown.y[1] = 0.0
-            flown.rests = True
     return flown
 
 

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -42,7 +43,10 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
     try:
         with contextlib.redirect_stderr(io.StringIO()):
             found = np.asarray(function(x0=x0, p=p)["xf"].full())
-    except RuntimeError as error:
+    except (RuntimeError, SystemError) as error:
+        # CasADi wraps an interrupt that arrives while it works
+        if "KeyboardInterrupt" in str(error) or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
         raise IntegrationFailed(_reason(str(error))) from None
     if not np.isfinite(found).all():
         raise IntegrationFailed("the state is not finite")
@@ -54,18 +58,49 @@ def _reason(message: str) -> str:
     return last.split(": ", 1)[-1] if ".cpp:" in last or ".hpp:" in last else last
 
 
+@dataclass(frozen=True)
+class Tolerance:
+    """Relative and absolute tolerance of an integrator."""
+
+    relative: float
+    absolute: float
+
+    @property
+    def offset(self) -> float:
+        """Where quadratures start: at 1 if the absolute tolerance is too small to control one that starts at 0."""
+        return 1.0 if self.absolute < 1e-4 * self.relative else 0.0
+
+    def options(self, plugin: str) -> dict[str, Any]:
+        """The plugin's options."""
+        options: dict[str, Any] = {
+            "reltol": self.relative,
+            "abstol": self.absolute,
+            "max_num_steps": _MAX_STEPS,
+        }
+        return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
+
+
 # CVODES' global error at a given tolerance is some hundred times Rosenbrock's (DESIGN.md 2; tests/benchmarks): it is
 # given a tighter one, so that rtol means about the same for both.
 _CVODES_SHARE, _CVODES_TIGHTEST = 1 / 30, 1e-14
 
 
-def _tolerances(rtol: float, plugin: str) -> dict[str, Any]:
+def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
+    """What an integrator is told so that results come out at about `rtol`.
+
+    The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a
+    tiny part of x0, which CVODES must resolve; at very small angles without bridge or strings, the doublet is opened
+    by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both in whole decades, so that
+    integrators are shared.
+    """
+    centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
+    absolute = 1e-3
+    if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
+        absolute = 10.0 ** max(4 * math.floor(math.log10(centrifugal) / 4) - 3, -200)
     if plugin == "cvodes":
-        rtol = max(rtol * _CVODES_SHARE, _CVODES_TIGHTEST)
-    options: dict[str, Any] = {"reltol": rtol, "abstol": 1e-3 * rtol, "max_num_steps": _MAX_STEPS}
-    if plugin == "cvodes":
-        options["quad_err_con"] = True
-    return options
+        sharper = 10.0 ** -math.ceil(math.log10(centrifugal)) if centrifugal > 1 else 1.0
+        rtol = max(rtol * _CVODES_SHARE * sharper, _CVODES_TIGHTEST)
+    return Tolerance(rtol, absolute * rtol)
 
 
 @dataclass(frozen=True)
@@ -87,13 +122,13 @@ class Plain:
 
 
 @lru_cache(maxsize=512)
-def plain(flow: Flow, plugin: str, rtol: float, grid: tuple[float, ...] = (1.0,)) -> Plain:
+def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...] = (1.0,)) -> Plain:
     """The integrator of a flow, with the solution at the parts of the duration that `grid` names."""
     parts = expressions(flow)
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
     with quiet():
-        return Plain(integrator("flow", plugin, dae, 0, list(grid), _tolerances(rtol, plugin)), plugin)
+        return Plain(integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin)), plugin)
 
 
 @dataclass(frozen=True)
@@ -120,13 +155,16 @@ class Locator:
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> Stop:
         parameters = np.concatenate([p, [duration, motion, level]])
-        found = _call(self.function, x0=np.concatenate([y, [0.0, 1.0, 0.0]]), p=parameters).ravel()
-        which = round(found[-1]) - 1
+        riders = np.zeros(3 + len(self.dips))  # clock, active, number, passed minima
+        riders[1] = 1.0
+        found = _call(self.function, x0=np.concatenate([y, riders]), p=parameters).ravel()
+        after, (time, _, number) = found[: y.size], found[y.size : y.size + 3]
+        which = round(number) - 1
         if which < 0:
-            return Stop(None, duration, found[:-3], False)
+            return Stop(None, duration, after, False)
         dipped = which >= len(self.events)
         index = self.dips[which - len(self.events)] if dipped else which
-        return Stop(self.events[index], float(found[-3]), found[:-3], dipped)
+        return Stop(self.events[index], float(time), after, dipped)
 
     def value(self, event: str, y: np.ndarray, p: np.ndarray, motion: int, level: float) -> float:
         """An event's function at a state."""
@@ -135,28 +173,37 @@ class Locator:
 
 
 @lru_cache(maxsize=256)
-def locator(flow: Flow, watch: Watch, rtol: float) -> Locator:
+def locator(flow: Flow, watch: Watch, tolerance: Tolerance, machine_code: bool = False) -> Locator:
     """A Rosenbrock integrator that freezes at the first event.
 
     A clock, a flag that freezes the flow, and the event's number ride along as states. CasADi looks at signs at the
     ends of steps only, so a function that may dip below zero and return also stops the flow at its own minimum; the
     stop holds only where the function is below zero there.
+
+    Arguments:
+        machine_code: compile it to C, which pays from some hundred collisions on.
     """
     parts, model = expressions(flow), flow.model
     duration, motion, level = SX.sym("duration"), SX.sym("motion"), SX.sym("level")
     table = event_table(flow, watch, motion, level)
     minima = [k for k, event in enumerate(table) if event.dips]
     falling = [event.function for event in table]
-    turning = [-jtimes(table[k].function, parts.variables, parts.rates) for k in minima]
-
     clock, active, number = SX.sym("clock"), SX.sym("active"), SX.sym("number")
-    variables = vertcat(parts.variables, clock, active, number)
+    # A minimum above zero is passed by, once a call: where a function creeps, its slope is rounding and would stop
+    # again and again.
+    passed = SX.sym("passed", len(minima))
+    turning = [
+        if_else(passed[position] > 0, 1, -jtimes(table[k].function, parts.variables, parts.rates))
+        for position, k in enumerate(minima)
+    ]
+    variables = vertcat(parts.variables, clock, active, number, passed)
     parameters = vertcat(model.parameters, duration, motion, level)
     index, time = SX.sym("index"), SX.sym("time")
     holds = SX(1)
     for position, event_index in enumerate(minima):
         holds = if_else(index == len(table) + position, table[event_index].function < 0, holds)
-    after = vertcat(parts.variables, clock, active * (1 - holds), if_else(holds, index + 1, number))
+    passing = [if_else(index == len(table) + position, 1, passed[position]) for position in range(len(minima))]
+    after = vertcat(parts.variables, clock, active * (1 - holds), if_else(holds, index + 1, number), *passing)
     none = SX(0, 1)
     transition = Function(
         "transition",
@@ -168,10 +215,10 @@ def locator(flow: Flow, watch: Watch, rtol: float) -> Locator:
     dae = {
         "x": variables,
         "p": parameters,
-        "ode": vertcat(active * duration * parts.rates, active * duration, 0, 0),
+        "ode": vertcat(active * duration * parts.rates, active * duration, SX.zeros(2 + len(minima))),
         "zero": vertcat(*falling, *turning),
     }
-    options = _tolerances(rtol, "rosenbrock") | {
+    options = tolerance.options("rosenbrock") | {
         "transition": transition,
         "event_tol": 1e-14,
         "max_event_iter": 40,
@@ -179,6 +226,10 @@ def locator(flow: Flow, watch: Watch, rtol: float) -> Locator:
     }
     with quiet():
         function = integrator("locate", "rosenbrock", dae, 0, 1, options)
+    if machine_code:
+        from .compiled import compiled
+
+        function = compiled(function)
     return Locator(
         function,
         tuple(event.name for event in table),

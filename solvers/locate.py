@@ -12,7 +12,7 @@ import numpy as np
 
 from .certificate import Proof, proof_for
 from .errors import ComputationError
-from .integrators import IntegrationFailed, Locator, Stop, locator, plain
+from .integrators import IntegrationFailed, Locator, Stop, locator, plain, tolerance
 from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
 
@@ -51,6 +51,10 @@ class Path:
     steps: list[Step] = field(default_factory=list)
     separated: bool = False
     certified: bool = False
+    y: np.ndarray = field(default_factory=lambda: np.zeros(0))  # the last state, extras included
+    time: float = 0.0  # of the last state
+    smallest_gap: float = 1.0
+    extras: tuple[str, ...] = ()
 
     @property
     def kinds(self) -> list[str]:
@@ -71,21 +75,28 @@ class Path:
 class Locate:
     """Locates one collision; `run` returns its Path."""
 
-    def __init__(self, model: Model, groups: dict[str, float], rtol: float) -> None:
-        self.model, self.rtol = model, rtol
+    def __init__(
+        self,
+        model: Model,
+        groups: dict[str, float],
+        rtol: float,
+        extras: tuple[str, ...] = (),
+        machine_code: bool = False,
+    ) -> None:
+        self.model, self.rtol, self.machine_code = model, rtol, machine_code
+        self.tolerance = tolerance(rtol, "rosenbrock", groups)
         self.p = model.group_values(groups)
         self.groups = groups
         self.proof: Proof = proof_for(model, self.p, rtol)
         self.contact_gap = max(groups["elastic_gap"], groups["rough_gap"])
         rupture = groups["rupture_gap"] if model.bridge else 1.0
         self.edge = float(model.laws.shear.edge(groups["aspect"])) if model.oblique else np.inf
-        own_edge = self.edge != 1.0 and self.contact_gap < self.edge < rupture
+        own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
         self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.by_energy)
-        self.extras = ("capillary",) if self.proof.by_energy and model.bridge else ()
-        self.path = Path(model, self.p, self.watch)
-        self.y = np.append(model.start(self.p), [0.0] * len(self.extras))
+        self.extras = extras + (("capillary",) if self.proof.by_energy and model.bridge else ())
+        self.path = Path(model, self.p, self.watch, extras=self.extras)
+        self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
-        self.clock = 0.0
 
     def run(self) -> Path:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
@@ -121,14 +132,15 @@ class Locate:
 
     def _fly(self) -> bool:
         """Integrate to the next event and act on it; True if the flight is over."""
-        find = locator(self._flow(), self.watch, self.rtol)
+        find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         flown, stretch = 0.0, FIRST_STRETCH
         for _ in range(STRETCHES):
             level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
             stop = self._advance(find, stretch, -np.inf if level is None else level)
             flown += stop.time
-            self.clock += stop.time
-            self.y = stop.y
+            self.path.time += stop.time
+            self.y = self.path.y = stop.y
+            self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event == "certified":
                 if self._proved():
                     self._stop(Step(self.phase, flown, None, ()))
@@ -144,7 +156,7 @@ class Locate:
                 stretch *= GROWTH
         raise self._error(
             f"no event within {flown:.3g} x0/v0",
-            "it lies within its tolerance of a boundary, or creeps beyond all bounds: try a smaller --rtol, or another impact",
+            "it is within its tolerance of a boundary or creeps beyond bounds: try a smaller --rtol, or another impact",
         )
 
     def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
@@ -152,21 +164,35 @@ class Locate:
         level = max(level, -1e30)
         try:
             stop = find(self.y, self.p, stretch, self.phase.motion, level)
-            return self._refined(find, stop, level) if stop.dipped and stop.event else stop
+            if stop.dipped and stop.event:
+                stop = self._refined(find, stop, stop.event, level)
+            return self._overshot(find, stop, level) if stop.event == "turning" else stop
         except IntegrationFailed as error:
             raise self._error(f"integration failed ({error})", "try a larger --rtol") from None
 
-    def _refined(self, find: Locator, stop: Stop, level: float) -> Stop:
-        """The crossing before a minimum below zero: bisection with secant steps on the duration of a plain flow."""
-        assert stop.event is not None
-        fly = plain(self._flow(), "rosenbrock", self.rtol)
+    def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
+        """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
+
+        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once.
+        """
+        ahead = "contact" if self.phase.motion == CLOSING else "rupture"
+        crossed = [
+            self._refined(find, stop, name, level)
+            for name in (ahead, "film_edge", "tangential_edge")
+            if name in find.events and find.value(name, stop.y, self.p, self.phase.motion, level) < 0
+        ]
+        return min(crossed, key=lambda found: found.time, default=stop)
+
+    def _refined(self, find: Locator, stop: Stop, event: str, level: float) -> Stop:
+        """The crossing before a stop at which `event` is below zero: bisection with secant steps on a plain flow."""
+        fly = plain(self._flow(), "rosenbrock", self.tolerance)
 
         def value(duration: float) -> tuple[float, np.ndarray]:
             y = fly(self.y, self.p, duration)
-            return find.value(stop.event or "", y, self.p, self.phase.motion, level), y
+            return find.value(event, y, self.p, self.phase.motion, level), y
 
         before, after, y_after = 0.0, stop.time, stop.y
-        g_after, g_before = find.value(stop.event, stop.y, self.p, self.phase.motion, level), None
+        g_after, g_before = find.value(event, stop.y, self.p, self.phase.motion, level), None
         for count in range(80):
             trial = 0.5 * (before + after)
             if g_before is not None and count % 2:
@@ -178,7 +204,7 @@ class Locate:
                 before, g_before = trial, g
             if after - before < 1e-12 * stop.time:
                 break
-        return Stop(stop.event, after, y_after, False)
+        return Stop(event, after, y_after, False)
 
     def _act(self, event: str, flown: float) -> bool:
         """What an event does; True if it ends the flight."""
@@ -195,7 +221,8 @@ class Locate:
         elif event == "tangential_edge":
             self._next(Step(phase, flown, event, ("tangential edge",)), phase.with_(shear=1 - phase.shear))
         elif event == "release":
-            self._next(Step(phase, flown, event, ("released",)), phase.with_(resting=False, motion=OPENING))
+            opening = self._opening(phase.with_(resting=False))
+            self._next(Step(phase, flown, event, ("released",)), opening)
         elif event == "rupture":
             self._stop(Step(phase, flown, event, ("rupture",)))
             self.path.separated = True
@@ -215,29 +242,33 @@ class Locate:
         return "elastic" if self.groups["elastic_gap"] >= self.groups["rough_gap"] else "rough"
 
     def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
-        """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures."""
+        """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures.
+
+        What holds a resting doublet is whatever reversed it, the glassy liquid included (MODEL.md 5, last point).
+        """
         at_touch = not self.path.steps and flown == 0.0
         after = self.model.values("reversal", self.y, self.p)
-        self.y = np.concatenate([list(after.values()), self.y[len(after) :]])
+        self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
+        if at_touch and not self.model.bridge:
+            self.path.separated = True
+            self._next(Step(self.phase, flown, event, (kind, "rupture"), reverses=True), self._opening(self.phase))
+            return
         kinds: tuple[str, ...] = (kind,)
-        phase = self.phase.with_(motion=OPENING)
-        if at_touch:
-            phase = phase.with_(film=0, shear=0 if self.edge == 1.0 else phase.shear)
-            if not self.model.bridge:
-                self.path.separated = True
-                self._next(Step(self.phase, flown, event, (kind, "rupture"), reverses=True), phase)
-                return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
-        holds = False
-        if inward > 0 and self._too_weak(after["opening"], inward):
-            if kind == "glass":
-                phase = phase.with_(motion=CLOSING)  # no solid holds the gap: it closes again from rest
-            else:
-                kinds += ("rests",)
-                phase = phase.with_(resting=True)
-                holds = True
-                self.y[1] = 0.0
+        holds = inward > 0 and self._too_weak(after["opening"], inward)
+        if holds:
+            kinds += ("rests",)
+            self.y[1] = 0.0
+            phase = self.phase.with_(resting=True, motion=OPENING)
+        else:
+            phase = self._opening(self.phase)
         self._next(Step(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
+
+    def _opening(self, phase: Phase) -> Phase:
+        """The phase that opens from here; from first touch, beyond the film at once."""
+        film = phase.film if self.y[0] != 1.0 else 0
+        shear = phase.shear if self.y[0] != self.edge else 0
+        return phase.with_(motion=OPENING, film=film, shear=shear)
 
     def _too_weak(self, rebound: float, inward: float) -> bool:
         """A rebound that decides nothing: slower than REST_SPEED, or rising by less than the tolerance of the gap.
@@ -248,13 +279,19 @@ class Locate:
 
     def _error(self, message: str, advice: str) -> ComputationError:
         state = dict(zip(self.model.state, map(float, self.y), strict=False))
-        return ComputationError(message, phase=str(self.phase), time=self.clock, state=state, advice=advice)
+        return ComputationError(message, phase=str(self.phase), time=self.path.time, state=state, advice=advice)
 
 
-def locate(model: Model, groups: dict[str, float], rtol: float) -> Path:
+def locate(
+    model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = (), machine_code: bool = False
+) -> Path:
     """Phases and events of a collision.
+
+    Arguments:
+        extras: what else to integrate along (`rotation`); the path's last state carries it.
+        machine_code: use integrators compiled to C.
 
     Raises:
         ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
     """
-    return Locate(model, groups, rtol).run()
+    return Locate(model, groups, rtol, extras, machine_code).run()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
-from casadi import DM, SX, Function, densify, fmax, vertcat
+from casadi import DM, SX, Function, densify, fmax, fmin, vertcat
 
 from ..generated.assemble import Laws, symbols, vector
 
@@ -97,7 +97,7 @@ class Model:
     @cached_property
     def guarded(self) -> dict[str, SX]:
         """The state with its gap kept positive, for rates; equal to the state wherever a solution goes."""
-        floor = fmax(_FLOOR * self.contact_gap, _SMALLEST_GAP)
+        floor = fmax(_FLOOR * fmin(self.contact_gap, 1), _SMALLEST_GAP)
         return {**self.state, "gap": fmax(self.state["gap"], floor)}
 
     @cached_property
@@ -147,7 +147,7 @@ class Model:
         return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
 
 
-@lru_cache(maxsize=128)
+@cache  # never evicted: expressions are cached in the symbols of their model
 def load(choice: Choice) -> Model:
     """The model of a choice, built once."""
     return Model(choice)

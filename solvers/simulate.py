@@ -10,6 +10,7 @@ import numpy as np
 from .chain import Diverged, Flown, fly
 from .errors import ComputationError
 from .integrators import IntegrationFailed
+from .integrators import tolerance as told
 from .locate import Path, locate
 from .model import Model, choose, load
 from .numbers import Numbers, numbers
@@ -81,9 +82,9 @@ def _compute(
             located = locate(small, n.groups, tolerance)
         except ComputationError as error:
             raise _in_si(error, n) from None
-        start = np.concatenate([flow.model.start(flow.model.group_values(n.groups)), np.zeros(len(flow.extras))])
+        start = flow.model.start(flow.model.group_values(n.groups))
         try:
-            return located, fly(located, plugin, tolerance, flow, start), flow
+            return located, fly(located, plugin, told(tolerance, plugin, n.groups), flow, start), flow
         except (Diverged, IntegrationFailed) as failure:
             if tolerance <= _TIGHTEST:
                 raise _in_si(_failure(failure, flow.model, plugin), n) from None
@@ -123,7 +124,6 @@ def _result(
     model, separated = flow.model, path.separated
     p = model.group_values(n.groups)
     outputs = model.values("outputs", flown.y, p) if separated else {}
-    extras = dict(zip((*model.state, *flow.extras), flown.y.tolist(), strict=True))
     duration = flown.time * n.time
 
     def rate(name: str) -> float | None:
@@ -135,7 +135,7 @@ def _result(
         outcome=path.outcome,
         restitution=outputs.get("restitution", 0.0),
         tangential_restitution=outputs.get("tangential_restitution"),
-        rotation=(extras["rotation"] if n.oblique else 0.0) if separated else None,
+        rotation=_rotation(flown, model) if separated else None,
         contact_time=duration if separated else None,
         smallest_gap=flown.smallest_gap * n.length if separated else None,
         final_spin=rate("final_spin"),
@@ -150,7 +150,7 @@ def _result(
         certified=path.certified and not separated,
         until=None if separated else duration,
         events=tuple(Event(kind, time * n.time) for kind, time in flown.events),
-        energy=_ledger(model, flown, p, extras, n) if "normal_lubrication" in flow.extras else None,
+        energy=_ledger(model, flown, p, n) if "normal_lubrication" in flow.extras else None,
         angular_momentum_drift=_drift(model, flown, p) if "normal_lubrication" in flow.extras else None,
         engine=plugin,
         steps=flown.steps,
@@ -159,15 +159,25 @@ def _result(
     )
 
 
-def _ledger(model: Model, flown: Flown, p: np.ndarray, extras: dict[str, float], n: Numbers) -> Energy:
+def _rotation(flown: Flown, model: Model) -> float:
+    if model.strings and model.oblique:
+        return float(flown.y[list(model.state).index("rotation")])
+    return flown.extra("rotation") if model.oblique else 0.0
+
+
+def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
     first = model.values("energies", model.start(p), p)
     last = model.values("energies", flown.y, p)
+
+    def taken(name: str) -> float:
+        return flown.extra(name) if name in flown.extras else 0.0
+
     return Energy(
         initial=first["kinetic"] * n.energy,
         final=last["kinetic"] * n.energy,
-        normal_lubrication=extras["normal_lubrication"] * n.energy,
-        tangential_lubrication=extras.get("tangential_lubrication", 0.0) * n.energy,
-        capillary=extras.get("capillary", 0.0) * n.energy,
+        normal_lubrication=flown.extra("normal_lubrication") * n.energy,
+        tangential_lubrication=taken("tangential_lubrication") * n.energy,
+        capillary=taken("capillary") * n.energy,
         dry_contact=flown.dry_loss * n.energy,
         strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
     )
@@ -185,4 +195,4 @@ def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
 def _trajectory(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) -> xarray.Dataset:
     from .trajectory import dataset  # imports xarray
 
-    return dataset(flown, model, n, plugin, rtol)
+    return dataset(flown, model, n, plugin, told(rtol, plugin, n.groups))

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from .chain import Flown
-from .integrators import plain
+from .integrators import Tolerance, plain
 from .model import Model
 from .numbers import Numbers
 
@@ -24,14 +24,14 @@ _VARIABLES: dict[str, tuple[str, str]] = {
 }
 
 
-def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) -> xr.Dataset:
+def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, tolerance: Tolerance) -> xr.Dataset:
     """The flown pieces on a grid of _POINTS per phase; an event's time stands twice, before and after it."""
     p = model.group_values(n.groups)
     times: list[np.ndarray] = []
     columns: list[np.ndarray] = []
     phases: list[str] = []
     for piece in flown.pieces:
-        inside = plain(piece.flow, plugin, rtol, tuple(_GRID[1:]))(piece.start, p, piece.duration)
+        inside = plain(piece.flow, plugin, tolerance, tuple(_GRID[1:]))(piece.start, p, piece.duration)
         y = np.column_stack([piece.start, inside])
         times.append(piece.time + piece.duration * _GRID)
         columns.append(y)
@@ -50,7 +50,7 @@ def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) ->
         values |= {
             "rotation_rate": outputs["final_rotation_rate"] * n.rate,
             "spin": outputs["final_spin"] * n.rate,
-            "rotation": y[names.index("rotation")],
+            "rotation": y[names.index("rotation")] - (flown.offset if "rotation" in flown.extras else 0.0),
         }
     else:
         values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from ..forces import FILM, SHEAR
 from ..laws.base import Law
-from ..model import FILM, SHEAR, Model
+from ..model import Model
 from ..quantities import VOCABULARY
 from ..scaling import group_definitions, scale_definitions
 from .printer import Printer

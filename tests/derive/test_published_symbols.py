@@ -6,6 +6,7 @@ import pytest
 import sympy as sp
 from wetdoublet.derive import quantities as q
 from wetdoublet.derive import scaling
+from wetdoublet.derive.forces import FILM, SHEAR, force_laws
 from wetdoublet.derive.laws import LAWS, fill, film, glass, shear, strings
 from wetdoublet.derive.laws.reversal import elastic_compliance, elastic_length
 from wetdoublet.derive.laws.rupture import rupture_distance
@@ -22,7 +23,7 @@ from wetdoublet.derive.mechanics import (
     sphere_inertia,
     string_forces,
 )
-from wetdoublet.derive.model import FILM, SHEAR, Model, force_laws
+from wetdoublet.derive.model import Model
 
 a, m, x, u, omega, xi = q.a, q.m, q.x, q.u, q.omega, q.xi
 mu, x0, v0, sigma, beta, g, length = q.mu, q.x0, q.v0, q.sigma, q.beta, q.g, q.l_s

@@ -8,7 +8,9 @@ import pytest
 import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
-from wetdoublet.derive import checks
+from wetdoublet.derive.checks import symbolic_checks
+from wetdoublet.derive.checks.conservation import energy_balance, momentum_rate
+from wetdoublet.derive.checks.dimensions import dimension_checks, si_equations
 from wetdoublet.derive.dimensions import (
     FORCE,
     LENGTH,
@@ -23,6 +25,7 @@ from wetdoublet.derive.dimensions import (
 )
 from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.mechanics import equations_of_motion
+from wetdoublet.derive.model import derive
 from wetdoublet.derive.quantities import DIMENSIONS, a, m, mu, u, v0, x, x0
 from wetdoublet.derive.structure import Structure
 
@@ -133,7 +136,7 @@ def test_walker_takes_powers_as_they_are(power: Fraction):
 
 def test_every_symbolic_check_holds():
     """Dimensions, conservation laws, limits and groups all hold of the derivation."""
-    found = checks.symbolic_checks()
+    found = symbolic_checks()
     assert [check for check in found if not check.ok] == []
     assert len({check.name for check in found}) == len(found)
     assert all(check.statement and check.figure for check in found)
@@ -141,9 +144,9 @@ def test_every_symbolic_check_holds():
 
 def test_a_wrong_equation_fails_its_check_by_name():
     """A dimension check given one false equation fails and names that equation and no other."""
-    rooms = checks.si_equations()
+    rooms = si_equations()
     rooms["mechanics"]["du/dt"] = (rooms["mechanics"]["du/dt"][0] + v0, LENGTH / TIME**2)
-    failed = [check for check in checks.dimension_checks(rooms) if not check.ok]
+    failed = [check for check in dimension_checks(rooms) if not check.ok]
     assert [check.name for check in failed] == ["dimensions: mechanics"]
     assert failed[0].figure.startswith("du/dt:")
     assert "speed" in failed[0].figure
@@ -151,7 +154,7 @@ def test_a_wrong_equation_fails_its_check_by_name():
 
 def test_the_surface_arm_does_not_conserve_angular_momentum():
     """The check of L can fail: with the surface arm the rate is not zero, and vanishes in contact."""
-    rate = checks.momentum_rate(Structure(True, False, False), {"arm": LAWS["arm"]["surface"]})
+    rate = momentum_rate(Structure(True, False, False), {"arm": LAWS["arm"]["surface"]})
     assert rate != 0
     gap = next(s for s in rate.free_symbols if s.name == "gap")
     assert rate.subs(gap, 0) == 0
@@ -160,8 +163,8 @@ def test_the_surface_arm_does_not_conserve_angular_momentum():
 def test_a_lost_term_fails_the_energy_balance():
     """The energy balance is sensitive to every loss: without any one of them it is not zero."""
     structure = Structure(True, True, True)
-    model = checks.derive(structure)
-    assert checks.energy_balance(structure) == 0
+    model = derive(structure)
+    assert energy_balance(structure) == 0
     for _, loss in model["energy_rates"].outputs:
         assert model.expanded(loss) != 0
 

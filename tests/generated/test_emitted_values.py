@@ -12,8 +12,9 @@ import casadi
 import mpmath
 import pytest
 import sympy as sp
+from wetdoublet.derive.forces import FILM, SHEAR
 from wetdoublet.derive.laws import LAWS, Law, LawFunction, fill
-from wetdoublet.derive.model import FILM, SHEAR, Model, derive
+from wetdoublet.derive.model import Model, derive
 from wetdoublet.derive.quantities import VOCABULARY
 from wetdoublet.derive.scaling import group_definitions
 from wetdoublet.derive.structure import Structure, structures

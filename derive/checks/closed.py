@@ -1,0 +1,37 @@
+"""A model's emitted expressions in closed form: intermediates put back in, laws filled, slopes through the laws."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..laws import Law, fill, slot_call
+from ..laws.base import is_slot_call
+from ..model import Model
+
+
+def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
+    """The emitted right-hand side by state, every intermediate put back in."""
+    named = dict(model["right_hand_side"].outputs)
+    return {state: model.expanded(named[state.name]) for state in model.states}
+
+
+def slope_along(energy: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    """Derivative of an energy, with d rise/d offset_squared = stiffness/2 (which strings_are_conservative checks)."""
+    heights = {node: sp.Dummy("height") for node in energy.atoms(AppliedUndef) if is_slot_call(node)}
+    flat = energy.xreplace(heights)
+    slope = flat.diff(variable)
+    for node, height in heights.items():
+        slope += flat.diff(height) * slot_call("strings", "stiffness", *node.args) / 2 * node.args[1].diff(variable)
+    return slope
+
+
+def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
+    """`fill` for the slots in `laws` alone; the others stay calls, i.e. hold for any law."""
+    kept: dict[sp.Basic, sp.Basic] = {}
+    for node in expression.atoms(AppliedUndef):
+        if is_slot_call(node) and node.func.__name__.split(".")[0] not in laws:
+            kept[node] = sp.Dummy(node.func.__name__.replace(".", "_"))
+    return fill(expression.xreplace(kept), laws).xreplace({dummy: node for node, dummy in kept.items()})

@@ -1,0 +1,56 @@
+"""Limits: reduced and head-on equations are the full oblique ones, with the spin eliminated or at rest."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..laws import LAWS
+from ..model import derive
+from ..quantities import aspect, beta, orbit, spin
+from ..structure import Structure, structures
+from .base import Check, vanishing
+from .closed import emitted_rates, filled
+
+
+def reduced_is_full() -> Check:
+    """With the spin that a conserved L leaves, the full equations are the reduced ones, and so is the spin's rate."""
+    left = []
+    midgap = {"arm": LAWS["arm"]["midgap"]}
+    for structure in structures():
+        if not structure.reduced:
+            continue
+        reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
+        initial = (4 + aspect) ** 2  # L/(m a^2 omega0) at first touch, where nothing spins
+        eliminated = {spin: (initial - orbit) * sp.Rational(5, 32)}
+        rates, full_rates = emitted_rates(reduced), emitted_rates(full)
+        left += [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]
+        # the spin eliminated turns as the full equations say it does
+        left.append(eliminated[spin].diff(orbit) * rates[orbit] - filled(full_rates[spin], midgap).subs(eliminated))
+        for name in ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start"):
+            of_full = dict(full[name].outputs)
+            for key, expression in reduced[name].outputs:
+                left.append(full.expanded(of_full[key]).subs(eliminated) - reduced.expanded(expression))
+    return vanishing(
+        "reduced form", "full equations with xi = (L - m r^2 omega)/((32/5) m a^2) are the reduced ones", left
+    )
+
+
+def head_on_is_oblique_at_rest() -> Check:
+    """An oblique doublet that does not rotate is the head-on one, and does not start to rotate."""
+    still = {orbit: 0, spin: 0, beta: 0}
+    left = []
+    for head_on in structures():
+        if head_on.oblique:
+            continue
+        narrow, wide = derive(head_on), derive(Structure(True, head_on.bridge, head_on.strings))
+        rates = emitted_rates(wide)
+        left += [rates[s].subs(still) - rate for s, rate in emitted_rates(narrow).items()]
+        left += [rates[s].subs(still) for s in wide.states if s not in narrow.states]
+        for name in ("events", "energies", "energy_rates", "inward_force", "effective_potential", "outputs"):
+            if name not in [function.name for function in wide.functions]:
+                continue  # no least-energy argument for rotating strings
+            there = dict(wide[name].outputs)
+            left += [
+                wide.expanded(there[key]).subs(still) - narrow.expanded(value) for key, value in narrow[name].outputs
+            ]
+    return vanishing("head-on limit", "oblique equations at zero rotation are the head-on ones", left)

@@ -1,0 +1,39 @@
+"""Mechanics: the inertia is that of the kinetic energy, the strings' forces are those of their potential."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..forces import force_laws
+from ..laws import LAWS, strings
+from ..mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
+from ..quantities import a, beta, m, omega, r, u, x, xi
+from .base import Check, vanishing
+from .closed import filled
+
+
+def inertia_is_rigid_rotation() -> Check:
+    """I(x), by the parallel-axis theorem, is what the kinetic energy says of a doublet that turns as one body."""
+    rigid = equations_of_motion().kinetic_energy.subs({u: 0, xi: omega})
+    left = sp.expand(2 * rigid / omega**2 - doublet_inertia())
+    left_paper = sp.expand(doublet_inertia() - m * a**2 * ((4 + x / a) ** 2 + sp.Rational(32, 5)))
+    return vanishing(
+        "inertia", "I(x) = 2 T(u = 0, xi = omega)/omega^2 = m a^2 [(4 + x/a)^2 + 32/5]", [left, left_paper]
+    )
+
+
+def strings_are_conservative() -> tuple[Check, ...]:
+    """The strings' forces are minus the gradient of their potential, and `stiffness` twice the slope of `rise`."""
+    checks = []
+    forces = force_laws()
+    for name, law in LAWS["strings"].items():
+        normal, sideways = string_forces(strings.potential(name == "small-angle"), strings.r, beta)
+        pairs = ((S_n, normal), (S_t, sideways))
+        left = [
+            sp.simplify(filled(forces[force], {"strings": law}) - expected.subs(strings.r, r))
+            for force, expected in pairs
+        ]
+        rise, stiffness = law["rise"], law["stiffness"]
+        left.append(sp.simplify(2 * rise.result.diff(strings.offset_squared) - stiffness.result))
+        checks.append(vanishing(f"strings: {name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left))
+    return tuple(checks)

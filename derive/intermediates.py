@@ -1,0 +1,66 @@
+"""The named intermediates of a structure: forces, rates and momenta in states and groups, under their emitted names."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .forces import TANGENTIAL, force_laws, scaled_strings
+from .laws import slot_call
+from .laws.base import Definition
+from .laws.strings import offset_squared
+from .mechanics import F_c, F_n, F_t, doublet_inertia, equations_of_motion
+from .quantities import a, aspect, gap, m, omega, omega0, orbit, r, spin
+from .scaling import DISTANCE, INERTIA, nondimensional
+from .structure import Structure
+
+ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
+FILM_FORCE, BRIDGE_FORCE, SHEAR_FORCE = sp.symbols("film_force bridge_force shear_force", real=True)
+STRING_PULL, STRING_SIDEWAYS, CENTRIFUGAL_FORCE = sp.symbols("string_pull string_sideways centrifugal_force", real=True)
+LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
+
+
+def intermediates(structure: Structure) -> tuple[Definition, ...]:
+    """Every named intermediate that `structure` can use, in the order of the derivation."""
+    laws = force_laws()
+    definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
+    if structure.oblique:
+        definitions += _rotation(structure.reduced)
+        slip_form = _scaled(laws[F_t], TANGENTIAL)
+        definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - spin, SLIP)))
+        definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(m * r * omega**2 / INERTIA))))
+    definitions.append((FILM_FORCE, _scaled(laws[F_n], INERTIA)))
+    if structure.bridge:
+        definitions.append((BRIDGE_FORCE, _scaled(laws[F_c], INERTIA)))
+    if structure.strings:
+        pull, sideways, swing = scaled_strings(structure.oblique)
+        definitions.append((offset_squared, swing))
+        definitions.append((STRING_PULL, pull))
+        if structure.oblique:
+            definitions.append((STRING_SIDEWAYS, sideways))
+    if structure.oblique and not structure.reduced:
+        definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
+    return tuple(definitions)
+
+
+def _rotation(reduced: bool) -> list[Definition]:
+    """Orbital rate, angular momentum, the spin if it is eliminated, slip and inertia."""
+    definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / omega0))]
+    momentum = nondimensional(equations_of_motion().angular_momentum / (m * a**2 * omega0))
+    if reduced:
+        # the invariant handed in: L, at its start value (4 + x0/a)^2; solved for the spin it eliminates
+        definitions.append((MOMENTUM, (4 + aspect) ** 2))
+        definitions.append((spin, sp.solve(sp.Eq(momentum, MOMENTUM), spin)[0]))
+    else:
+        definitions.append((MOMENTUM, momentum))
+    definitions.append((SLIP, ORBITAL_RATE - spin))
+    definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (m * a**2))))
+    return definitions
+
+
+def by_orbital_rate(expression: sp.Expr) -> sp.Expr:
+    """The nondimensional `expression` in the orbital rate, in place of the orbital angular momentum."""
+    return expression.subs(orbit, ORBITAL_RATE * DISTANCE**2)
+
+
+def _scaled(force: sp.Expr, scale: sp.Expr) -> sp.Expr:
+    return nondimensional(force / scale)

@@ -1,0 +1,92 @@
+"""What is read off a state: the ledger of energy and angular momentum, outputs, and the certificate's energy."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .forces import TANGENTIAL
+from .intermediates import (
+    BRIDGE_FORCE,
+    FILM_FORCE,
+    INERTIA_RATIO,
+    LEVER,
+    MOMENTUM,
+    ORBITAL_RATE,
+    SHEAR_FORCE,
+    STRING_PULL,
+    by_orbital_rate,
+)
+from .laws import slot_call
+from .laws.strings import offset_squared
+from .mechanics import doublet_inertia, equations_of_motion
+from .quantities import a, aspect, g, m, omega, omega0, opening, r, spin, string_ratio, v0, x, x0, xi
+from .scaling import DISTANCE, nondimensional
+from .structure import Structure
+
+
+def energies(structure: Structure) -> dict[str, sp.Expr]:
+    """Energies of the state over m v0^2."""
+    stored = {"kinetic": _kinetic(structure)}
+    if structure.strings:
+        stored["strings"] = _lifted()
+    return stored
+
+
+def _kinetic(structure: Structure) -> sp.Expr:
+    energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
+    if not structure.oblique:
+        energy = energy.subs({omega: 0, xi: 0})
+    orbital = sp.Rational(1, 2) * m * r**2 * omega**2 / (m * v0**2)
+    rest = sp.expand(energy - sp.expand(orbital)) if structure.oblique else energy
+    result = nondimensional(rest)
+    if structure.oblique:
+        result += by_orbital_rate(nondimensional(orbital))
+    return result
+
+
+def _lifted() -> sp.Expr:
+    """Potential energy of the spheres on their strings."""
+    rise = slot_call("strings", "rise", string_ratio, offset_squared)
+    return nondimensional(4 * m * g * a / (m * v0**2)) * rise
+
+
+def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2."""
+    taken = {"normal_lubrication": FILM_FORCE * opening}
+    if structure.bridge:
+        taken["capillary"] = BRIDGE_FORCE * opening
+    if structure.oblique and not structure.reduced:
+        power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * omega0 * ORBITAL_RATE - 2 * a * LEVER * xi)
+        taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
+    return taken
+
+
+def angular_momentum() -> sp.Expr:
+    """Angular momentum over its start value."""
+    return MOMENTUM / (4 + aspect) ** 2
+
+
+def outputs(structure: Structure) -> dict[str, sp.Expr]:
+    """What a separated doublet shows: restitutions, and rates over omega0."""
+    shown: dict[str, sp.Expr] = {"restitution": opening}
+    if structure.oblique:
+        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / (4 + aspect)
+        shown["final_rotation_rate"] = ORBITAL_RATE
+        shown["final_spin"] = spin
+    return shown
+
+
+def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
+    """Pieces of the stick certificate: least energy at a gap for the state's angular momentum, and its slope."""
+    energy, slope = sp.Integer(0), sp.Integer(0)
+    if structure.oblique:
+        square = (m * a**2 * omega0 * MOMENTUM) ** 2
+        energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
+        body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
+        slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
+    if structure.bridge:
+        slope += BRIDGE_FORCE
+    if structure.strings:
+        energy += _lifted()
+        slope += STRING_PULL
+    return {"energy": energy, "slope": slope}

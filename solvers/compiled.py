@@ -1,0 +1,104 @@
+"""CasADi functions compiled to C and loaded, with a per-user cache addressed by content.
+
+The folder belongs to the user alone: one that others could write to is refused, since what is in it is executed.
+Without a compiler everything runs interpreted; that is said once.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+from functools import lru_cache
+from pathlib import Path
+
+from casadi import Function, external
+from platformdirs import user_cache_path
+
+FLAGS = ("-O1", "-fPIC", "-shared")  # -O2 and -O3 compile half as long again for the same speed (docs/performance.md)
+_COMPILERS = ("cc", "gcc", "clang")
+
+
+@lru_cache(maxsize=1)
+def compiler() -> tuple[str, str] | None:
+    """Path and version line of the machine's C compiler; None, said once on standard error, if there is none."""
+    wanted = os.environ.get("CC", "").split()[:1]
+    for name in (*wanted, *_COMPILERS):
+        path = shutil.which(name)
+        if path is None:
+            continue
+        asked = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
+        if asked.returncode == 0:
+            return path, asked.stdout.splitlines()[0]
+    sys.stderr.write("no C compiler (cc, gcc, clang): integrators run interpreted, about five times slower\n")
+    return None
+
+
+@lru_cache(maxsize=1)
+def cache_folder() -> Path:
+    """The user's cache folder, or a fresh private one for this process where that cannot be had.
+
+    WETDOUBLET_CACHE names another.
+    """
+    named = os.environ.get("WETDOUBLET_CACHE")
+    folder = Path(named) if named else user_cache_path("wetdoublet")
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if _private(folder) and os.access(folder, os.W_OK):
+            return folder
+    except OSError:
+        pass
+    return Path(tempfile.mkdtemp(prefix="wetdoublet-"))
+
+
+def _private(folder: Path) -> bool:
+    """Whether only this user can write to a folder."""
+    if os.name != "posix":
+        return True
+    found = folder.stat()
+    return found.st_uid == os.getuid() and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
+def compiled(function: Function) -> Function:
+    """`function` as machine code if there is a compiler, else itself.
+
+    Safe with several processes: a library is built under a name of its own and then moved into place.
+    """
+    found = compiler()
+    if found is None:
+        return function
+    path, version = found
+    name = function.name()
+    with tempfile.TemporaryDirectory(prefix="wetdoublet-") as work:
+        source = _source(function, Path(work))
+        text = source.read_bytes()
+        key = hashlib.sha256(b"\0".join([text, version.encode(), " ".join(FLAGS).encode()])).hexdigest()[:32]
+        library = cache_folder() / f"{name}-{key}.so"
+        if not library.is_file():
+            fresh = Path(work) / "fresh.so"
+            built = subprocess.run(
+                [path, *FLAGS, "-o", str(fresh), str(source), "-lm"], capture_output=True, text=True, check=False
+            )
+            if built.returncode:
+                last = (built.stderr.strip().splitlines() or ["no message"])[-1]
+                sys.stderr.write(f"{path} cannot compile {name} ({last}): it runs interpreted\n")
+                return function
+            beside = library.with_suffix(f".{os.getpid()}")
+            shutil.copyfile(fresh, beside)
+            beside.replace(library)
+    return external(name, str(library))
+
+
+def _source(function: Function, folder: Path) -> Path:
+    """C source of a function; CasADi's `generate` takes no path, so the text is taken from it and written."""
+    from casadi import CodeGenerator
+
+    generator = CodeGenerator(function.name())
+    generator.add(function)
+    path = folder / f"{function.name()}.c"
+    path.write_text(generator.dump())
+    return path
