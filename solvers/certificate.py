@@ -199,13 +199,14 @@ class BarrierProof:
         return tuple(reversed(highest_after))
 
     def _root(self, low: float, high: float, y: np.ndarray) -> float:
-        """Where the slope turns negative, by repeated division into 32."""
-        for _ in range(10):
-            parts = np.linspace(low, high, 33)
-            inward = self._slope(parts[1:-1], y) > 0
-            last = int(np.argmin(inward)) if not inward.all() else inward.size
+        """Where the slope turns negative, by repeated division."""
+        for _ in range(3):
+            parts = np.linspace(low, high, 201)
+            slope = self._slope(parts, y)
+            last = int(np.argmax(slope[1:] <= 0))
             low, high = parts[last], parts[last + 1]
-        return float(0.5 * (low + high))
+        # over 1e-7 of the bracket the slope is straight
+        return float(low + (high - low) * slope[last] / (slope[last] - slope[last + 1]))
 
     def _rise(self, top: float, y: np.ndarray) -> float:
         """Effective potential at `top` less that at first touch, by Gauss-Legendre panels in ln(gap)."""

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
 
+from .buffered import Buffered
 from .phases import Flow, Watch, event_table, expressions, mechanical_energy
 
 _EXPECTED = "Event support is experimental"
@@ -38,11 +39,11 @@ def quiet() -> Iterator[None]:
             sys.stderr.write(line + "\n")
 
 
-def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
+def _call(function: Function, x0: np.ndarray, p: np.ndarray, counted: bool = False) -> np.ndarray:
+    """Evaluate an integrator; its prints are dropped, its failure becomes one line; `counted` keeps its statistics."""
     try:
         with contextlib.redirect_stderr(io.StringIO()):
-            found = np.asarray(function(x0=x0, p=p)["xf"].full())
+            found = function(x0=x0, p=p)["xf"].full() if counted else _buffered(function)(x0, p)
     except (RuntimeError, SystemError) as error:
         # CasADi wraps an interrupt that arrives while it works
         if "KeyboardInterrupt" in str(error) or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
@@ -50,7 +51,12 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
         raise IntegrationFailed(_reason(str(error))) from None
     if not np.isfinite(found).all():
         raise IntegrationFailed("the state is not finite")
-    return found
+    return found.reshape(function.size_out(0), order="F")
+
+
+@lru_cache(maxsize=1024)
+def _buffered(function: Function) -> Buffered:
+    return Buffered(function, (0, 2))  # x0 and p of an integrator
 
 
 def _reason(message: str) -> str:
@@ -111,7 +117,7 @@ class Plain:
     plugin: str
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
-        found = _call(self.function, x0=y, p=np.append(p, duration))
+        found = _call(self.function, y, np.append(p, duration), counted=True)
         return found.ravel() if found.shape[1] == 1 else found
 
     @property

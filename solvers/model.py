@@ -9,9 +9,10 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
-from casadi import DM, SX, Function, densify, fmax, fmin, vertcat
+from casadi import SX, Function, densify, fmax, fmin, vertcat
 
 from ..generated.assemble import Laws, symbols, vector
+from .buffered import Buffered
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -130,8 +131,12 @@ class Model:
 
     def values(self, name: str, y: np.ndarray, p: np.ndarray, film: int = 1, shear: int = 1) -> dict[str, float]:
         """A function's named values at a state (leading entries of `y`) and groups `p`."""
-        numbers = self.function(name, film, shear)(y[: len(self.state)], p)
-        return dict(zip(self.names(name, film, shear), np.asarray(DM(numbers)).ravel().tolist(), strict=True))
+        numbers = self._buffered(name, film, shear)(y[: len(self.state)], p)
+        return dict(zip(self.names(name, film, shear), numbers.tolist(), strict=True))
+
+    @lru_cache(maxsize=64)  # noqa: B019 -- as above
+    def _buffered(self, name: str, film: int, shear: int) -> Buffered:
+        return Buffered(self.function(name, film, shear), (0, 1))
 
     @lru_cache(maxsize=64)  # noqa: B019 -- as above
     def names(self, name: str, film: int = 1, shear: int = 1) -> tuple[str, ...]:
