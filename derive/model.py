@@ -15,7 +15,7 @@ import sympy as sp
 from .events import events, reversal, reversal_loss, start
 from .intermediates import intermediates
 from .laws.base import Definition
-from .observables import angular_momentum, effective_potential, energies, energy_rates, outputs
+from .observables import angular_momentum, effective_potential, energies, energy_rates, outputs, rigid_rotation
 from .quantities import (
     aspect,
     beta,
@@ -196,6 +196,13 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, "
                 "and the slope with it.",
                 tuple(effective_potential(structure).items()),
+            )
+        )
+        functions.append(
+            ModelFunction(
+                "rigid_rotation",
+                "The state that has this least energy: at rest in the gap, turning as one body.",
+                of_states(rigid_rotation(structure)),
             )
         )
     return tuple(functions)

@@ -19,7 +19,7 @@ from .intermediates import (
 from .laws import slot_call
 from .laws.strings import offset_squared
 from .mechanics import doublet_inertia, equations_of_motion
-from .quantities import a, aspect, g, m, omega, omega0, opening, r, spin, string_ratio, v0, x, x0, xi
+from .quantities import a, aspect, g, gap, m, omega, omega0, opening, orbit, r, spin, string_ratio, v0, x, x0, xi
 from .scaling import DISTANCE, nondimensional
 from .structure import Structure
 
@@ -90,3 +90,9 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
         energy += _lifted()
         slope += STRING_PULL
     return {"energy": energy, "slope": slope}
+
+
+def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
+    rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
+    return {gap: gap, opening: sp.Integer(0), orbit: DISTANCE**2 * rate, spin: rate}

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 97e28b25058d5d2e67613caa59402b1eebc01c3478c214f49947c373925f4530
+# Equations sha256 c6045c26a5e2a6c01a8bd12e903ff0db7a11855e195b5204857113be47a6c828
 """Head-on doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -38,9 +38,10 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "97e28b25058d5d2e67613caa59402b1eebc01c3478c214f49947c373925f4530"
+DIGEST = "c6045c26a5e2a6c01a8bd12e903ff0db7a11855e195b5204857113be47a6c828"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -174,4 +175,16 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 0,
         "slope": 0,
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 0
+    """
+    gap = state["gap"]
+    return {
+        "gap": gap,
+        "opening": 0,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c1420f6cd4a8e2e6f4e490380d25bde1593bdb5481f1fb3d5d07f0e54eb85a12
+# Equations sha256 cab9d6da3b59efced0dc437ab9305f1442ced9d438467dc1a0b4009499141504
 """Head-on doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -54,9 +54,10 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "c1420f6cd4a8e2e6f4e490380d25bde1593bdb5481f1fb3d5d07f0e54eb85a12"
+DIGEST = "cab9d6da3b59efced0dc437ab9305f1442ced9d438467dc1a0b4009499141504"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -217,4 +218,16 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 0,
         "slope": bridge_force,
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 0
+    """
+    gap = state["gap"]
+    return {
+        "gap": gap,
+        "opening": 0,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f0b20b62c19306fecd277594115e7eadec309be4f5615ff9ea3647abe3252d4c
+# Equations sha256 313600c7e7173d8ee00e63eb542f369d16fd93d866f95c0b16097df375939f16
 """Head-on doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -58,9 +58,10 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "f0b20b62c19306fecd277594115e7eadec309be4f5615ff9ea3647abe3252d4c"
+DIGEST = "313600c7e7173d8ee00e63eb542f369d16fd93d866f95c0b16097df375939f16"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -239,4 +240,16 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
         "slope": bridge_force + string_pull,
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 0
+    """
+    gap = state["gap"]
+    return {
+        "gap": gap,
+        "opening": 0,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 aafdf7bd894cab42b42af18127168205f77157c7141fc168a55a98bb61489b3c
+# Equations sha256 b7c94a140dd36ed70087e6549825a78bf9242eb24c5c1d36b8b4f4814ef7ee42
 """Head-on doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -50,9 +50,10 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "aafdf7bd894cab42b42af18127168205f77157c7141fc168a55a98bb61489b3c"
+DIGEST = "b7c94a140dd36ed70087e6549825a78bf9242eb24c5c1d36b8b4f4814ef7ee42"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -209,4 +210,16 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
         "slope": string_pull,
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 0
+    """
+    gap = state["gap"]
+    return {
+        "gap": gap,
+        "opening": 0,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f667644b4abd2f1afba145f7d6dbdb93a3f72223406f2be2f673e40109268d46
+# Equations sha256 8e74091fead13c6a44472a8b7169b38642981d30ea2d941939695bd409c37e13
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -53,9 +53,10 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f667644b4abd2f1afba145f7d6dbdb93a3f72223406f2be2f673e40109268d46"
+DIGEST = "8e74091fead13c6a44472a8b7169b38642981d30ea2d941939695bd409c37e13"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -312,4 +313,24 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
         "slope": -aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2),
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 12
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    momentum = orbit + 6.4*spin
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "gap": gap,
+        "opening": 0,
+        "orbit": distance**2*momentum/inertia_ratio,
+        "spin": momentum/inertia_ratio,
     }

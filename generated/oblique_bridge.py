@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 912d8624f32d015e7d05460e04afc126dbb0c677b66e43196f576c2e62601ea0
+# Equations sha256 34609559b3a54c159f2ce8c9e35314db9ab179465ee091bf2956702cf91ab187
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -61,9 +61,10 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "912d8624f32d015e7d05460e04afc126dbb0c677b66e43196f576c2e62601ea0"
+DIGEST = "34609559b3a54c159f2ce8c9e35314db9ab179465ee091bf2956702cf91ab187"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -346,4 +347,24 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
         "slope": bridge_force - aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2),
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 12
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    momentum = orbit + 6.4*spin
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "gap": gap,
+        "opening": 0,
+        "orbit": distance**2*momentum/inertia_ratio,
+        "spin": momentum/inertia_ratio,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 6bb7aa7af8fedab4f10b457916f30c756050e411a0414e680bd42bfe7597a7fa
+# Equations sha256 3c55cb7b5ab0d0d0435059b789ab32f05e06093acbcb3a13a86ef48b48c9f435
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -59,9 +59,10 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "6bb7aa7af8fedab4f10b457916f30c756050e411a0414e680bd42bfe7597a7fa"
+DIGEST = "3c55cb7b5ab0d0d0435059b789ab32f05e06093acbcb3a13a86ef48b48c9f435"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -316,4 +317,21 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
         "slope": bridge_force - aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2),
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 10
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    momentum = (aspect + 4)**2
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "gap": gap,
+        "opening": 0,
+        "orbit": distance**2*momentum/inertia_ratio,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 9f2c22707d89251a9d298fa16cce13dd911731c02c8736f76fe402c8df07d423
+# Equations sha256 8388d82d77d4b31ace14c349e6d63675b1e2d9e59debaaeaf18a45a21f8d3ea6
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -51,9 +51,10 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "effective_potential",
+    "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "9f2c22707d89251a9d298fa16cce13dd911731c02c8736f76fe402c8df07d423"
+DIGEST = "8388d82d77d4b31ace14c349e6d63675b1e2d9e59debaaeaf18a45a21f8d3ea6"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -281,4 +282,21 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
         "slope": -aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2),
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 10
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    momentum = (aspect + 4)**2
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "gap": gap,
+        "opening": 0,
+        "orbit": distance**2*momentum/inertia_ratio,
     }

@@ -9,32 +9,40 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .bounds import Boundaries, boundary
     from .errors import CheckFailed, ComputationError, InputError, WetDoubletError
     from .many import collide_many
+    from .regime_map import regime_map
     from .result import Collision
     from .scene import Scene
     from .simulate import collide
 
 _HOMES = {
+    "Boundaries": "bounds",
     "CheckFailed": "errors",
     "Collision": "result",
     "ComputationError": "errors",
     "InputError": "errors",
     "Scene": "scene",
     "WetDoubletError": "errors",
+    "boundary": "bounds",
     "collide": "simulate",
     "collide_many": "many",
+    "regime_map": "regime_map",
 }
 
 __all__ = [
+    "Boundaries",
     "CheckFailed",
     "Collision",
     "ComputationError",
     "InputError",
     "Scene",
     "WetDoubletError",
+    "boundary",
     "collide",
     "collide_many",
+    "regime_map",
 ]
 
 

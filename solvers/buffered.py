@@ -1,9 +1,16 @@
-"""Calling CasADi functions from numpy without its matrices in between: some microseconds instead of some tens."""
+"""Calling CasADi functions from numpy without its matrices in between: some microseconds instead of some tens.
+
+Buffers, and the symbols that functions are built from, are shared by the process: LOCK admits one thread at a time.
+"""
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 from casadi import Function
+
+LOCK = threading.RLock()
 
 
 class Buffered:

@@ -10,20 +10,24 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .integrators import Plain, Tolerance, landing, plain
+from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import Path, Step
 from .phases import Flow, Watch
 
 _LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
+_MISSES = 1e-13  # of its scale: what an event's function may be off after the step
 _TRIES = 8
 
 
-class Diverged(Exception):
-    """The engine's solution does not meet the located event: its error is larger than the distance to a boundary."""
+class Stopped(Exception):
+    """The engine could not fly a phase: `why`, in which step, at what time (x0/v0) and state.
 
-    def __init__(self, step: Step, time: float, y: np.ndarray) -> None:
-        super().__init__(step, time, y)
-        self.step, self.time, self.y = step, time, y
+    `missed`: its solution misses the located event, so a tighter tolerance may help.
+    """
+
+    def __init__(self, why: str, step: Step, time: float, y: np.ndarray, missed: bool = False) -> None:
+        super().__init__(why, step, time, y, missed)
+        self.why, self.step, self.time, self.y, self.missed = why, step, time, y, missed
 
 
 @dataclass(frozen=True)
@@ -64,8 +68,7 @@ def fly(path: Path, plugin: str, tolerance: Tolerance, kind: Flow, start: np.nda
         start: state at first touch.
 
     Raises:
-        Diverged: the engine's solution misses an event of the path.
-        IntegrationFailed: the engine gave up.
+        Stopped: the engine gave up, or its solution misses an event of the path.
     """
     model = kind.model
     known = dict(zip(path.model.groups, path.p, strict=True))
@@ -96,22 +99,31 @@ def _flight(
     engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p: np.ndarray
 ) -> tuple[float, np.ndarray]:
     """Duration and end of one phase, on the event's surface."""
-    y = engine(flown.y, p, step.duration)
-    flown.steps += engine.steps
+
+    def flight(duration: float) -> np.ndarray:
+        try:
+            y = engine(flown.y, p, duration)
+        except IntegrationFailed as failure:
+            raise Stopped(f"gave up ({failure})", step, flown.time, flown.y) from None
+        flown.steps += engine.steps
+        return y
+
+    y = flight(step.duration)
     if step.event is None:
         return step.duration, y
     land = landing(flow, Watch(tangential_edge=watch.tangential_edge), step.event)
     motion = float(step.phase.motion)
     parameters = np.append(p, [motion, 0.0])
     duration = step.duration
+    scale = float(p[list(flow.model.groups).index("glass_number")]) if step.event == "glass" else 1.0
     for _ in range(_TRIES):
         landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
         shift = float(dt[0])
         if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > step.duration:
             break
-        if abs(shift) <= _LANDED * duration or abs(float(miss[0])) < 1e-15:
+        if abs(shift) <= _LANDED * duration and abs(float(miss[0])) <= _MISSES * scale:
             return duration + shift, landed
         duration += shift
-        y = engine(flown.y, p, duration)
-        flown.steps += engine.steps
-    raise Diverged(step, flown.time + duration, y)
+        y = flight(duration)
+    missed = f"does not meet the event {step.event}: the collision lies within its error of a boundary"
+    raise Stopped(missed, step, flown.time + duration, y, missed=True)

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 import traceback
 from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
 
 from .errors import InputError, WetDoubletError, did_you_mean
 
-COMMANDS = ("scenes", "collide", "generate", "verify")
+COMMANDS = ("scenes", "collide", "map", "boundary", "reproduce", "generate", "verify")
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
+
+_SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
+"""An option that a command may lack -> what it may have instead."""
 
 INTERRUPTED, BROKEN_PIPE = 130, 141  # as a shell reports the signals
 
@@ -48,8 +53,13 @@ class Commands(click.Group):
         try:
             super().invoke(ctx)
             sys.stdout.flush()
-        except KeyboardInterrupt:
-            click.echo("interrupted", err=True)
+        except click.BadOptionUsage as error:
+            name = ctx.invoked_subcommand  # click does not say whose option it was
+            if error.ctx is None and name and (command := self.get_command(ctx, name)):
+                error.ctx = click.Context(command, parent=ctx, info_name=name)
+            raise
+        except KeyboardInterrupt as interrupt:
+            click.echo(str(interrupt) or "interrupted", err=True)
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
             # nothing can be written any more, not even what the interpreter flushes as it ends
@@ -60,6 +70,7 @@ class Commands(click.Group):
         self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
     ) -> None:
         """Run, and leave with the exit status."""
+        _settle_streams()
         arguments = list(sys.argv[1:] if args is None else args)
         extra["standalone_mode"] = False
         try:
@@ -79,6 +90,15 @@ class Commands(click.Group):
         sys.exit(status or 0)
 
 
+def _settle_streams() -> None:
+    """Give closed standard streams an end that swallows, and keep matplotlib's remarks off standard error."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by the caller, as by >&-
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))
+    # it warns of a home that cannot be written, where it works from a temporary folder, and of slow fonts
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+
 def _report(line: str, status: int, error: BaseException, arguments: list[str]) -> int:
     if "--debug" in arguments:
         traceback.print_exception(error)
@@ -90,18 +110,26 @@ def _usage(error: click.UsageError) -> str:
     """Return click's complaint in our words: the option, the nearest known one, and what is accepted."""
     ctx = error.ctx
     options = [name for param in ctx.command.get_params(ctx) for name in param.opts if name[0] == "-"] if ctx else []
-    accepted = ", ".join(options)
     if isinstance(error, click.NoSuchOption):
-        return f"{error.option_name}: no such option{did_you_mean(error.option_name, options)}; accepted: {accepted}"
+        instead = next((name for name in _SAME.get(error.option_name, ()) if name in options), None)
+        hint = f", did you mean {instead}?" if instead else did_you_mean(error.option_name, options)
+        return f"{error.option_name}: no such option{hint}; accepted: {', '.join(options)}"
     said = " ".join(error.format_message().split()).removesuffix(".")
     if isinstance(error, click.BadOptionUsage):
-        return (
-            f"{error.option_name}: {said}; accepted: {error.option_name} VALUE, or {error.option_name} alone for a flag"
-        )
+        return _misused(error.option_name, ctx)
     if ctx and isinstance(ctx.command, click.Group):
         return f"COMMAND: {said}; accepted: {', '.join(COMMANDS)}"
     usage = " ".join(ctx.get_usage().split()).removeprefix("Usage: ") if ctx else "see --help"
     return f"{ctx.info_name if ctx else 'wetdoublet'}: {said}; accepted: {usage}"
+
+
+def _misused(name: str, ctx: click.Context | None) -> str:
+    """Return what is wrong with an option that lacks its value, or has one that it does not take."""
+    params = ctx.command.get_params(ctx) if ctx else []
+    option = next((param for param in params if name in param.opts and isinstance(param, click.Option)), None)
+    if option is not None and option.is_flag:
+        return f"{name}: is given a value; accepted: {name} alone"
+    return f"{name}: its value is missing; accepted: {name} {(option and option.metavar) or 'VALUE'}"
 
 
 @click.command(cls=Commands, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})

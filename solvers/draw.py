@@ -18,7 +18,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 
 from .frames import INK, Frame, draw_strip, frames, strip_size
 from .result import Collision
-from .show import name_of, prefix, quantity, reason
+from .show import name_of, prefix, quantity, reason, stopped
 
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#6E6E6E"  # Okabe-Ito
 WIDTH = 9.0  # inches
@@ -94,7 +94,8 @@ def _short(value: float) -> str:
 def _title(collision: Collision) -> str:
     name = name_of(collision.scene).replace("$", r"\$")
     numbers = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°, $e_n$ = {collision.restitution:.4g}"
-    why = re.sub(r"(?<=\d )us\b", "µs", reason(collision))
+    parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
+    why = re.sub(r"(?<=\d )us\b", "µs", "; ".join(part for part in parts if part))
     return f"{name}: {collision.outcome}   ({numbers})\n{why}"
 
 
@@ -128,7 +129,7 @@ def _time_panels(figure: Figure, place: Any, collision: Collision, rows: int, pi
     whole = Column(0.0, duration, "whole flight" if zoom else "", panels[-1], 5.0 if zoom else 8.0, zoom or 0.0)
     columns = [Column(0.0, zoom, "approach", panels[0], 2.9), whole] if zoom else [whole]
     for column in columns:
-        _fill(column, collision, rows)
+        _fill(column, collision, rows, last=column is whole)
         _events(column, collision)
     _match(columns, time, np.asarray(data["opening_velocity"]))
     for row, letter in ((0, "a"), (2, "b")):
@@ -151,13 +152,13 @@ def _zoom(collision: Collision, duration: float) -> float | None:
     return end if duration > _ZOOM / 2 * end else None
 
 
-def _fill(column: Column, collision: Collision, rows: int) -> None:
-    """Draw the curves of a column."""
+def _fill(column: Column, collision: Collision, rows: int, last: bool) -> None:
+    """Draw the curves of a column; the last one has the right margin to itself."""
     data = collision.trajectory
     assert data is not None
     factor, unit = column.unit
     time = np.asarray(data["time"]) / factor
-    _gap(column.panels[0], time, np.asarray(data["gap"]), collision)
+    _gap(column.panels[0], time, np.asarray(data["gap"]), collision, last)
     velocity = column.panels[1]
     size, name = prefix(float(np.max(np.abs(data["opening_velocity"]))))
     velocity.plot(time, np.asarray(data["opening_velocity"]) / size, color=ORANGE)
@@ -185,7 +186,7 @@ def _fill(column: Column, collision: Collision, rows: int) -> None:
     column.panels[-1].set_xlabel(f"time{', ' * bool(column.title)}{column.title} ({unit})", fontsize=9)
 
 
-def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision) -> None:
+def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision, last: bool) -> None:
     """The gap, and the gaps at which something changes."""
     scene = collision.scene
     factor, name = prefix(float(np.max(gap)))
@@ -215,10 +216,10 @@ def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision) ->
             text, (1, value / factor), (3, 0), xycoords=axes.get_yaxis_transform(), textcoords="offset points",
             color=BLUE, fontsize=8, va="center",
         )  # fmt: skip
-    if far:
+    if far and last:  # in the margin, where no curve comes
         axes.annotate(
-            f"ruptures at $x_f$ = {_figures(rupture, 'm')}, off the scale", (0.03, 0.06), xycoords="axes fraction",
-            color=BLUE, fontsize=7.5,
+            f"$x_f$ ↑\n{_figures(rupture, 'm')}", (1, 1), (3, 2), xycoords="axes fraction",
+            textcoords="offset points", color=BLUE, fontsize=8, va="bottom",
         )  # fmt: skip
     axes.set_ylabel(f"gap ({_micro(name + 'm')})")
 

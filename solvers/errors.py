@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 _LONGEST = 80  # characters of an offending value that are shown
+_NEAR = 0.6  # likeness, 0 to 1, from which on a name is suggested
 
 
 def shown(value: object) -> str:
@@ -25,11 +26,11 @@ def one_line(text: str) -> str:
 
 
 def nearest(word: object, known: Iterable[str]) -> str | None:
-    """Return the known name most like `word`, or None if none is near."""
+    """Return the known name most like `word`, or None if none is near; the dashes of options do not count."""
     from difflib import get_close_matches
 
-    names = {name.lower(): name for name in known}
-    close = get_close_matches(str(word)[:_LONGEST].lower(), names, n=1, cutoff=0.5)
+    names = {name.lower().lstrip("-"): name for name in known}
+    close = get_close_matches(str(word)[:_LONGEST].lower().lstrip("-"), names, n=1, cutoff=_NEAR)
     return names[close[0]] if close else None
 
 

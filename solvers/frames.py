@@ -17,7 +17,7 @@ LIQUID, VELOCITY, FIRST, SECOND, INK = "#56B4E9", "#D55E00", "#E8E8E8", "#BDBDBD
 _FLOWN = 5  # frames of a flight that shows something; else 3
 _APART = 0.8  # of R: how much further apart the last frame of a separated pair is
 _BETWEEN = 0.7  # of R: space between frames
-_ARROW = 1.15  # of R: length of the fastest velocity's arrow
+_ARROW = 1.15  # of R: length of the fastest velocity's arrow, half of it on either side of the centre
 
 Vector = tuple[float, float]
 
@@ -63,28 +63,89 @@ class Frame:
 
 def frames(collision: Collision) -> list[Frame]:
     """Return instants equally spaced in time from first touch on, and for a separated pair one after rupture."""
-    data = collision.trajectory
-    if data is None:
-        raise ValueError("the collision has no trajectory: pass trajectory=True to collide()")
-    radius = 2 * collision.scene.particles.reduced_radius
-    time, gap, rotation = (np.asarray(data[name], dtype=float) for name in ("time", "gap", "rotation"))
-    turned = orientation(time, rotation, np.asarray(data["rotation_rate"]), np.asarray(data["spin"]))
-    still = np.ptp(rotation) < math.radians(20) and np.ptp(gap) < 0.2 * radius
-    instants = np.linspace(0.0, time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
-    approach = (-collision.speed, collision.speed * math.tan(collision.angle) * (1 + gap[0] / (2 * radius)))
-
-    def at(instant: float) -> Frame:
-        here, angle, own = (float(np.interp(instant, time, values)) for values in (gap, rotation, turned))
-        return Frame(float(instant), here, angle, own, radius)
-
-    found = [at(instant) for instant in (instants if time[-1] > 0 else [0.0])]
-    found[0] = replace(found[0], relative=approach)
-    if collision.outcome != "stick":
-        last = Frame(float(time[-1]), float(gap[-1]), float(rotation[-1]), float(turned[-1]), radius)
-        rates = (float(data[name][-1]) for name in ("opening_velocity", "rotation_rate", "spin"))
-        after = _free_flight(last, *rates)
-        found += [after] if after else []
+    flight = _Flight.of(collision)
+    still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.radius
+    instants = np.linspace(0.0, flight.time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
+    found = [flight.at(instant) for instant in (instants if flight.time[-1] > 0 else [0.0])]
+    found[0] = replace(found[0], relative=flight.approach)
+    if collision.outcome != "stick" and any(flight.parting):
+        found += [flight.apart(_wait(flight.last, *flight.parting))]
     return found
+
+
+def sampled(collision: Collision, instants: Sequence[float]) -> list[Frame]:
+    """Return the given instants, s from first touch: straight lines before it and after rupture.
+
+    A stick has no instants after its end.
+    """
+    flight, found = _Flight.of(collision), []
+    for instant in instants:
+        if instant < 0:
+            found.append(flight.before(instant))
+        elif instant <= flight.time[-1]:
+            found.append(flight.at(instant))
+        elif collision.outcome != "stick":
+            found.append(flight.apart(instant - flight.time[-1]))
+    return found
+
+
+@dataclass(frozen=True)
+class _Flight:
+    """A trajectory, to be read at any instant."""
+
+    time: np.ndarray
+    gap: np.ndarray
+    rotation: np.ndarray
+    turned: np.ndarray
+    radius: float
+    approach: Vector  # relative velocity at first touch
+    parting: tuple[float, float]  # opening velocity and rotation rate at the end
+    spin: float  # at the end
+
+    @classmethod
+    def of(cls, collision: Collision) -> _Flight:
+        data = collision.trajectory
+        if data is None:
+            raise ValueError("the collision has no trajectory: pass trajectory=True to collide()")
+        radius = 2 * collision.scene.particles.reduced_radius
+        time, gap, rotation = (np.asarray(data[name], dtype=float) for name in ("time", "gap", "rotation"))
+        turned = orientation(time, rotation, np.asarray(data["rotation_rate"]), np.asarray(data["spin"]))
+        approach = (-collision.speed, collision.speed * math.tan(collision.angle) * (1 + gap[0] / (2 * radius)))
+        opening, rate, spin = (float(data[name][-1]) for name in ("opening_velocity", "rotation_rate", "spin"))
+        return cls(time, gap, rotation, turned, radius, approach, (opening, rate), spin)
+
+    def at(self, instant: float) -> Frame:
+        values = (float(np.interp(instant, self.time, known)) for known in (self.gap, self.rotation, self.turned))
+        return Frame(float(instant), *values, self.radius)
+
+    @property
+    def last(self) -> Frame:
+        return self.at(float(self.time[-1]))
+
+    def before(self, instant: float) -> Frame:
+        """The pair on its way to first touch."""
+        first = self.at(0.0)
+        x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant
+        gap = math.hypot(x, y) - 2 * self.radius
+        return Frame(float(instant), gap, math.atan2(y, x), 0.0, self.radius, self.approach, free=True)
+
+    def apart(self, wait: float) -> Frame:
+        """The pair on straight lines, a time after rupture."""
+        last, (opening, rate) = self.last, self.parting
+        across = last.distance * rate
+        x, y = last.distance + opening * wait, across * wait
+        along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
+        relative = (opening * along[0] + across * side[0], opening * along[1] + across * side[1])
+        gap, angle = math.hypot(x, y) - 2 * self.radius, last.angle + math.atan2(y, x)
+        return Frame(last.time + wait, gap, angle, last.turned + self.spin * wait, self.radius, relative, free=True)
+
+
+def _wait(last: Frame, opening: float, rate: float) -> float:
+    """Time after rupture until the pair is as far apart as shows: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
+    speed = math.hypot(opening, last.distance * rate)
+    goal = last.distance + _APART * last.radius
+    lead = last.distance * opening
+    return (math.sqrt(lead**2 + speed**2 * (goal**2 - last.distance**2)) - lead) / speed**2
 
 
 def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarray, spin: np.ndarray) -> np.ndarray:
@@ -96,23 +157,6 @@ def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarra
     pieces = 0.5 * (slip[1:] + slip[:-1]) * np.diff(time)
     turned: np.ndarray = rotation + np.concatenate([[0.0], np.cumsum(pieces)])
     return turned
-
-
-def _free_flight(last: Frame, opening: float, rate: float, spin: float) -> Frame | None:
-    """The pair on straight lines after rupture, as far apart as shows; None if it does not move."""
-    across = last.distance * rate
-    speed = math.hypot(opening, across)
-    if not speed:
-        return None
-    goal = last.distance + _APART * last.radius
-    # |(r + u t, r omega t)| = goal; u >= 0 at rupture
-    lead = last.distance * opening
-    wait = (math.sqrt(lead**2 + speed**2 * (goal**2 - last.distance**2)) - lead) / speed**2
-    angle = last.angle + math.atan2(across * wait, last.distance + opening * wait)
-    along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
-    relative = (opening * along[0] + across * side[0], opening * along[1] + across * side[1])
-    gap = goal - 2 * last.radius
-    return Frame(last.time + wait, gap, angle, last.turned + spin * wait, last.radius, relative, free=True)
 
 
 def wetted_radius(scene: Scene, gap: float) -> float:
@@ -131,7 +175,7 @@ def wetted_radius(scene: Scene, gap: float) -> float:
 def draw_strip(axes: Axes, collision: Collision, pictures: Sequence[Frame], captions: Sequence[str]) -> None:
     """Draw the frames side by side, to one scale, a caption under each; lengths are in sphere radii."""
     radius = pictures[0].radius
-    fastest = max(math.hypot(*frame.relative) for frame in pictures if frame.relative)
+    fastest = max((math.hypot(*frame.relative) for frame in pictures if frame.relative), default=1.0)
     bottom = -max(frame.half_height for frame in pictures) / radius - 0.25
     place, edge = 0.0, 0.0
     for frame, caption in zip(pictures, captions, strict=True):
@@ -172,8 +216,10 @@ def _draw(axes: Axes, collision: Collision, frame: Frame, place: float, fastest:
         axes.plot(*centre, marker="o", markersize=2.2, color=INK, zorder=4)
     if frame.relative:
         for centre, length in zip(centres, (-_ARROW / fastest, _ARROW / fastest), strict=True):
-            tip = (centre[0] + length * frame.relative[0], centre[1] + length * frame.relative[1])
-            arrow = FancyArrowPatch(centre, tip, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0, zorder=5)
+            # centred, so that the tips of a head-on approach stay apart
+            x, y = 0.5 * length * frame.relative[0], 0.5 * length * frame.relative[1]
+            ends = (centre[0] - x, centre[1] - y), (centre[0] + x, centre[1] + y)
+            arrow = FancyArrowPatch(*ends, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0, zorder=5)
             arrow.set(color=VELOCITY, linewidth=1.4)
             axes.add_patch(arrow)
 

@@ -88,14 +88,14 @@ class Tolerance:
 
 # CVODES' global error at a given tolerance is some hundred times Rosenbrock's (DESIGN.md 2; tests/benchmarks): it is
 # given a tighter one, so that rtol means about the same for both.
-_CVODES_SHARE, _CVODES_TIGHTEST = 1 / 30, 1e-14
+_CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
 
 
 def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
     """What an integrator is told so that results come out at about `rtol`.
 
     The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a
-    tiny part of x0, which CVODES must resolve; at very small angles without bridge or strings, the doublet is opened
+    tiny part of x0, which must be resolved; at very small angles without bridge or strings, the doublet is opened
     by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both in whole decades, so that
     integrators are shared.
     """
@@ -103,9 +103,10 @@ def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Toleranc
     absolute = 1e-3
     if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
         absolute = 10.0 ** max(4 * math.floor(math.log10(centrifugal) / 4) - 3, -200)
+    if centrifugal > 1:
+        rtol = max(rtol * 10.0 ** -math.ceil(math.log10(centrifugal)), min(rtol, _TIGHTEST))
     if plugin == "cvodes":
-        sharper = 10.0 ** -math.ceil(math.log10(centrifugal)) if centrifugal > 1 else 1.0
-        rtol = max(rtol * _CVODES_SHARE * sharper, _CVODES_TIGHTEST)
+        rtol = max(rtol * _CVODES_SHARE, _TIGHTEST)
     return Tolerance(rtol, absolute * rtol)
 
 

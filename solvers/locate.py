@@ -17,7 +17,9 @@ from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
+LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from any boundary, for nothing gained
 REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (MODEL.md section 5)
+MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
 _MAX_STEPS = 20_000  # phases of one flight
 
@@ -51,6 +53,7 @@ class Path:
     steps: list[Step] = field(default_factory=list)
     separated: bool = False
     certified: bool = False
+    ends: list[np.ndarray] = field(default_factory=list)  # state after each step, its reversal included
     y: np.ndarray = field(default_factory=lambda: np.zeros(0))  # the last state, extras included
     time: float = 0.0  # of the last state
     smallest_gap: float = 1.0
@@ -83,6 +86,7 @@ class Locate:
         extras: tuple[str, ...] = (),
         machine_code: bool = False,
     ) -> None:
+        rtol = min(rtol, LOOSEST)
         self.model, self.rtol, self.machine_code = model, rtol, machine_code
         self.tolerance = tolerance(rtol, "rosenbrock", groups)
         self.p = model.group_values(groups)
@@ -100,6 +104,8 @@ class Locate:
 
     def run(self) -> Path:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
+        if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
+            raise self._error("so oblique an impact turns within a rounding error of x0", "try a smaller angle")
         for _ in range(_MAX_STEPS):
             if self._proved():
                 self._stop(Step(self.phase, 0.0, None, ()))
@@ -126,6 +132,7 @@ class Locate:
 
     def _stop(self, step: Step) -> None:
         self.path.steps.append(step)
+        self.path.ends.append(self.y)
 
     def _flow(self) -> Flow:
         return Flow(self.model.choice, self.phase.region, self.extras)
@@ -168,7 +175,7 @@ class Locate:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level) if stop.event == "turning" else stop
         except IntegrationFailed as error:
-            raise self._error(f"integration failed ({error})", "try a larger --rtol") from None
+            raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
         """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
@@ -235,11 +242,12 @@ class Locate:
         return False
 
     def _next(self, step: Step, phase: Phase) -> None:
-        self.path.steps.append(step)
+        self._stop(step)
         self.phase = phase
 
     def _contact_kind(self) -> str:
-        return "elastic" if self.groups["elastic_gap"] >= self.groups["rough_gap"] else "rough"
+        elastic, rough = self.groups["elastic_gap"], self.groups["rough_gap"]
+        return "elastic" if elastic >= rough and elastic > 0 else "rough"
 
     def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
         """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures.

@@ -8,67 +8,34 @@ from __future__ import annotations
 
 import math
 import os
+import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import InputError, WetDoubletError, did_you_mean
+from .errors import ComputationError, WetDoubletError
 from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
+from .requests import QUANTITIES, Request, requested
+from .requests import checked_numbers as _numbers  # noqa: F401 # boundary.py knows it under this name
 from .scene import Scene
-from .schema import FIELDS, unknown_entry
-from .settings import RTOL, check_engine, check_rtol
+from .schema import FIELDS
+from .settings import RTOL
 
 if TYPE_CHECKING:
     import xarray
 
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 FAILED = -1
-ALWAYS = ("outcome", "restitution", "certified", "reason")
-QUANTITIES: dict[str, tuple[str, str]] = {
-    "restitution": ("1", "normal restitution e_n"),
-    "tangential_restitution": ("1", "tangential restitution r_f omega_f/(r_0 omega_0)"),
-    "rotation": ("rad", "angle turned by the line of centres until separation"),
-    "contact_time": ("s", "time from first touch to separation"),
-    "smallest_gap": ("m", "smallest gap until separation"),
-}
 _BLOCK = 50  # collisions a worker takes at a time
 _ALONE = 100  # fewer collisions are not worth starting workers or a compiler for
 
 Block = dict[str, np.ndarray]
 Finished = Callable[[np.ndarray, Block], None]
-
-
-@dataclass(frozen=True)
-class Request:
-    """What to collide: a scene, impacts, other entries that vary, and what to keep. Arrays of one length, SI."""
-
-    scene: Scene
-    stokes: np.ndarray | None
-    speed: np.ndarray | None
-    angle: np.ndarray
-    vary: dict[str, np.ndarray]
-    rtol: float
-    engine: str
-    of: tuple[str, ...]
-
-    @property
-    def size(self) -> int:
-        return int(self.angle.size)
-
-    def impact(self, k: int) -> tuple[Scene, float, float]:
-        """Scene, speed (m/s) and angle (rad) of collision k."""
-        scene = self.scene
-        if self.vary:
-            scene = scene.with_entries({name: float(values[k]) for name, values in self.vary.items()})
-        if self.speed is not None:
-            return scene, float(self.speed[k]), float(self.angle[k])
-        assert self.stokes is not None
-        return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
 
 
 def collide_many(
@@ -111,78 +78,6 @@ def collide_many(
     return as_dataset(request, results)
 
 
-def requested(
-    scene: Scene | str | FilePath,
-    stokes: Any,
-    speed: Any,
-    angle: Any,
-    vary: Mapping[str, Any],
-    rtol: float,
-    engine: str | None,
-    of: Sequence[str],
-) -> Request:
-    """A validated Request, everything broadcast to one length."""
-    loaded = Scene.load(scene)
-    if stokes is not None and speed is not None:
-        raise InputError("speed", speed, "only one of stokes, speed", "is given together with stokes")
-    of = (of,) if isinstance(of, str) else tuple(of)
-    known = (*QUANTITIES, "outcome", "certified", "reason")
-    for name in of:
-        if name not in known:
-            raise InputError("of", name, ", ".join(known), "is not known" + did_you_mean(name, known))
-    columns: dict[str, Any] = {}
-    if stokes is None and speed is None:
-        own = loaded.impact
-        stokes, speed = own.stokes, own.speed
-        if stokes is None and speed is None:
-            raise InputError("stokes", None, "Stokes numbers, or speed, or an [impact] in the scene")
-    if stokes is not None:
-        columns["impact.stokes"] = stokes
-    if speed is not None:
-        columns["impact.speed"] = speed
-    columns["impact.angle"] = loaded.angle if angle is None else angle
-    if columns["impact.angle"] is None:
-        raise InputError("angle", None, "angles in rad, or an [impact] in the scene")
-    for name, values in vary.items():
-        if name not in FIELDS:
-            raise unknown_entry(name, values)
-        if name.startswith("impact."):
-            raise InputError("vary", name, "entries that are not of the impact", "has an argument of its own")
-        columns[name] = values
-    arrays = {name: _numbers(name, values) for name, values in columns.items()}
-    lengths = {name: array.size for name, array in arrays.items() if array.ndim}
-    size = max(lengths.values(), default=1)
-    for name, length in lengths.items():
-        if length not in (1, size):
-            raise InputError(name, f"{length} values", f"{size} values, or one", "differs in length from the others")
-    full = {name: np.broadcast_to(array.reshape(-1), size).copy() for name, array in arrays.items()}
-    return Request(
-        scene=loaded,
-        stokes=full.pop("impact.stokes", None),
-        speed=full.pop("impact.speed", None),
-        angle=full.pop("impact.angle"),
-        vary=full,
-        rtol=check_rtol(rtol),
-        engine=check_engine(engine) or "rosenbrock",
-        of=of,
-    )
-
-
-def _numbers(name: str, values: Any) -> np.ndarray:
-    """An array of SI numbers, each acceptable for its field."""
-    if isinstance(values, str):
-        values = FIELDS[name].number(values)
-    try:
-        array = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(name, repr(values), "numbers (SI), in one dimension", "is not a list of numbers") from None
-    if array.ndim > 1:
-        raise InputError(name, f"{array.ndim} dimensions", "one dimension, or a single number", "is not accepted")
-    for value in np.unique(array):
-        FIELDS[name].number(float(value), label=name)
-    return array
-
-
 def empty(size: int, of: Sequence[str]) -> Block:
     """Result columns, nothing computed yet: outcome -2."""
     columns: Block = {"outcome": np.full(size, -2, dtype=np.int8)}
@@ -201,39 +96,78 @@ def fill(results: Block, where: np.ndarray, block: Block) -> None:
 
 
 def compute(request: Request, which: np.ndarray, finished: Finished) -> None:
-    """Collide the collisions `which`, on all cores if they are many; `finished` is told of every block."""
+    """Collide the collisions `which`, on all cores if they are many; `finished` is told of every block.
+
+    What it has been told stays told, whatever interrupts the rest.
+    """
     blocks = [which[k : k + _BLOCK] for k in range(0, which.size, _BLOCK)]
-    cores = min(len(blocks), os.cpu_count() or 1)
+    cores = min(len(blocks), _cores())
     many = which.size > _ALONE
     if not many or cores == 1:
         for block in blocks:
-            finished(block, run(request, block, many))
+            finished(block, run(request.part(block), many))
         return
     for block, result in _in_parallel(request, blocks, cores):
         finished(block, result)
 
 
+def _cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iterator[tuple[np.ndarray, Block]]:
-    from concurrent.futures import as_completed
+    """Results in the order in which they are finished; a worker is sent the part of the request it is to do."""
+    from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 
     from loky import ProcessPoolExecutor  # starts workers without running the caller's script again
 
-    run(request, blocks[0][:1], True)  # compile once, before the workers ask for it
-    pool = ProcessPoolExecutor(max_workers=cores)
+    run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
+    pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
+    waiting: dict[Any, np.ndarray] = {}
+    left = iter(blocks)
     try:
-        waiting = {pool.submit(run, request, block, True): block for block in blocks}
-        for future in as_completed(waiting):
-            yield waiting[future], future.result()
+        while True:
+            with _undisturbed():  # an interrupt is for this process, which then stops its workers
+                for block in left:
+                    waiting[pool.submit(run, request.part(block), True)] = block
+                    if len(waiting) > 2 * cores:
+                        break
+            if not waiting:
+                return
+            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                yield waiting.pop(future), future.result()
+    except BrokenExecutor as error:
+        raise ComputationError(
+            f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
+        ) from None
     finally:
         pool.shutdown(wait=True, kill_workers=True)
 
 
-def run(request: Request, which: np.ndarray, machine_code: bool) -> Block:
-    """Collide a block, one after another."""
-    block = empty(which.size, request.of)
-    for position, k in enumerate(which):
-        for name, value in _one(request, int(k), machine_code).items():
-            block[name][position] = value
+def _deaf() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Hold Ctrl-C back, also from the processes that are started meanwhile, until they have made themselves deaf."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def run(request: Request, machine_code: bool) -> Block:
+    """Collide everything that is requested, one after another."""
+    block = empty(request.size, request.of)
+    for k in range(request.size):
+        for name, value in _one(request, k, machine_code).items():
+            block[name][k] = value
     return block
 
 
@@ -245,10 +179,15 @@ def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
         n = numbers(scene, speed, angle)
         model = load(choose(scene, n.oblique))
         quadrature = ("rotation",) if "rotation" in request.of and n.oblique and not model.strings else ()
-        path = locate(model, n.groups, request.rtol, quadrature, machine_code)
+        try:
+            path = locate(model, n.groups, request.rtol, quadrature, machine_code)
+        except ComputationError as error:
+            raise n.in_si(error) from None
         return _kept(request.of, path, n)
     except WetDoubletError as error:
         return {"outcome": FAILED, "reason": str(error)}
+    except Exception as error:  # noqa: BLE001 # a defect of ours spoils one collision, not the others
+        return {"outcome": FAILED, "reason": " ".join(f"internal error: {type(error).__name__}: {error}".split())}
 
 
 def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:

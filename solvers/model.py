@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, cached_property
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -73,6 +73,9 @@ class Model:
         )
         self.state: dict[str, SX] = symbols(self.structure.STATES)
         self.groups: dict[str, SX] = symbols(self.structure.GROUPS)
+        self._functions: dict[tuple[str, int, int], Function] = {}
+        self._fast: dict[tuple[str, int, int], Buffered] = {}
+        self._names: dict[tuple[str, int, int], tuple[str, ...]] = {}
 
     @property
     def oblique(self) -> bool:
@@ -121,11 +124,15 @@ class Model:
     def has(self, name: str) -> bool:
         return name in self.structure.FUNCTIONS
 
-    @lru_cache(maxsize=64)  # noqa: B019 -- models are cached for the life of the process themselves
     def function(self, name: str, film: int = 1, shear: int = 1) -> Function:
         """A function of the structure module as a CasADi Function (state, groups) -> column."""
-        region = {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
-        values = self(name, region=region)
+        key = (name, film, shear)
+        if key not in self._functions:
+            self._functions[key] = self._built(name, film, shear)
+        return self._functions[key]
+
+    def _built(self, name: str, film: int, shear: int) -> Function:
+        values = self(name, region=self._region(name, film, shear))
         column = densify(vertcat(*(SX(value) for value in values.values())))
         return Function(name, [self.column, self.parameters], [column])
 
@@ -134,14 +141,20 @@ class Model:
         numbers = self._buffered(name, film, shear)(y[: len(self.state)], p)
         return dict(zip(self.names(name, film, shear), numbers.tolist(), strict=True))
 
-    @lru_cache(maxsize=64)  # noqa: B019 -- as above
     def _buffered(self, name: str, film: int, shear: int) -> Buffered:
-        return Buffered(self.function(name, film, shear), (0, 1))
+        key = (name, film, shear)
+        if key not in self._fast:
+            self._fast[key] = Buffered(self.function(*key), (0, 1))
+        return self._fast[key]
 
-    @lru_cache(maxsize=64)  # noqa: B019 -- as above
     def names(self, name: str, film: int = 1, shear: int = 1) -> tuple[str, ...]:
-        region = {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
-        return tuple(self(name, region=region))
+        key = (name, film, shear)
+        if key not in self._names:
+            self._names[key] = tuple(self(name, region=self._region(*key)))
+        return self._names[key]
+
+    def _region(self, name: str, film: int, shear: int) -> dict[str, int]:
+        return {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
 
     def group_values(self, groups: Mapping[str, float]) -> np.ndarray:
         """The structure's groups as a vector."""

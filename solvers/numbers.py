@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..generated import scaling
+from .errors import ComputationError, InputError
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -33,6 +36,19 @@ class Numbers:
     @property
     def oblique(self) -> bool:
         return self.groups["obliquity"] > 0
+
+    def in_si(self, error: ComputationError) -> ComputationError:
+        """A failure in dimensionless time and state, in SI units."""
+        state = dict(error.state)
+        shown = {}
+        if "gap" in state:
+            shown |= {"gap": state["gap"] * self.length, "opening velocity": state["opening"] * self.speed}
+        if "orbit" in state:
+            shown["rotation rate"] = state["orbit"] / (4 + self.groups["aspect"] * state["gap"]) ** 2 * self.rate
+        if "spin" in state:
+            shown["spin"] = state["spin"] * self.rate
+        time = None if error.time is None else error.time * self.time
+        return ComputationError(error.message, error.phase, time, shown, error.advice)
 
 
 def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[str, float]:
@@ -64,6 +80,20 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
     return values
 
 
+def _finite(name: str, arguments: tuple[str, ...], values: Mapping[str, float]) -> float:
+    """A group by its emitted formula; InputError where it leaves the range of a double."""
+    given = [values[argument] for argument in arguments]
+    try:
+        value = float(getattr(scaling, name)(*given))
+    except (OverflowError, ZeroDivisionError):
+        value = math.inf
+    if math.isfinite(value):
+        return value
+    entry = "impact.speed" if "speed" in arguments else arguments[0]
+    shown = dict(zip(arguments, given, strict=True)).get("speed", given[0])
+    raise InputError(entry, shown, f"quantities whose {name} number is within a double's range", "is too far off")
+
+
 def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     """Dimensionless numbers of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
 
@@ -75,7 +105,7 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     groups["elastic_gap"] = 0.0
     for name, arguments in scaling.ARGUMENTS.items():
         if all(argument in values for argument in arguments):
-            groups[name] = float(getattr(scaling, name)(*(values[argument] for argument in arguments)))
+            groups[name] = _finite(name, arguments, values)
     x0 = scene.liquid.film_thickness
     return Numbers(
         groups=groups,

@@ -45,6 +45,17 @@ def check_entries(entries: Mapping[str, Any], *, from_file: bool = False) -> Non
             raise InputError(others[0], entries[others[0]], "only one of " + ", ".join(ways), problem)
 
 
+def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
+    """InputError for a change that says in another way what the scene says already, with what to do instead."""
+    for ways in ALTERNATIVES:
+        for name in (way for way in ways if way in changes):
+            for other in (way for way in ways if way in given and way not in changes):
+                problem = f"is given together with {other} = {shown(given[other])}, which the scene has"
+                instead = "--speed or --stokes" if name.startswith("impact.") else f"{other} here"
+                accepted = f"only one of {', '.join(ways)}: set {instead}, or edit the scene file"
+                raise InputError(name, changes[name], accepted, problem)
+
+
 def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None = None) -> None:
     """InputError for an entry that is missing from a table that is there, or must be."""
     present = {name.partition(".")[0] for name in entries} | set(tables or ()) | set(REQUIRED_TABLES)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
 from . import rules, scenefile
 from .errors import InputError
-from .schema import FIELDS, Raw
+from .schema import FIELDS, TABLES, Raw
 from .tables import Bridge, Impact, Liquid, Model, Particles, Pendulum
 
 
@@ -125,6 +125,7 @@ class Scene:
         changes = dict(changes)
         name = changes.pop("name", self.name)
         rules.check_entries(changes)
+        rules.check_replaced(dict(self.given), changes)
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
         return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments)
 
@@ -142,7 +143,7 @@ class Scene:
         rules.check_entries(changes)
         replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
-        return type(self)(self.name, tuple({**kept, **changes}.items()), self.comments)
+        return type(self)(self.name, tuple(_in_order({**dict(self.given), **changes}, {**kept, **changes})), self.comments)
 
     # ---- lengths, and the impact both ways
 
@@ -195,6 +196,18 @@ class Scene:
         if self.angle is None:
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
         return self.speed, self.angle
+
+
+def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[str, Raw]]:
+    """Return the entries with their tables in the order of `tables` (dotted names), and [impact] in the schema's."""
+    order = list(dict.fromkeys(name.partition(".")[0] for name in tables))
+    impact = TABLES["impact"]
+
+    def place(entry: tuple[str, Raw]) -> tuple[int, int]:
+        name = entry[0]
+        return order.index(name.partition(".")[0]), impact.index(name) if name in impact else 0
+
+    return sorted(entries.items(), key=place)
 
 
 def _scaled(group: str, scene: Scene, speed: float | None = None) -> float:

@@ -23,6 +23,8 @@ def read_text(source: str | Path) -> tuple[str, str]:
     if isinstance(source, str) and source in PRESETS:
         return (_FOLDER / f"{source}.toml").read_text(encoding="utf-8"), source
     accepted = "a scene file (TOML) or a preset: " + ", ".join(PRESETS)
+    if isinstance(source, str) and not source.strip():  # Path("") would be the folder we are in
+        raise InputError("scene", source, accepted, "is an empty name")
     try:
         with Path(source).open("rb") as file:
             content = file.read(_LARGEST + 1)
@@ -40,6 +42,11 @@ def read_text(source: str | Path) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise InputError(f"{source}, line {line}", None, accepted, "is not UTF-8 text") from None
+
+
+def description(preset: str) -> str:
+    """Return what a preset is, in a line: the comment that its file begins with."""
+    return read_text(preset)[0].partition("\n")[0].removeprefix("#").strip()
 
 
 def parse(text: str, origin: str) -> dict[str, Any]:
@@ -77,7 +84,8 @@ def flatten(tables: Mapping[str, Any]) -> dict[str, Any]:
         if table == "name":
             continue
         if table not in TABLES:
-            hint = did_you_mean(table, (*TABLES, "name"))
+            homes = [f"[{home}]" for home in TABLES if f"{home}.{table}" in FIELDS]
+            hint = f", belongs in {' or '.join(homes)}" if homes else did_you_mean(table, (*TABLES, "name"))
             raise InputError(str(table), content, "name, " + ", ".join(TABLES), "has an unknown name" + hint)
         if not isinstance(content, Mapping):
             raise InputError(table, content, f"a table [{table}]", "is not a table")

@@ -80,6 +80,9 @@ class Field:
         if not math.isfinite(value):
             raise InputError(label, raw, self.accepts, "is not finite")
         if not self.range.holds(value):
+            if self.unit == "rad" and not isinstance(raw, str) and self.range.holds(math.radians(value)):
+                problem = f'is out of range: plain numbers are radians, did you mean "{raw} deg"?'
+                raise InputError(label, raw, self.accepts, problem)
             raise InputError(label, raw, self.accepts, "is out of range")
         return value
 
@@ -167,6 +170,8 @@ def unknown_entry(name: str, value: object) -> InputError:
     """Return the error for an entry that no scene has, with the nearest that it may have."""
     table, _, key = name.partition(".")
     here = TABLES.get(table, ())
+    if here and not key:
+        return InputError(name, value, ", ".join(here), "is given to a table, not to one of its entries")
     elsewhere = [known for known in FIELDS if known.endswith("." + (key or table))]
     hint = f", did you mean {elsewhere[0]}?" if elsewhere else did_you_mean(name, here) or did_you_mean(name, FIELDS)
     accepted = ", ".join(here) if here else "entries TABLE.KEY of the tables " + ", ".join(TABLES)

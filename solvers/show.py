@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from .result import Collision, Energy, Event
@@ -20,15 +21,16 @@ CRITERIA = {
     "elastic": "reversed by the elastic criterion, the spheres' deformation",
     "rough": "reversed by contact of the surfaces' roughness",
 }
-_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
+_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
 _LABEL = 24  # columns of the names on the left
 _FIRST, _LAST = 9, 3  # events shown of a flight that has more
+_SCALE = 100.0  # a ledger whose terms exceed the initial energy by more than this is not given in percent of it
 
 
 def prefix(size: float) -> tuple[float, str]:
     """Return (factor, prefix) under which a quantity of this size is written: 2e-5 -> (1e-6, "u")."""
     size = abs(size)
-    if size == 0 or not math.isfinite(size) or size < 1e-10:
+    if size == 0 or not math.isfinite(size) or size < 1e-16:
         return _PREFIXES[0]
     # rounded to the digits shown, so that 999.96 us is 1 ms
     size = float(f"{size:.4g}")
@@ -58,9 +60,13 @@ def degrees(value: float | None) -> str:
 
 def name_of(scene: Scene, longest: int = 32) -> str:
     """Return the scene's name in one line without control characters, shortened to `longest` characters."""
-    name = "".join(letter if letter.isprintable() else " " for letter in scene.name)
-    name = " ".join(name.split()) or "unnamed scene"
-    return name if len(name) <= longest else name[: longest - 3] + "..."
+    return _cut(scene.name, longest) or "unnamed scene"
+
+
+def _cut(text: str, longest: int) -> str:
+    """Return somebody's text in one line without control characters, not too long."""
+    text = " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
+    return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
 def reason(collision: Collision) -> str:
@@ -72,24 +78,34 @@ def reason(collision: Collision) -> str:
     return _stuck(collision)
 
 
+def stopped(collision: Collision) -> str:
+    """Return where the integration of a stick stopped because the outcome was certain; nothing if it did not."""
+    if not collision.until or _last(collision) in CUT_OFFS:
+        return ""
+    return f"integration stopped there, {quantity(collision.until, 's')} after first touch"
+
+
+def _last(collision: Collision) -> str:
+    return collision.events[-1].kind if collision.events else ""
+
+
 def _stuck(collision: Collision) -> str:
-    when = "at first touch" if not collision.until else f"after {quantity(collision.until, 's')}"
-    last = collision.events[-1].kind if collision.events else ""
+    last, scene = _last(collision), collision.scene
     if last in CUT_OFFS:
-        return f"cut off {when}: {CUT_OFFS[last]}"
-    scene = collision.scene
+        return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
+    when = "" if collision.until else " at first touch"
     if not collision.certified:
-        return f"ended {when}: energy below the barrier, but no proof"
+        return f"decided{when}, not proved: energy below the barrier"
     if scene.bridge is None and scene.pendulum is None:
-        return f"proved {when}: the film stops it"
-    return f"proved {when}: energy below the barrier (certificate)"
+        return f"proved{when}: the film stops it"
+    return f"proved{when}: energy below the barrier (certificate)"
 
 
 def table(collision: Collision) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision.energy, collision.scene), "", *_numerics(collision)]
-    return "\n".join(lines)
+    return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene)])
 
 
 def _line(name: str, value: str, note: str = "") -> str:
@@ -113,13 +129,19 @@ def _outcome(collision: Collision) -> list[str]:
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
     if collision.outcome == "stick" and collision.reversal:
         lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
+    if collision.outcome == "stick" and stopped(collision):
+        lines.append(_line("", stopped(collision)))
     speed = (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s")
+    lines += [
+        _line("approach speed", speed, "normal component"),
+        _line("restitution e_n", plain(restitution), gained),
+    ]
+    if collision.outcome == "stick":  # the rest is undefined
+        return lines
     rotation = collision.rotation
     turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
     return [
         *lines,
-        _line("approach speed", speed, "normal component"),
-        _line("restitution e_n", plain(restitution), gained),
         _line("tangential e_t", plain(collision.tangential_restitution)),
         _line("rotation", degrees(rotation), turns),
         _line("contact time", quantity(collision.contact_time, "s")),
@@ -153,15 +175,34 @@ def _energy(energy: Energy | None, scene: Scene) -> list[str]:
         terms.append(("capillary work", energy.capillary))
     if scene.pendulum is not None:
         terms.append(("strings", energy.strings))
-    percent = 100 / energy.initial if energy.initial else 0.0
-    lines = [f"{'energy':<{_LABEL}}{'J':>11}{'%':>10}"]
-    lines += [f"  {name:<{_LABEL - 2}}{_exponent(value, 3):>11}{value * percent:>10.3f}" for name, value in terms]
-    residual, part = _exponent(energy.residual, 1), _exponent(energy.residual * percent, 1)
-    return [*lines, f"  {'residual':<{_LABEL - 2}}{residual:>11}{part:>10}"]
+    rows = [(name, _exponent(value, 3), value) for name, value in terms]
+    rows.append(("residual", _exponent(energy.residual, 1), energy.residual))
+    if max(abs(value) for _, value in terms) > _SCALE * energy.initial:
+        return [f"{'energy':<{_LABEL}}{'J':>11}", *(f"  {name:<{_LABEL - 2}}{text:>11}" for name, text, _ in rows)]
+    parts = [f"{100 * value / energy.initial:.3f}" for _, value in terms]
+    parts.append(_exponent(100 * energy.residual / energy.initial, 1))
+    lines = [f"{'energy':<{_LABEL}}{'J':>11}{'% of initial':>16}"]
+    return lines + [f"  {name:<{_LABEL - 2}}{text:>11}{part:>16}" for (name, text, _), part in zip(rows, parts)]
 
 
 def _exponent(value: float, digits: int) -> str:
     return f"{value:.{digits}e}" if value else "0"
+
+
+def _model(scene: Scene) -> list[str]:
+    """Which variants of the equations were used, wrapped where they do not fit."""
+    used = {"arm": scene.model.arm, "tangential": scene.model.tangential, "glass": scene.model.glass}
+    if scene.bridge is not None:
+        used["bridge"] = scene.bridge.law
+    if scene.pendulum is not None:
+        used["strings"] = scene.pendulum.law
+    lines = wrap(", ".join(f"{slot} {law}" for slot, law in used.items()), WIDTH - _LABEL, break_on_hyphens=False)
+    return [_line("model" if line == lines[0] else "", line) for line in lines]
+
+
+def _assumed(scene: Scene) -> list[str]:
+    """What of the scene is a guess."""
+    return [_cut(line, WIDTH) for line in scene.assumed]
 
 
 def _numerics(collision: Collision) -> list[str]:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .chain import Diverged, Flown, fly
+from .buffered import LOCK
+from .chain import Flown, Stopped, fly
 from .errors import ComputationError
-from .integrators import IntegrationFailed
 from .integrators import tolerance as told
 from .locate import Path, locate
 from .model import Model, choose, load
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import xarray
 
 _TIGHTEST = 1e-13
+_OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this part of the largest term, is an error
 _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary")
 
 
@@ -65,14 +66,18 @@ def collide(
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     v0, theta0 = loaded.need_impact()
     dimensionless = numbers(loaded, v0, theta0)
-    located, flown, model = _compute(loaded, dimensionless, rtol, plugin, ledger, trajectory)
-    return _result(loaded, dimensionless, located, flown, model, plugin, rtol, trajectory)
+    with LOCK:
+        located, flown, flow, used = _compute(loaded, dimensionless, rtol, plugin, ledger, trajectory)
+        return _result(loaded, dimensionless, located, flown, flow, plugin, used, trajectory)
 
 
 def _compute(
     scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool
-) -> tuple[Path, Flown, Flow]:
-    """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary."""
+) -> tuple[Path, Flown, Flow, float]:
+    """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
+
+    Also returns the tolerance that it took.
+    """
     small = load(choose(scene, n.oblique))
     choice = choose(scene, n.oblique, full=ledger or trajectory)
     flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
@@ -81,14 +86,16 @@ def _compute(
         try:
             located = locate(small, n.groups, tolerance)
         except ComputationError as error:
-            raise _in_si(error, n) from None
+            raise n.in_si(error) from None
         start = flow.model.start(flow.model.group_values(n.groups))
         try:
-            return located, fly(located, plugin, told(tolerance, plugin, n.groups), flow, start), flow
-        except (Diverged, IntegrationFailed) as failure:
-            if tolerance <= _TIGHTEST:
-                raise _in_si(_failure(failure, flow.model, plugin), n) from None
+            flown = fly(located, plugin, told(tolerance, plugin, n.groups), flow, start)
+        except Stopped as failure:
+            if tolerance <= _TIGHTEST or not failure.missed:
+                raise n.in_si(_failure(failure, flow.model, plugin)) from None
             tolerance = max(tolerance * 1e-2, _TIGHTEST)
+        else:
+            return located, flown, flow, tolerance
 
 
 def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
@@ -97,25 +104,14 @@ def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
     return rotation + (tuple(name for name in model.names("energy_rates") if name in _LEDGER) if ledger else ())
 
 
-def _failure(failure: Exception, model: Model, plugin: str) -> ComputationError:
-    if isinstance(failure, Diverged):
-        state = dict(zip(model.state, map(float, failure.y), strict=False))
-        return ComputationError(
-            f"{plugin} does not meet the event {failure.step.event}: the collision lies within its error of a boundary",
-            phase=str(failure.step.phase),
-            time=failure.time,
-            state=state,
-            advice="try --engine rosenbrock, or another angle or Stokes number",
-        )
-    return ComputationError(f"{plugin} gave up ({failure})", advice="try --engine rosenbrock, or a larger --rtol")
-
-
-def _in_si(error: ComputationError, n: Numbers) -> ComputationError:
-    """The same failure with time and state in SI units."""
-    scales = {"gap": n.length, "opening": n.speed, "orbit": n.rate, "spin": n.rate}
-    state = {name: value * scales.get(name, 1.0) for name, value in error.state.items()}
-    time = None if error.time is None else error.time * n.time
-    return ComputationError(error.message, error.phase, time, state, error.advice)
+def _failure(failure: Stopped, model: Model, plugin: str) -> ComputationError:
+    return ComputationError(
+        f"{plugin} {failure.why}",
+        phase=str(failure.step.phase),
+        time=failure.time,
+        state=dict(zip(model.state, map(float, failure.y), strict=False)),
+        advice="try --engine rosenbrock" if plugin == "cvodes" else "try --rtol 1e-8, or another impact",
+    )
 
 
 def _result(
@@ -131,6 +127,9 @@ def _result(
             return None
         return outputs[name] * n.rate if n.oblique else 0.0
 
+    energy = _ledger(model, flown, p, n) if "normal_lubrication" in flow.extras else None
+    if energy is not None and separated:
+        _demand_closed(energy, rtol)
     return Collision(
         outcome=path.outcome,
         restitution=outputs.get("restitution", 0.0),
@@ -150,12 +149,12 @@ def _result(
         certified=path.certified and not separated,
         until=None if separated else duration,
         events=tuple(Event(kind, time * n.time) for kind, time in flown.events),
-        energy=_ledger(model, flown, p, n) if "normal_lubrication" in flow.extras else None,
+        energy=energy,
         angular_momentum_drift=_drift(model, flown, p) if "normal_lubrication" in flow.extras else None,
         engine=plugin,
         steps=flown.steps,
         scene=scene,
-        trajectory=_trajectory(flown, model, n, plugin, rtol) if trajectory else None,
+        trajectory=_trajectory(scene, path, flown, model, n, plugin, rtol) if trajectory else None,
     )
 
 
@@ -183,6 +182,16 @@ def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
     )
 
 
+def _demand_closed(energy: Energy, rtol: float) -> None:
+    """A ledger that does not close means that the flight is wrong, whatever else it looks like."""
+    largest = max(abs(value) for value in energy.to_dict().values())
+    if abs(energy.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * largest:
+        raise ComputationError(
+            f"the energy ledger is open by {abs(energy.residual) / largest:.1e} of its largest term",
+            advice="try a smaller --rtol, or the other --engine; please report the scene",
+        )
+
+
 def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
     """|L/L(0) - 1| at the end; None with strings, which take from L; 0 head-on."""
     if model.strings:
@@ -192,7 +201,10 @@ def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
     return abs(model.values("angular_momentum", flown.y, p)["angular_momentum"] - 1.0)
 
 
-def _trajectory(flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float) -> xarray.Dataset:
-    from .trajectory import dataset  # imports xarray
+def _trajectory(
+    scene: Scene, path: Path, flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float
+) -> xarray.Dataset:
+    from .trajectory import attributes, dataset  # imports xarray
 
-    return dataset(flown, model, n, plugin, told(rtol, plugin, n.groups))
+    attrs = attributes(scene, path.outcome, plugin, rtol)
+    return dataset(flown, model, n, plugin, told(rtol, plugin, n.groups), attrs)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from importlib.metadata import version
+
 import numpy as np
 import xarray as xr
 
@@ -9,6 +12,7 @@ from .chain import Flown
 from .integrators import Tolerance, plain
 from .model import Model
 from .numbers import Numbers
+from .scene import Scene
 
 # Per phase, crowded towards its ends, where the fast transients are; the integrator's steps do not depend on them.
 _POINTS = 64
@@ -24,7 +28,28 @@ _VARIABLES: dict[str, tuple[str, str]] = {
 }
 
 
-def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, tolerance: Tolerance) -> xr.Dataset:
+def attributes(scene: Scene, outcome: str, engine: str, rtol: float) -> dict[str, str | float]:
+    """What a file of the flight has to say of where it comes from: enough to compute it again."""
+    release = version("wetdoublet")
+    return {
+        "title": f"Flight of an oblique wet collision: {scene.name or 'unnamed scene'}",
+        "source": f"wetdoublet {release}",
+        "scene": scene.to_toml(),
+        "outcome": outcome,
+        "engine": engine,
+        "rtol": rtol,
+        "version": release,
+    }
+
+
+def dataset(
+    flown: Flown,
+    model: Model,
+    n: Numbers,
+    plugin: str,
+    tolerance: Tolerance,
+    attrs: Mapping[str, str | float] | None = None,
+) -> xr.Dataset:
     """The flown pieces on a grid of _POINTS per phase; an event's time stands twice, before and after it."""
     p = model.group_values(n.groups)
     times: list[np.ndarray] = []
@@ -62,4 +87,4 @@ def dataset(flown: Flown, model: Model, n: Numbers, plugin: str, tolerance: Tole
         "time": ("time", time, {"units": "s", "long_name": "time since first touch"}),
         "phase": ("time", np.array(phases)),
     }
-    return xr.Dataset(variables, coordinates)
+    return xr.Dataset(variables, coordinates, dict(attrs or {}))

@@ -32,6 +32,27 @@ DIMENSIONS = {
 }
 """SI unit that names a dimension here -> that dimension in words."""
 
+_WORDS = {
+    **DIMENSIONS,
+    "": "a plain number",
+    "m^2": "an area",
+    "m^3": "a volume",
+    "1/s": "a frequency",
+    "rad/s": "an angular velocity",
+    "N": "a force",
+    "J": "an energy",
+    "W": "a power",
+    "kg m/s": "a momentum",
+    "m^2/s": "a kinematic viscosity",
+    "kg/s": "a mass per time",
+    "kg m^2": "a moment of inertia",
+    "K": "a temperature",
+    "A": "an electric current",
+    "C": "an electric charge",
+    "V": "a voltage",
+}
+"""SI unit as pint reads it -> what it measures, for errors."""
+
 _DEGREE = "0.0174532925199432957692369076848861271344287188854172545609719144017100911460344944"  # pi/180
 
 COMMON: dict[str, tuple[str, Decimal]] = {
@@ -134,17 +155,33 @@ def _pint_factor(unit: str, si: str, text: str, field: str, accepted: str) -> fl
         our_size: Any
         size, root = registry.get_root_units(registry.parse_units(unit))
         our_size, ours = registry.get_root_units(registry.parse_units(si))  # pint's root of mass is the gram
-        dimension = str(root.dimensionality)
     except _PINT_SAYS_NO:
         known = [name for name, (kind, _) in COMMON.items() if kind == si]
         hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
         raise InputError(field, text, accepted, f'has the unknown unit "{unit}"{hint}') from None
     # Root units rather than dimensionality: to pint an angle is as dimensionless as a percentage.
     if root != ours:
-        if root.dimensionality == ours.dimensionality:
-            dimension = str(root)
-        raise InputError(field, text, accepted, f"is of dimension {dimension}, not {DIMENSIONS[si]}")
+        raise InputError(field, text, accepted, f"is {_in_words(root)}, not {DIMENSIONS[si]}")
     return float(size / our_size)
+
+
+def _in_words(root: Any) -> str:
+    """Return what a product of pint's root units measures: `a force`, or a power product of SI units."""
+    powers = {str(name): power for name, power in root._units.items()}
+    named = next((words for si, words in _WORDS.items() if _powers(si) == powers), None)
+    if named:
+        return named
+    si = {"gram": "kg", "meter": "m", "second": "s", "ampere": "A", "kelvin": "K", "mole": "mol", "radian": "rad"}
+    parts = [si.get(name, name) + (f"^{power:g}" if power != 1 else "") for name, power in powers.items()]
+    return f"in {' '.join(parts)}"
+
+
+@cache
+def _powers(si: str) -> dict[str, Any]:
+    """Return the powers of pint's root units in an SI unit."""
+    registry = _registry()
+    _, root = registry.get_root_units(registry.parse_units(si))
+    return {str(name): power for name, power in root._units.items()}
 
 
 @cache

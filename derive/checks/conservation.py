@@ -38,12 +38,16 @@ def angular_momentum() -> tuple[Check, ...]:
             lost = nondimensional(-x * force_laws()[F_t] * x0 / (v0 * m * a**2 * omega0))
             found = momentum_rate(structure, {"arm": arms["surface"], **tangential})
             surface.append(found - derive(structure).expanded(filled(lost, tangential)))
-    shown = momentum_rate(_FREE_SPINNING[0], {"arm": arms["surface"]})
     return (
         vanishing(
             "angular momentum, midgap arm", "dL/dt = 0 without strings, for every tangential and bridge law", conserved
         ),
-        vanishing("angular momentum, surface arm", "dL/dt = -x F_t without strings", surface, f"dL/dtau = {shown}"),
+        vanishing(
+            "angular momentum, surface arm",
+            "dL/dt = -x F_t without strings",
+            surface,
+            "dL/dt = -x F_t: a known violation of the leading-order arm",
+        ),
     )
 
 

@@ -38,6 +38,7 @@ def command(
     chosen = check_engine(engine, "--engine")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
+    options.check_apart(file, "-o", picture, "--plot")
     scene = options.Asked.check(source, changes, stokes, speed, angle).scene()
     scene.need_impact()
 
@@ -47,7 +48,7 @@ def command(
     if as_json:
         text = json.dumps(result.to_dict(), indent=2, allow_nan=False)
     else:
-        text = "\n".join([str(result).rstrip("\n"), *scene.assumed])
+        text = str(result)
     if picture is not None:
         result.plot(picture)
     options.put(text, file)

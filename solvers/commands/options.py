@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from .. import units
 from ..errors import InputError, shown
+from ..ranges import parse_range
 from ..schema import FIELDS, unknown_entry
 
 if TYPE_CHECKING:
     from ..scene import Scene
 
 Command = Callable[..., Any]
+Reader = Callable[[str], float]
 PICTURES = (".png", ".pdf", ".svg")
 
 # Not required by click: a bad option is to be reported before a scene that is missing.
@@ -49,7 +53,7 @@ class Asked:
 
     source: str | None
     entries: Mapping[str, str]
-    impact: Mapping[str, float]
+    impact: Mapping[str, str]  # with its unit, as it was given
 
     @classmethod
     def check(
@@ -62,11 +66,9 @@ class Asked:
     ) -> Asked:
         """Return what is asked for; InputError naming the first option that is wrong."""
         given = {"stokes": stokes, "speed": speed, "angle": angle}
-        read = {
-            key: FIELDS[f"impact.{key}"].number(text, label=f"--{key}")
-            for key, text in given.items()
-            if text is not None
-        }
+        read = {key: text for key, text in given.items() if text is not None}
+        for key, text in read.items():
+            FIELDS[f"impact.{key}"].number(text, label=f"--{key}")
         if "stokes" in read and "speed" in read:
             raise InputError(
                 "--speed", speed, "only one of --stokes, --speed", f"is given together with --stokes = {stokes}"
@@ -80,10 +82,16 @@ class Asked:
                     raise InputError(f"--{key}", given[key], "only one of the two", problem)
         return cls(source, entries, read)
 
-    @property
-    def is_none(self) -> bool:
-        """True if nothing at all is said about a scene."""
-        return self.source is None and not self.entries and not self.impact
+    def optional_scene(self) -> Scene | None:
+        """Read the scene if one is named; InputError for an option that is given without one."""
+        if self.source is None:
+            for option, value in (
+                *((f"--{key}", text) for key, text in self.impact.items()),
+                *(("--set", f"{name}={value}") for name, value in self.entries.items()),
+            ):
+                raise InputError(option, value, f"a SCENE with {option}", "needs a SCENE")
+            return None
+        return self.scene()
 
     def scene(self) -> Scene:
         """Read the scene and change it as asked; InputError for whatever is wrong with it."""
@@ -111,6 +119,16 @@ def _entries(changes: Sequence[str]) -> dict[str, str]:
     return entries
 
 
+def angles(text: str, option: str = "--angle") -> list[float]:
+    """Return the impact angles (rad) of a range in degrees; InputError naming the option."""
+
+    def read(end: str) -> float:
+        units.number(end, option, "LO:HI:N or log:LO:HI:N in degrees, without a unit")
+        return FIELDS["impact.angle"].number(f"{end.strip()} deg", label=option)
+
+    return parse_range(text, option, read, unit="in degrees")
+
+
 def check_file(path: str | None, option: str, suffixes: Sequence[str] = ()) -> Path | None:
     """Return the file to be written; InputError naming the option if it cannot be, or has another suffix."""
     if path is None:
@@ -125,9 +143,24 @@ def check_file(path: str | None, option: str, suffixes: Sequence[str] = ()) -> P
         raise InputError(option, path, accepted, "is in a folder that does not exist")
     if file.is_dir():
         raise InputError(option, path, accepted, "is a folder")
-    if not os.access(file if file.exists() else file.parent, os.W_OK):
+    if not (os.access(file, os.W_OK) if file.exists() else _takes_files(file.parent)):
         raise InputError(option, path, accepted, "cannot be written")
     return file
+
+
+def check_apart(file: Path | None, option: str, other: Path | None, its_option: str) -> None:
+    """InputError if two options name the same file."""
+    if file is not None and other is not None and file.resolve() == other.resolve():
+        raise InputError(option, str(file), "two different files", f"is given to {its_option} as well")
+
+
+def _takes_files(folder: Path) -> bool:
+    """Whether a file can be made in a folder: tried, because permissions say nothing of /proc and its like."""
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
 
 
 def check_folder(path: str | None, option: str = "--out") -> Path | None:
@@ -139,8 +172,12 @@ def check_folder(path: str | None, option: str = "--out") -> Path | None:
         raise InputError(option, path, accepted, "is not a file name")
     folder = Path(path)
     there = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
-    if not there.is_dir() or not os.access(there, os.W_OK):
-        raise InputError(option, path, accepted, f"cannot be a folder: {there} is not one that can be written")
+    if not there.is_dir():
+        problem = "is a file" if there == folder else f"cannot be made: {there} is a file"
+        raise InputError(option, path, accepted, problem)
+    if not _takes_files(there):
+        problem = "cannot be written to" if there == folder else f"cannot be made: {there} cannot be written to"
+        raise InputError(option, path, accepted, problem)
     return folder
 
 

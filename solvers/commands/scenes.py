@@ -24,9 +24,15 @@ def command(
     output: str | None,
 ) -> None:
     """List the presets, or print the scene NAME as TOML, ready to be saved and edited."""
-    from ..scenefile import PRESETS
-
     file = options.check_file(output, "-o")
     asked = options.Asked.check(name, changes, stokes, speed, angle)
-    text = "\n".join(PRESETS) if asked.is_none else asked.scene().to_toml().rstrip("\n")
-    options.put(text, file)
+    scene = asked.optional_scene()
+    options.put(_listing() if scene is None else scene.to_toml().rstrip("\n"), file)
+
+
+def _listing() -> str:
+    """One line a preset: its name, and what it is."""
+    from ..scenefile import PRESETS, description
+
+    width = max(map(len, PRESETS))
+    return "\n".join(f"{name:<{width}}  {description(name)}" for name in PRESETS)

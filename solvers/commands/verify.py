@@ -14,7 +14,7 @@ from . import options
 @click.argument("source", metavar="[SCENE]", required=False)
 @options.impact
 @options.changes
-@options.output
+@click.option("-o", "output", metavar="FILE", help="Write the report as Markdown to FILE as well.")
 @options.debug
 def command(
     source: str | None,
@@ -24,10 +24,10 @@ def command(
     changes: Sequence[str],
     output: str | None,
 ) -> None:
-    """Check the laws on SCENE, or on all presets; -o FILE writes the report as Markdown as well."""
+    """Check the laws on SCENE, or on all presets; the report goes to standard output."""
     file = options.check_file(output, "-o")
     asked = options.Asked.check(source, changes, stokes, speed, angle)
-    scene = None if asked.is_none else asked.scene()
+    scene = asked.optional_scene()
 
     from ..verify import verify
 

@@ -50,7 +50,7 @@ def test_fits_a_terminal(collisions, name):
         ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no criterion met"),
         ("bounces", "bounce", "reversed by the glass criterion"),
         ("sticks at touch", "stick", "proved at first touch: energy below the barrier"),
-        ("sticks later", "stick", "proved after 5.973 us: energy below the barrier"),
+        ("sticks later", "stick", "proved: energy below the barrier (certificate)"),
         ("half turn", "stick", "cut off after 765.2 ms: half a turn"),
         ("rotation reverses", "stick", "cut off after 450.5 ms: the strings turn the rotation back"),
         ("reversed, sticks", "stick", "the glass criterion had reversed it on the way"),
@@ -67,8 +67,15 @@ def test_outcome_has_its_reason(collisions, name, outcome, why):
 def test_a_stick_without_proof_says_so(collisions):
     """A stick found by the level test of the surface arm is not called proved."""
     unproved = table(replace(collisions["sticks later"], certified=False))
-    assert "no proof" in unproved
-    assert "proved" not in unproved
+    assert "decided, not proved: energy below the barrier" in unproved
+
+
+def test_a_stick_says_where_integration_stopped(collisions):
+    """`until` is where the outcome was certain, not an event: the table says so, unless a cut-off or first touch does."""
+    stick = replace(collisions["sticks later"], until=5.889e-3)
+    assert "integration stopped there, 5.889 ms after first touch" in table(stick)
+    for name in ("sticks at touch", "half turn", "escapes"):
+        assert "integration stopped" not in table(collisions[name])
 
 
 def test_restitution_above_one_is_noted(collisions):
@@ -78,10 +85,10 @@ def test_restitution_above_one_is_noted(collisions):
 
 
 def test_undefined_prints_as_a_dash(collisions):
-    """What a stick leaves undefined is a dash; so is e_t head-on, and the ledger that was not asked for."""
-    text = table(collisions["sticks later"])
+    """What a stick leaves undefined has no row; e_t head-on is a dash, and so is the ledger that was not asked for."""
     names = ("tangential e_t", "rotation  ", "contact time", "smallest gap", "final rotation rate", "final spin")
-    assert all(row(text, name).split()[0] == "-" for name in names)
+    assert not any(name in table(collisions["sticks later"]) for name in names)
+    assert all(row(table(collisions["escapes"]), name)[0] != "-" for name in names)
     assert row(table(collisions["head-on"]), "tangential e_t") == "-"
     assert row(table(collide("granulation", ledger=False)), "energy").startswith("-")
 
@@ -110,6 +117,38 @@ def test_events_and_ledger_are_those_of_the_result(collisions):
     assert row(text, "engine") == f"cvodes, {collisions['escapes'].steps} steps"
 
 
+def test_percentages_only_where_they_say_something(collisions):
+    """Where the works dwarf the initial energy its percentages are left out; columns never run together."""
+    one = collisions["half turn"]
+    for strings in (-5.884e-8, 1e-300, -1.234e-100):
+        energy = replace(one.energy, initial=1.185e-15, final=0.0, normal_lubrication=5.884e-8, strings=strings)
+        text = table(replace(one, energy=energy))
+        assert row(text, "normal lubrication") == "5.884e-08"
+        assert float(row(text, "strings") if "\n  strings" in text else "nan") == strings
+        assert "%" not in text
+    largest = replace(one.energy, normal_lubrication=-99.9 * one.energy.initial)
+    assert row(table(replace(one, energy=largest)), "normal lubrication").split()[1] == "-9990.000"
+
+
+def test_the_table_says_which_variants(collisions):
+    """One line names the variants used: of the strings only with strings, of the bridge only with a bridge."""
+    assert row(table(collisions["escapes"]), "model") == (
+        "arm midgap, tangential immersed, glass literal, bridge mikami"
+    )
+    assert row(table(collisions["half turn"]), "model") == (
+        "arm midgap, tangential immersed, glass literal, strings exact"
+    )
+
+
+def test_what_is_assumed_is_shown(collisions):
+    """print() of a result shows the scene's assumptions, each a line, and none where there are none."""
+    assert "pendulum.length = 0.5 m (assumed: printed nowhere, reproduces Fig. 1)" in str(collisions["half turn"])
+    toml = Scene.load("granulation").to_toml().replace("assumed", "known")
+    assert "assumed" not in table(collide(Scene.from_toml(toml)))
+    long = Scene.from_toml(toml.replace("# known: glass", f"# assumed: {'x' * 99}"))
+    assert max(map(len, table(collide(long)).splitlines())) <= 88
+
+
 def test_many_events_are_shortened(collisions):
     """A chatter's hundreds of events do not fill the screen: first and last stand, the others are counted."""
     events = (*(Event("rough", 1e-6 * count) for count in range(300)), Event("rests", 4e-4))
@@ -121,7 +160,7 @@ def test_many_events_are_shortened(collisions):
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(0.0, "0 s"), (None, "-"), (1.5e-3, "1.5 ms"), (9.99999e-4, "1 ms"), (5e-6, "5 us"), (3e-9, "3 ns"), (-2, "-2 s")],
+    [(0.0, "0 s"), (None, "-"), (1.5e-3, "1.5 ms"), (9.99999e-4, "1 ms"), (5e-6, "5 us"), (3e-9, "3 ns"), (1.762e-11, "17.62 ps"), (-2, "-2 s")],
 )
 def test_prefixes(value, text):
     """A quantity takes the prefix of its rounded size; None is a dash."""

@@ -1,0 +1,87 @@
+"""`wetdoublet boundary`: the curves between outcomes, traced."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+
+import click
+
+from ..errors import CheckFailed, InputError
+from ..ranges import parse_range
+from ..schema import FIELDS
+from ..settings import check_rtol
+from . import options
+
+_ENTRY = FIELDS["impact.angle"]
+
+
+@click.command("boundary", short_help="Every Stokes number at which the outcome changes, traced.")
+@options.scene_argument
+@click.option("--angle", metavar="RANGE", help="Impact angles in degrees, as 20:65:10.")
+@click.option("--stokes", metavar="LO:HI", help="Stokes numbers to look between [1e-4:100].")
+@options.changes
+@options.rtol
+@options.as_json
+@options.plot
+@options.output
+@options.debug
+def command(
+    source: str | None,
+    angle: str | None,
+    stokes: str | None,
+    changes: Sequence[str],
+    rtol: str | None,
+    as_json: bool,
+    plot: str | None,
+    output: str | None,
+) -> None:
+    r"""Changes of outcome of SCENE along lines of constant angle: Stokes number, Ce, and the outcomes on either side.
+
+    \b
+    Example:
+      wetdoublet boundary granulation --angle 20:70:26 --plot boundary.png
+    """
+    from ..bounds import RTOL, STOKES, boundary
+
+    tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
+    picture = options.check_file(plot, "--plot", options.PICTURES)
+    file = options.check_file(output, "-o")
+    span = STOKES if stokes is None else _span(stokes)
+    angles = None if angle is None else parse_range(angle, "--angle", _degrees, unit="in degrees")
+    scene = options.Asked.check(source, changes).scene()
+    if angles is None:
+        raise InputError("--angle", None, "LO:HI:N in degrees, as 20:65:10")
+
+    found = boundary(scene, angle=angles, stokes=span, rtol=tolerance)
+    options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False) if as_json else str(found), file)
+    if picture is not None:
+        from ..boundary_plot import draw
+
+        draw(scene, found).savefig(picture, dpi=150)
+    if found.failed:
+        at, reason = found.failed[0]
+        raise CheckFailed(
+            f"{len(found.failed)} of {len(angles)} angles failed, first {math.degrees(at):.6g} deg: {reason}"
+        )
+
+
+def _degrees(text: str) -> float:
+    """An end of the range, degrees unless it says otherwise."""
+    try:
+        float(text)
+    except ValueError:
+        return _ENTRY.number(text, label="--angle")
+    return _ENTRY.number(f"{text} deg", label="--angle")
+
+
+def _span(text: str) -> tuple[float, float]:
+    accepted = "LO:HI, as 0.01:10, with 0 < LO < HI"
+    parts = text.split(":")
+    if len(parts) != 2:
+        raise InputError("--stokes", text, accepted, "is not a range")
+    low, high = (FIELDS["impact.stokes"].number(part, label="--stokes") for part in parts)
+    if not low < high:
+        raise InputError("--stokes", text, accepted, "is not a range")
+    return low, high

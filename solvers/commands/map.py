@@ -1,0 +1,176 @@
+"""`wetdoublet map`: outcomes over a grid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ..errors import InputError
+from ..ranges import parse_range
+from ..schema import FIELDS
+from ..settings import RTOL, check_engine, check_rtol
+from . import options
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..scene import Scene
+
+
+@click.command("map", short_help="Outcome and restitution over a grid.")
+@options.scene_argument
+@click.option("--stokes", metavar="RANGE", help="Normal Stokes numbers: LO:HI:N, or log:LO:HI:N.")
+@click.option("--speed", metavar="RANGE", help='Normal speeds instead, as "0.1 m/s:2 m/s:40".')
+@click.option("--angle", metavar="RANGE", help="Impact angles in degrees, as 0:85:40.")
+@click.option(
+    "--vary",
+    metavar="NAME=RANGE",
+    multiple=True,
+    help='Another dimension, as liquid.viscosity="1 Pa s:4 Pa s:3"; repeatable.',
+)
+@options.changes
+@options.rtol
+@options.engine
+@click.option("-o", "output", metavar="FILE.nc", help="Write NetCDF; an interrupted run is continued.")
+@options.plot
+@options.debug
+def command(
+    source: str | None,
+    stokes: str | None,
+    speed: str | None,
+    angle: str | None,
+    vary: Sequence[str],
+    changes: Sequence[str],
+    rtol: str | None,
+    engine: str | None,
+    output: str | None,
+    plot: str | None,
+) -> None:
+    r"""Outcomes and restitution of SCENE over impact angle and Stokes number, and whatever else varies.
+
+    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end.
+
+    \b
+    Example:
+      wetdoublet map granulation --stokes log:0.005:0.5:60 --angle 0:85:60 -o map.nc --plot map.png
+    """
+    tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
+    chosen = check_engine(engine, "--engine")
+    picture = options.check_file(plot, "--plot", options.PICTURES)
+    file = options.check_file(output, "-o", (".nc",))
+    axes = _axes(stokes, speed, angle)
+    asked = options.Asked.check(source, changes)
+    varied = _varied(vary, asked)
+    for name in asked.entries:
+        if name.startswith("impact."):
+            raise InputError("--set", name, "entries that are not of the impact", "is an axis of the map")
+    scene = asked.scene()
+    if "stokes" not in axes and "speed" not in axes:
+        raise InputError("--stokes", None, "LO:HI:N or log:LO:HI:N, or --speed")
+    if "angle" not in axes:
+        raise InputError("--angle", None, "LO:HI:N in degrees")
+
+    from ..requests import checked_vary
+
+    checked_vary(scene, varied, "--vary")
+    data = _computed(scene, axes, varied, tolerance, chosen, file)
+    _show(data, file, picture)
+
+
+def _axes(stokes: str | None, speed: str | None, angle: str | None) -> dict[str, list[float]]:
+    """The axes of the impact, SI; InputError naming the first that is wrong."""
+    axes = {}
+    if stokes is not None:
+        axes["stokes"] = parse_range(stokes, "--stokes", _reader("impact.stokes", "--stokes"))
+    if speed is not None:
+        axes["speed"] = parse_range(speed, "--speed", _reader("impact.speed", "--speed"), unit="with their units")
+    if angle is not None:
+        axes["angle"] = options.angles(angle)
+    if stokes is not None and speed is not None:
+        problem = f"is given together with --stokes = {stokes}"
+        raise InputError("--speed", speed, "only one of --stokes, --speed", problem)
+    return axes
+
+
+def _reader(name: str, label: str) -> options.Reader:
+    return lambda text: FIELDS[name].number(text, label=label)
+
+
+def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float]]:
+    """Axes of --vary by dotted name."""
+    from ..requests import check_varies
+
+    found: dict[str, list[float]] = {}
+    for text in vary:
+        name, equals, values = text.partition("=")
+        name = name.strip()
+        if not equals:
+            raise InputError("--vary", text, 'NAME=RANGE, such as liquid.viscosity="1 Pa s:4 Pa s:3"', "has no =")
+        check_varies(name, values, "--vary")
+        if name in found or name in asked.entries:
+            other = "twice" if name in found else "together with --set"
+            raise InputError("--vary", name, "every entry once", f"is given {other}")
+        unit = "with their units" if FIELDS[name].unit else ""
+        found[name] = parse_range(values, f"--vary {name}", _reader(name, f"--vary {name}"), unit=unit)
+    return found
+
+
+def _computed(
+    scene: Scene,
+    axes: dict[str, list[float]],
+    varied: dict[str, list[float]],
+    rtol: float,
+    engine: str | None,
+    file: Path | None,
+) -> xarray.Dataset:
+    """Compute the map and write it; an interrupt leaves what is done and says how to go on."""
+    from ..regime_map import regime_map, write
+    from .bar import bar
+
+    journal = None if file is None else file.with_name(file.name + ".partial")
+    done = (0, 0)
+    try:
+        with bar("collisions") as shown:
+
+            def progress(*counts: int) -> None:
+                nonlocal done
+                done = (counts[0], counts[1])
+                shown(*done)
+
+            data = regime_map(
+                scene,
+                stokes=axes.get("stokes"),
+                speed=axes.get("speed"),
+                angle=axes["angle"],
+                vary=varied,
+                rtol=rtol,
+                engine=engine,
+                progress=progress,
+                journal=journal,
+            )
+            if file is not None and journal is not None:
+                write(data, file)
+                journal.unlink(missing_ok=True)
+    except KeyboardInterrupt:
+        if journal is None or not journal.exists():
+            raise
+        kept = f"{done[0]} of {done[1]} collisions are kept in {journal}"
+        raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
+    return data
+
+
+def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None:
+    from ..show_map import failures, table
+
+    if picture is not None:
+        from ..draw_map import draw_map
+
+        draw_map(data).savefig(picture, dpi=150)
+    if file is None and picture is None:
+        click.echo(table(data))
+    failed = failures(data)
+    if failed is not None:
+        click.echo(failed, err=True)

@@ -1,0 +1,65 @@
+"""Finished blocks of a scan on disk, so that an interrupted run computes only what is missing.
+
+A journal is a text file, a line a block, each under the key of the request that it belongs to and with its own
+checksum: a line that was torn, or is another request's, is passed over.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .many import Block
+
+
+class Journal:
+    """The journal of one request.
+
+    Arguments:
+        path: the file; it need not exist yet.
+        request: everything that the results depend on, as JSON values.
+    """
+
+    def __init__(self, path: Path, request: Mapping[str, Any]) -> None:
+        self.path = path
+        text = json.dumps(request, sort_keys=True)
+        self.key = hashlib.sha256(text.encode()).hexdigest()[:32]
+
+    def read(self) -> list[tuple[np.ndarray, Block]]:
+        """The blocks of this request that are done."""
+        if not self.path.is_file():
+            return []
+        blocks = []
+        with self.path.open("rb") as file:
+            for line in file:
+                key, checksum, text = (*line.rstrip(b"\n").split(b" ", 2), b"", b"")[:3]
+                if key == self.key.encode() and checksum == _checksum(text):
+                    blocks.append(_block(json.loads(text)))
+        return blocks
+
+    def add(self, where: np.ndarray, block: Block) -> None:
+        """Put down a block, in a single write."""
+        columns = {name: values.tolist() for name, values in block.items()}
+        text = json.dumps({"where": where.tolist(), "columns": columns}).encode()
+        with self.path.open("ab", buffering=0) as file:
+            # begins a line of its own, should the last one be torn
+            file.write(b"\n%s %s %s\n" % (self.key.encode(), _checksum(text), text))
+
+    def remove(self) -> None:
+        """Remove the file: it is no longer needed."""
+        self.path.unlink(missing_ok=True)
+
+
+def _checksum(text: bytes) -> bytes:
+    return hashlib.sha256(text).hexdigest()[:16].encode()
+
+
+def _block(record: Mapping[str, Any]) -> tuple[np.ndarray, Block]:
+    kinds: dict[str, Any] = {"outcome": np.int8, "certified": bool, "reason": object}
+    columns = {name: np.array(values, dtype=kinds.get(name, float)) for name, values in record["columns"].items()}
+    return np.array(record["where"], dtype=int), columns

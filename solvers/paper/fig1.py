@@ -1,0 +1,91 @@
+"""Fig. 1: the three collisions of the pendulum seen from above, at the paper's intervals between frames."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from ..frames import draw_strip, sampled, strip_size
+from ..result import Collision
+from ..simulate import collide
+from .desk import Desk
+from .parts import Comparison, Part, Picture, Table, degrees, number
+from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
+from .style import COLUMN, LETTERS, sheet
+from .variants import STRING_VARIANTS, TETHERED, described, variant
+
+_BEFORE, _AFTER = 1, 4  # frames before and after first touch
+_MS = 1e3
+
+
+def make(desk: Desk, folder: Path) -> Part:
+    """Collide the three, and draw them."""
+    desk.say("fig. 1: frames of the three collisions")
+    scene = variant(TETHERED, {})
+    flown = [collide(scene, stokes=shot.stokes, angle=SHOT_ANGLE, ledger=False, trajectory=True) for shot in SHOTS]
+    _draw(flown, folder / "fig1.png")
+    used = described(scene)
+    comparisons = [
+        Comparison(f"fig1{shot.panel}", one.outcome, used, _said(one), agrees=one.outcome == shot.outcome)
+        for shot, one in zip(SHOTS, flown)
+    ]
+    diameter = 4 * scene.particles.reduced_radius * _MS
+    why = "a of Fig. 3's caption is rounded to 0.63 cm; four times that is used"
+    comparisons.append(Comparison("diameter", diameter, "preset pendulum", why))
+    caption = (
+        f"Fig. 1: pendulum at {degrees(SHOT_ANGLE)}, "
+        + ", ".join(f"({shot.panel}) St {shot.stokes:g}" for shot in SHOTS)
+        + "; seen from above in the frame of the centre of mass, to scale, at the paper's intervals. Before first "
+        "touch and after rupture the spheres move on straight lines, strings left out. Lines: marks that met at touch."
+    )
+    return Part(
+        "Fig. 1: three collisions",
+        comparisons=comparisons,
+        pictures=(Picture("fig1.png", caption, COLUMN),),
+        tables=(_moved(desk),),
+        scenes=(TETHERED,),
+    )
+
+
+def _said(one: Collision) -> str:
+    if one.contact_time is not None and one.rotation is not None:
+        return f"separates after {_MS * one.contact_time:.4g} ms, turned by {degrees(one.rotation)}"
+    last = one.events[-1]
+    return f"ends at the experiment's cut-off ({last.kind}) after {_MS * last.time:.4g} ms"
+
+
+def _moved(desk: Desk) -> Table:
+    """Outcomes, and the boundaries along the line of Fig. 1, under the variants."""
+    scenes = {name: variant(TETHERED, changes) for name, changes in STRING_VARIANTS.items()}
+    desk.say("fig. 1: variants")
+    traced = desk.many([(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
+    rows = []
+    for name, [line] in zip(scenes, traced):
+        at = {shot: _outcome(shot, [(c.stokes, c.after) for c in line], line[0].before) for shot in SHOTS}
+        changes = ", ".join(f"{LETTERS[c.before]}/{LETTERS[c.after]} {number(c.stokes)}" for c in line)
+        rows.append([name, *(LETTERS[at[shot]] for shot in SHOTS), changes])
+    rows.append(["paper", *(LETTERS[PRINTED[f"fig1{shot.panel}"].text] for shot in SHOTS), "-"])
+    head = ["variant", *(f"({shot.panel}) St {shot.stokes:g}" for shot in SHOTS), "boundaries in St"]
+    return Table(f"Pendulum at {degrees(SHOT_ANGLE)}: outcomes of Fig. 1 under the variants", head, rows)
+
+
+def _outcome(shot: Shot, changes: list[tuple[float, str]], first: str) -> str:
+    """The outcome at a Stokes number on a line of constant angle."""
+    return next((after for stokes, after in reversed(changes) if shot.stokes > stokes), first)
+
+
+def _draw(flown: list[Collision], file: Path) -> None:
+    strips = []
+    for shot, one in zip(SHOTS, flown):
+        instants = [k * shot.interval / _MS for k in range(-_BEFORE, _AFTER + 1)]
+        strips.append([replace(frame, relative=None) for frame in sampled(one, instants)])  # photographs have no arrows
+    sizes = [strip_size(strip) for strip in strips]
+    widest = max(across for across, _ in sizes)
+    with sheet(file, 7.4) as figure:
+        rows = figure.subplots(len(strips), 1, height_ratios=[high + 1.2 for _, high in sizes])
+        for axes, shot, one, strip in zip(rows, SHOTS, flown, strips):
+            captions = [f"{_MS * frame.time:.0f} ms".replace("-", "−") if frame.time else "0" for frame in strip]
+            draw_strip(axes, one, strip, captions)
+            axes.set_xlim(-0.2, widest - 0.2)
+            title = f"({shot.panel}) $St_n$ = {shot.stokes:.1f}: {LETTERS[one.outcome]}"
+            axes.set_title(title, loc="left", fontsize=8.5, pad=2)

@@ -1,0 +1,97 @@
+"""Fig. 3: regime map of the pendulum, the theory's lines between outcomes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from . import regimes, tune
+from .desk import Desk, Line, change_at, criterion_met, outcomes
+from .parts import Comparison, Part, Picture, Table, number
+from .printed import PRINTED, SHOT_ANGLE
+from .style import ANGLE, COLUMN, GREY, STOKES, panel, sheet
+from .variants import STRING_VARIANTS, TETHERED, described, variant
+
+_REACH = 2.5  # St at the right edge
+_BELOW = 0.8  # of the boundary: where the search for the criterion starts
+
+
+def make(desk: Desk, folder: Path) -> Part:
+    """Trace and draw the map; St* at theta0 = 0 under the variants."""
+    desk.say("fig. 3: tracing the pendulum's boundaries")
+    scene = variant(TETHERED, {})
+    angles, lines = desk.map(scene)
+    _draw(angles, lines, folder / "fig3.png")
+    used = described(scene)
+    escapes = change_at(lines[0], "stick").stokes
+    met = criterion_met(scene, _BELOW * escapes, escapes)
+    first = math.degrees(next(angle for angle, line in zip(angles, lines) if len(outcomes(line)) > 2))
+    printed = PRINTED["stokes_3"]
+    desk.say("fig. 3: glass-transition pressure of the printed St*")
+    fitted = tune.pressure_for(scene, printed.value)
+    rows = (
+        Comparison(
+            "stokes_3",
+            escapes,
+            used,
+            f"a criterion is met from {number(met)} on; up to {number(escapes)} the doublet is reversed and still "
+            f"sticks. The printed number lies between; it is reached with p_gt = {fitted / 1e6:.3g} MPa in place of "
+            f"the printed {scene.liquid.glass_transition_pressure / 1e6:.3g} MPa, which was fitted to a measured St*",
+            beside=f"(escapes), {number(met)} (a criterion is met)",
+        ),
+        Comparison(
+            "angle_3",
+            first,
+            used,
+            "printed as “~”, read off a picture; the theory's SRS region begins here, and its S/SRS line is "
+            + _along(desk.lines(scene, [math.radians(PRINTED["angle_3"].value)])[0])
+            + " at the printed angle",
+        ),
+    )
+    leaves = math.degrees(next(angle for angle, line in zip(angles, lines) if line[-1].stokes > _REACH))
+    caption = (
+        "Fig. 3: regime map of the pendulum. Lines: theory; dashed: the paper's "
+        f"St* = {printed.text}. St along and angle up, as the text has it (“at higher θ₀ for a given St”); the "
+        f"measured points of the paper are in its picture alone. SRS/B leaves the map to the right above {leaves:.3g}°."
+    )
+    return Part(
+        "Fig. 3: regime map of the pendulum",
+        comparisons=rows,
+        pictures=(Picture("fig3.png", caption, COLUMN),),
+        tables=(_moved(desk),),
+        scenes=(TETHERED,),
+    )
+
+
+def _along(line: Line) -> str:
+    return f"at St {number(line[0].stokes)}"
+
+
+def _moved(desk: Desk) -> Table:
+    """Both readings of St* under the variants; arm and log have no part in a head-on collision."""
+    desk.say("fig. 3: variants")
+    scenes = {name: variant(TETHERED, changes) for name, changes in STRING_VARIANTS.items()}
+    traced = desk.many([(scene, (0.0, SHOT_ANGLE)) for scene in scenes.values()])
+    rows = []
+    for (name, scene), (head_on, _) in zip(scenes.items(), traced):
+        escapes = change_at(head_on, "stick").stokes
+        met = criterion_met(scene, _BELOW * escapes, escapes * (1 + 1e-6))
+        rows.append([name, number(met), number(escapes)])
+    rows.append(["paper", PRINTED["stokes_3"].text, ""])
+    head = ["variant", "St*: a criterion is met", "St*: escapes"]
+    return Table("Pendulum at θ₀ = 0: St* under the variants (head-on, arm and log have no part)", head, rows)
+
+
+def _draw(angles: list[float], lines: list[Line], file: Path) -> None:
+    printed = PRINTED["stokes_3"]
+    with sheet(file, 7.6) as figure:
+        axes = panel(figure)
+        regimes.draw(axes, angles, lines, _REACH)
+        axes.axvline(printed.value, color=GREY, linestyle=(0, (4, 2)), linewidth=1, zorder=2)
+        axes.annotate(
+            f"paper: $St_n^*$ = {printed.text}", (printed.value, 4), (4, 0), textcoords="offset points", fontsize=7.5
+        )
+        axes.text(0.45, 22, "S", fontsize=13, ha="center")
+        axes.text(1.02, 62, "SRS", fontsize=13, ha="center")
+        axes.text(2.0, 40, "B", fontsize=13, ha="center")
+        axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)

@@ -1,0 +1,53 @@
+"""A regime map: the regions of the outcomes between traced boundaries, St along, impact angle up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+
+from .desk import Line, outcomes
+from .style import FILLS, INK
+
+_RIGHT_ANGLE = 90.0
+Strip = tuple[str, float, float]  # outcome, from St, to St
+
+
+def draw(axes: Axes, angles: Sequence[float], lines: Sequence[Line], reach: float, linewidth: float = 1.2) -> None:
+    """Fill the regions up to St = `reach`, and draw the boundaries between them; angles in rad, drawn in degrees."""
+    degrees = [math.degrees(angle) for angle in angles]
+    _fill(axes, degrees[-1], _RIGHT_ANGLE, lines[-1], lines[-1], reach)
+    for (low, here), (high, there) in pairwise(zip(degrees, lines)):
+        if outcomes(here) == outcomes(there):
+            _fill(axes, low, high, here, there, reach)
+            for one, other in zip(here, there):
+                axes.plot([one.stokes, other.stokes], [low, high], color=INK, linewidth=linewidth, zorder=3)
+        else:  # a region begins between two lines that are close
+            middle = (low + high) / 2
+            _fill(axes, low, middle, here, here, reach)
+            _fill(axes, middle, high, there, there, reach)
+            _join(axes, low, high, here, there, linewidth)
+
+
+def _fill(axes: Axes, low: float, high: float, here: Line, there: Line, reach: float) -> None:
+    for (outcome, left, right), (_, far_left, far_right) in zip(_strips(here, reach), _strips(there, reach)):
+        corners = [(left, low), (right, low), (far_right, high), (far_left, high)]
+        fill = FILLS[outcome]
+        axes.add_collection(PolyCollection([corners], facecolor=fill, edgecolor=fill, linewidth=0.3, zorder=1))
+
+
+def _strips(line: Line, reach: float) -> list[Strip]:
+    edges = [0.0, *(change.stokes for change in line), max(reach, *(change.stokes for change in line), 0.0)]
+    return [(outcome, *ends) for outcome, ends in zip(outcomes(line), pairwise(edges))]
+
+
+def _join(axes: Axes, low: float, high: float, here: Line, there: Line, linewidth: float) -> None:
+    """Close the boundaries across the two lines between which a region begins: each to the nearest of the other."""
+    fewer, more, at, to = (here, there, low, high) if len(here) <= len(there) else (there, here, high, low)
+    for change in more:
+        if fewer:
+            near = min(fewer, key=lambda one: abs(one.stokes - change.stokes))
+            axes.plot([near.stokes, change.stokes], [at, to], color=INK, linewidth=linewidth, zorder=3)

@@ -1,0 +1,154 @@
+"""The report: every printed number beside ours, then each part with its pictures, equations and variants."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Iterable, Sequence
+from itertools import groupby
+from pathlib import Path
+
+from ..scene import Scene
+from .parts import Comparison, Part, Table
+from .printed import CITATION, NOT_COMPARED, PRINTED
+
+_TITLE = "Wet particles, oblique collisions: the paper and this model"
+_HEAD = ("quantity", "paper", "ours", "difference", "with", "why, and what goes with it")
+_PER_CM = 60  # pixels on the page
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; color: #202020; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.6rem; } h2 { margin-top: 2.5rem; border-bottom: 1px solid #ccc; }
+table { border-collapse: collapse; margin: 1rem 0; font-size: 0.86rem; }
+caption { text-align: left; font-weight: 600; padding: 0.3rem 0; }
+th, td { border-bottom: 1px solid #ddd; padding: 0.3rem 0.6rem; text-align: left; vertical-align: top; }
+th { border-bottom: 2px solid #888; } figure { margin: 1.2rem 0; } figcaption { font-size: 0.86rem; color: #555; }
+code { font-size: 0.86em; } img { max-width: 100%; height: auto; } .table { overflow-x: auto; }
+"""
+
+
+def write(parts: Sequence[Part], folder: Path, how: str) -> list[Path]:
+    """Write report.md and report.html into `folder`; `how` says how it was computed."""
+    files = [(folder / "report.md", markdown(parts, how)), (folder / "report.html", page(parts, how))]
+    for file, text in files:
+        file.write_text(text, encoding="utf-8")
+    return [file for file, _ in files]
+
+
+def compared(parts: Iterable[Part]) -> Table:
+    """All printed numbers of the parts, in the paper's order."""
+    found: list[Comparison] = [one for part in parts for one in part.comparisons]
+    order = list(PRINTED)
+    rows = []
+    for one in sorted(found, key=lambda one: order.index(one.key)):
+        printed = one.printed
+        rows.append((printed.what, printed.text, one.shown, one.verdict, one.used, one.why))
+    return Table("Every number the paper prints, beside ours", _HEAD, rows)
+
+
+def sources(parts: Iterable[Part]) -> Table:
+    """Where in the paper each compared number stands."""
+    keys = {one.key for part in parts for one in part.comparisons}
+    rows = [(entry.what, entry.place, f"“{entry.quote}”") for entry in PRINTED.values() if entry.key in keys]
+    return Table("Where the paper prints it", ("quantity", "place", "words"), rows)
+
+
+def inputs(parts: Iterable[Part]) -> Table:
+    """The entries of the presets used, and which of them are guesses."""
+    presets = dict.fromkeys(name for part in parts for name in part.scenes)
+    scenes = [Scene.load(name) for name in presets]
+    guesses = {(scene.name, name) for scene in scenes for name, _ in scene.comments}
+    names = dict.fromkeys(name for scene in scenes for name, _ in scene.given if not name.startswith("impact."))
+    rows = []
+    for name in names:
+        cells = []
+        for scene in scenes:
+            value = dict(scene.given).get(name)
+            assumed = " (assumed)" if (scene.name, name) in guesses else ""
+            cells.append("-" if value is None else f"{value}{assumed}")
+        rows.append((name, *cells))
+    return Table("Presets, from the paper's captions; “assumed” is printed nowhere", ("entry", *presets), rows)
+
+
+def _not_compared() -> Table:
+    return Table("Printed, but not compared", ("what", "why"), NOT_COMPARED)
+
+
+def _lead(parts: Sequence[Part], how: str) -> list[str]:
+    if not any(part.comparisons for part in parts):
+        return [how]
+    read = (
+        "“With” has the choices made where the paper leaves them open; how each number moves under the others is in "
+        "the tables of variants below. “Rounds to it”: ours, rounded to the printed digits, is the printed number."
+    )
+    return [f"The paper: {CITATION}.", how, read]
+
+
+# ---- Markdown
+
+
+def markdown(parts: Sequence[Part], how: str) -> str:
+    """The report in Markdown; formulas in LaTeX between dollars."""
+    out = [f"# {_TITLE}", "", *(line for text in _lead(parts, how) for line in (text, ""))]
+    if any(part.comparisons for part in parts):
+        out += ["## The numbers", "", *_md_table(compared(parts)), *_md_table(_not_compared())]
+    for part in parts:
+        out += [f"## {part.title}", ""]
+        out += [part.words, ""] if part.words else []
+        for picture in part.pictures:
+            out += [f"![{_plain(picture.caption)}]({picture.file})", "", f"*{picture.caption}*", ""]
+        for heading, lines in groupby(part.formulas, key=lambda line: line[0]):
+            out += [f"### {heading}", ""]
+            for _, latex, note in lines:
+                out += [f"$$ {latex} $$", "", *([note, ""] if note else [])]
+        for table in part.tables:
+            out += _md_table(table)
+    if any(part.scenes for part in parts):
+        out += ["## Inputs", "", *_md_table(inputs(parts))]
+    if any(part.comparisons for part in parts):
+        out += ["## Sources", "", *_md_table(sources(parts))]
+    return "\n".join(out).rstrip() + "\n"
+
+
+def _md_table(table: Table) -> list[str]:
+    rows = [table.head, ["---"] * len(table.head), *table.rows]
+    cells = ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows]
+    return [f"**{table.caption}**", "", *cells, ""]
+
+
+def _plain(caption: str) -> str:
+    return re.sub(r"[\[\]*_]", "", caption.split(".", maxsplit=1)[0])
+
+
+# ---- HTML
+
+
+def page(parts: Sequence[Part], how: str) -> str:
+    """The report as one HTML page; pictures are linked, formulas are in a picture and as LaTeX."""
+    body = [f"<h1>{html.escape(_TITLE)}</h1>", *(f"<p>{html.escape(text)}</p>" for text in _lead(parts, how))]
+    if any(part.comparisons for part in parts):
+        body += ["<h2>The numbers</h2>", _html_table(compared(parts)), _html_table(_not_compared())]
+    for part in parts:
+        body.append(f"<h2>{html.escape(part.title)}</h2>")
+        body += [f"<p>{html.escape(part.words)}</p>"] if part.words else []
+        for picture in part.pictures:
+            caption = html.escape(picture.caption)
+            alt = html.escape(_plain(picture.caption))
+            image = f'<img src="{picture.file}" alt="{alt}" width="{picture.width * _PER_CM:.0f}">'
+            body.append(f"<figure>{image}<figcaption>{caption}</figcaption></figure>")
+        if part.formulas:
+            rows = [f"<tr><td><code>{html.escape(latex)}</code></td></tr>" for _, latex, _ in part.formulas]
+            body.append(f"<details><summary>LaTeX</summary><table>{''.join(rows)}</table></details>")
+        body += map(_html_table, part.tables)
+    if any(part.scenes for part in parts):
+        body += ["<h2>Inputs</h2>", _html_table(inputs(parts))]
+    if any(part.comparisons for part in parts):
+        body += ["<h2>Sources</h2>", _html_table(sources(parts))]
+    head = f'<meta charset="utf-8"><title>{html.escape(_TITLE)}</title><style>{_STYLE}</style>'
+    return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(body) + "\n</body></html>\n"
+
+
+def _html_table(table: Table) -> str:
+    head = "".join(f"<th>{html.escape(cell)}</th>" for cell in table.head)
+    rows = ["<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows]
+    caption = f"<caption>{html.escape(table.caption)}</caption>"
+    return f'<div class="table"><table>{caption}<tr>{head}</tr>\n' + "\n".join(rows) + "</table></div>"

@@ -1,0 +1,52 @@
+"""How the figures look: one column of print, colours that the colour-blind can tell apart, symbols of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+COLUMN = 8.8  # cm
+DPI = 300
+_INCH = 2.54
+
+BLUE, ORANGE, GREEN, PURPLE, YELLOW, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"  # Okabe-Ito
+INK, GREY = "#202020", "#6E6E6E"
+FILLS = {"stick": "#BFDDF0", "stick-rotate-separate": "#FBE3A6", "bounce": "#F4F4F4"}
+LETTERS = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B"}
+STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
+
+_RC: dict[str, Any] = {
+    "font.size": 8,
+    "axes.labelsize": 8.5,
+    "axes.linewidth": 0.7,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "lines.linewidth": 1.2,
+    "legend.fontsize": 7,
+    "legend.frameon": False,
+    "mathtext.fontset": "dejavusans",
+}
+
+
+@contextmanager
+def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
+    """A figure of so many cm that is saved to `file` at the end."""
+    with rc_context(_RC):
+        figure = Figure(figsize=(width / _INCH, height / _INCH), layout="constrained")
+        yield figure
+        figure.savefig(file, dpi=DPI)
+
+
+def panel(figure: Figure) -> Axes:
+    """The figure's axes."""
+    return figure.add_subplot()

@@ -1,0 +1,93 @@
+"""Table 1: the theory as typeset equations, out of the derivation."""
+
+from __future__ import annotations
+
+import textwrap
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..scene import Scene
+from .desk import Desk
+from .parts import Part, Picture
+from .style import GREY, INK, sheet
+from .variants import BRIDGED, TETHERED, described
+
+if TYPE_CHECKING:
+    from ...derive.emit.theory import Equation
+
+_WIDTH = 17.5  # cm: the table spans both columns
+_TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm: lines with and without a fraction, headings
+_WRAP = 27  # letters of a note in a line
+
+
+def make(desk: Desk, folder: Path) -> Part:
+    """Typeset the equations of the presets' laws into `folder`."""
+    desk.say("table 1: deriving")
+    bridged, tethered = Scene.load(BRIDGED), Scene.load(TETHERED)
+    assert bridged.bridge is not None
+    assert tethered.pendulum is not None
+    from ...derive.emit.theory import theory  # imports sympy
+
+    model = bridged.model
+    lines = theory(
+        {
+            "arm": model.arm,
+            "shear": model.tangential,
+            "glass": model.glass,
+            "bridge": bridged.bridge.law,
+            "strings": tethered.pendulum.law,
+        }
+    )
+    _draw(lines, folder / "table1.png")
+    (folder / "table1.tex").write_text(document(lines), encoding="utf-8")
+    words = (
+        "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
+        f"typed in. Laws: {described(bridged)}; {described(tethered)}. The paper's own table is a "
+        "picture that its text does not have: these are rebuilt from first principles and held against what it prints."
+    )
+    picture = Picture("table1.png", "Table 1: theory. LaTeX in table1.tex.", _WIDTH)
+    formulas = tuple((line.group, line.latex, line.note) for line in lines)
+    return Part("Table 1: theory", words, pictures=(picture,), formulas=formulas)
+
+
+def document(lines: tuple[Equation, ...]) -> str:
+    """The equations as a LaTeX document."""
+    body: list[str] = []
+    for group, members in groupby(lines, key=lambda line: line.group):
+        body += [rf"\section*{{{group}}}", r"\begin{align*}"]
+        rows = [rf"  {line.left} &{line.relation} {line.latex.split(f' {line.relation} ', 1)[1]}" for line in members]
+        body += [" \\\\\n".join(rows), r"\end{align*}"]
+    head = ["% Emitted by wetdoublet from its derivation.", r"\documentclass{article}", r"\usepackage{amsmath}"]
+    return "\n".join([*head, r"\begin{document}", *body, r"\end{document}", ""])
+
+
+def _draw(lines: tuple[Equation, ...], file: Path) -> None:
+    """Two columns of groups, broken where they are nearest to equal height."""
+    groups = [list(members) for _, members in groupby(lines, key=lambda line: line.group)]
+    sizes = [_HEAD + sum(map(_height, members)) for members in groups]
+    split = min(range(1, len(groups)), key=lambda k: max(sum(sizes[:k]), sum(sizes[k:])))
+    height = max(sum(sizes[:split]), sum(sizes[split:])) + 2 * _MARGIN
+    with sheet(file, height, _WIDTH) as figure:
+        figure.set_layout_engine("none")
+
+        def put(x: float, y: float, text: str, **style: Any) -> None:
+            figure.text(x / _WIDTH, y / height, text, va="center", **style)
+
+        for column, part in enumerate((groups[:split], groups[split:])):
+            left, right = _MARGIN + column * _WIDTH / 2, (column + 1) * _WIDTH / 2 - _MARGIN
+            place = height - _MARGIN
+            for members in part:
+                put(left, place - 0.4 * _HEAD, members[0].group, fontsize=8.5, fontweight="bold", color=INK)
+                place -= _HEAD
+                for line in members:
+                    middle = place - _height(line) / 2
+                    formula = line.latex.replace(r"\frac", r"\dfrac")
+                    put(left + _MARGIN, middle, f"${formula}$", fontsize=8, math_fontfamily="cm", color=INK)
+                    note = textwrap.fill(line.note, _WRAP, break_long_words=False)
+                    put(right, middle, note, fontsize=6.5, color=GREY, ha="right")
+                    place -= _height(line)
+
+
+def _height(line: Equation) -> float:
+    return _TALL if "frac" in line.latex else _LOW

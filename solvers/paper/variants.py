@@ -1,0 +1,47 @@
+"""The scenes of the paper and their variants: what the paper leaves open, each changed alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..scene import Scene
+
+BRIDGED, DRY, TETHERED = "granulation", "granulation-dry-bridge", "pendulum"
+AS_PRINTED = "preset"
+
+_SHARED: dict[str, dict[str, Any]] = {
+    "arm surface": {"model.arm": "surface"},
+    "log film": {"model.tangential": "film"},
+    "glass film-corrected": {"model.glass": "film-corrected"},
+}
+BRIDGE_VARIANTS: Mapping[str, dict[str, Any]] = {
+    AS_PRINTED: {},
+    **_SHARED,
+    "arm surface, log film": {**_SHARED["arm surface"], **_SHARED["log film"]},
+    "mikami-log10": {"bridge.law": "mikami-log10"},
+}
+STRING_VARIANTS: Mapping[str, dict[str, Any]] = {
+    AS_PRINTED: {},
+    **_SHARED,
+    "l = 0.4 m": {"pendulum.length": "0.4 m"},
+    "l = 0.7 m": {"pendulum.length": "0.7 m"},
+    "l = 1 m": {"pendulum.length": "1 m"},
+    "small-angle strings": {"pendulum.law": "small-angle"},
+}
+
+
+def variant(preset: str, changes: Mapping[str, Any]) -> Scene:
+    """A preset with some entries changed."""
+    return Scene.load(preset).with_entries(changes)
+
+
+def described(scene: Scene) -> str:
+    """The choices a scene makes where the paper leaves them open."""
+    said = [f"arm {scene.model.arm}", f"log {scene.model.tangential}", f"glass {scene.model.glass}"]
+    if scene.bridge is not None:
+        said.append(f"bridge {scene.bridge.law}")
+    if scene.pendulum is not None:
+        length = "" if scene.pendulum.law == "small-angle" else f"{scene.pendulum.law}, "
+        said.append(f"strings {length or 'small-angle, '}l = {scene.pendulum.length:g} m")
+    return ", ".join(said)

@@ -1,0 +1,220 @@
+"""Functions of the Stokes number that are smooth through a change of outcome (along a line of constant angle).
+
+* `criterion`: by how much the approach meets, or misses, a reversal criterion; its root is a graze.
+* `escape`: how far a doublet gets, with the solids' reversal or without: through a saddle of the effective potential
+  the amplitude of its unstable mode, at the rim x_f the squared speed left (or missing).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+from casadi import Function, jacobian
+
+from .certificate import Barrier, BarrierProof
+from .errors import ComputationError
+from .integrators import IntegrationFailed, locator, plain, tolerance
+from .locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
+from .model import Model, choose, load
+from .numbers import Numbers, numbers
+from .phases import CLOSING, Flow, Region
+from .scene import Scene
+
+_NEVER = 1e30  # a glass number that no pressure meets
+_CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
+_DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
+_GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
+
+
+@dataclass(frozen=True)
+class Escape:
+    """Whether a flight separates, and a smooth function with that sign (None where it is not defined)."""
+
+    separates: bool
+    value: float | None
+
+
+@dataclass
+class Line:
+    """Collisions of a scene at one angle (rad). Counts those it integrates: not those decided at first touch."""
+
+    scene: Scene
+    angle: float
+    rtol: float
+    collisions: int = 0
+    _known: dict[float, Path] = field(default_factory=dict)
+
+    def numbers(self, stokes: float) -> Numbers:
+        """Dimensionless numbers at a Stokes number."""
+        return numbers(self.scene, self.scene.speed_of(stokes), self.angle)
+
+    @property
+    def model(self) -> Model:
+        return load(choose(self.scene, self.angle > 0))
+
+    def outcome(self, stokes: float) -> str:
+        """The outcome of a whole collision."""
+        return self._path(stokes).outcome
+
+    def met(self, stokes: float) -> bool:
+        """Whether a whole collision meets a reversal criterion."""
+        return self._path(stokes).reversal is not None
+
+    def _path(self, stokes: float) -> Path:
+        if stokes not in self._known:
+            groups = self.numbers(stokes).groups
+            path = self._known[stokes] = Locate(self.model, groups, self.rtol, machine_code=True).run()
+            self.collisions += path.time > 0
+        return self._known[stokes]
+
+    def criterion(self, stokes: float) -> float:
+        """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.
+
+        The approach is followed without reversal, so the function is smooth where a criterion is just met.
+        """
+        self.collisions += 1
+        groups = self.numbers(stokes).groups
+        contact = max(groups["elastic_gap"], groups["rough_gap"])
+        pressure, smallest = _approach(self.model, groups, self.rtol)
+        glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
+        return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
+
+    def escape(self, stokes: float, reversed_: bool) -> Escape:
+        """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
+        self.collisions += 1
+        groups = self.numbers(stokes).groups
+        if not reversed_:
+            groups = groups | {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
+        probe = _Probe(self.model, groups, self.rtol, machine_code=True)
+        path = probe.run()
+        return Escape(path.separated, _smooth(probe, path))
+
+
+def _approach(model: Model, groups: dict[str, float], rtol: float) -> tuple[float, float]:
+    """Largest scaled pressure and smallest gap of the approach, without any criterion.
+
+    It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
+    """
+    deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
+    flight = Locate(model, groups | {"glass_number": 0.0, "elastic_gap": 0.0, "rough_gap": deep}, rtol, (), True)
+    y, phase, p = flight.y, flight.phase, flight.p
+    pressure = _pressure(model, y, p)
+    stretch = FIRST_STRETCH
+    for _ in range(10 * STRETCHES):
+        level = flight.proof.level(y, phase) if flight.watch.certificate else None
+        find = locator(Flow(model.choice, phase.region, flight.extras), flight.watch, flight.tolerance, True)
+        try:
+            stop = find(y, p, stretch, CLOSING, -_NEVER if level is None else level)
+        except IntegrationFailed as error:
+            raise ComputationError(f"the approach cannot be followed ({error})", phase=str(phase)) from None
+        y = stop.y
+        pressure = max(pressure, _pressure(model, y, p))
+        if stop.event is None:
+            stretch *= GROWTH
+            if abs(y[1]) < _CREEPING:
+                break
+        elif stop.event == "tangential_edge":
+            phase = phase.with_(shear=1 - phase.shear)
+        elif stop.event != "glass":  # a maximum of the pressure is passed by
+            break
+    return pressure, float(y[0])
+
+
+def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
+    """Scaled film pressure on the axis: the glass event function is glass number minus pressure."""
+    return -model.values("events", y, p)["glass"]
+
+
+class _Probe(Locate):
+    """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
+
+    def _proved(self) -> bool:
+        return self.phase.motion == CLOSING and super()._proved()
+
+    def _fly(self) -> bool:
+        over = super()._fly()
+        fell_back = bool(self.path.steps) and "fell back" in self.path.steps[-1].kinds
+        return over or fell_back or self.phase.resting
+
+
+def _smooth(probe: Locate, path: Path) -> float | None:
+    barrier = _barrier(probe)
+    if barrier is None and isinstance(probe.proof, BarrierProof):
+        return None  # nothing holds the doublet at any gap
+    rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
+    if barrier is not None and barrier.gap < rim * (1 - 1e-12):
+        return _saddle_amplitude(probe, path, barrier)
+    if path.separated:
+        return float(path.y[1]) ** 2
+    last = path.ends[-1] if path.ends else None
+    if last is None or "fell back" not in path.steps[-1].kinds:
+        return None
+    inward = probe.model.values("inward_force", last, path.p)["inward_force"]
+    return -2 * inward * (rim - float(last[0]))
+
+
+def _barrier(probe: Locate) -> Barrier | None:
+    """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
+    if not isinstance(probe.proof, BarrierProof):
+        return None
+    barriers = probe.proof.barriers(probe.y)
+    return barriers[0] if barriers else None
+
+
+def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | None:
+    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
+    size = len(probe.model.state)
+    saddle = _saddle_state(probe, barrier, probe.y[:size])
+    region = Region(int(barrier.gap < 1), int(barrier.gap < probe.edge), False)
+    matrix = np.asarray(_jacobian(probe.model, region)(saddle, path.p).full())
+    values, vectors = np.linalg.eig(matrix)
+    unstable = int(np.argmax(values.real))
+    if values[unstable].real <= 0 or vectors[0, unstable] == 0:
+        return None
+    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])  # a mode's amplitude is its part of the gap
+    modes = np.linalg.inv(shapes)
+    try:
+        times, states = _sampled(probe, path)
+    except IntegrationFailed:
+        return None
+    amplitudes = modes @ (states[:size] - saddle[:, None])
+    distance = np.sum(np.abs(amplitudes) ** 2, axis=0)
+    nearest = int(np.argmin(distance))
+    if distance[nearest] > barrier.gap**2 / 4:
+        return None
+    growth = values[unstable].real * times[nearest]
+    return float(amplitudes[unstable, nearest].real * math.exp(-growth)) if growth < 500 else None
+
+
+def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:
+    """Rigid rotation at the barrier's gap with the state's angular momentum."""
+    at_barrier = np.concatenate([[barrier.gap], y[1:]])
+    return np.array(list(probe.model.values("rigid_rotation", at_barrier, probe.p).values()))
+
+
+@lru_cache(maxsize=128)
+def _jacobian(model: Model, region: Region) -> Function:
+    rates = model.function("right_hand_side", region.film, region.shear)
+    y, p = model.column, model.parameters
+    return Function("jacobian", [y, p], [jacobian(rates(y, p), y)])
+
+
+def _sampled(probe: Locate, path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Times and states of the flight: ends of phases, and a grid over phases that do not end at rest in the gap."""
+    times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
+    before = states[0]
+    for step, end in zip(path.steps, path.ends, strict=True):
+        if step.event != "turning" and step.duration > 0:
+            flow = Flow(probe.model.choice, step.phase.region, path.extras)
+            told = tolerance(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
+            inside = plain(flow, "rosenbrock", told, _GRID)(before, path.p, step.duration)
+            times += [clock + part * step.duration for part in _GRID]
+            states += list(inside.T)
+        clock += step.duration
+        times.append(clock)
+        states.append(end)
+        before = end
+    return np.array(times), np.array(states).T

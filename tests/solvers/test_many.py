@@ -1,0 +1,216 @@
+"""Many collisions at once: the same as one by one, whatever the engine, the cores and the compiler."""
+
+import os
+import stat
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+from wetdoublet.solvers import Scene, collide, collide_many, many
+from wetdoublet.solvers.compiled import cache_folder, compiled, compiler
+from wetdoublet.solvers.errors import ComputationError, InputError
+from wetdoublet.solvers.numbers import numbers
+
+PRESETS = {"granulation": (0.005, 0.5), "pendulum": (0.1, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
+EVERYTHING = tuple(many.QUANTITIES)
+
+
+def impacts(preset, count, seed):
+    """Random impacts of a preset, one of them head-on."""
+    draw = np.random.default_rng(seed)
+    low, high = np.log(PRESETS[preset])
+    angle = draw.uniform(0.0, np.radians(85), count)
+    angle[0] = 0.0
+    return np.exp(draw.uniform(low, high, count)), angle
+
+
+@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
+@pytest.mark.parametrize("preset", PRESETS)
+def test_equals_collide_point_by_point(preset, engine):
+    """Every quantity of every collision is what `collide` gives with the same engine; NaN stands for None."""
+    stokes, angle = impacts(preset, 12, 1)
+    data = collide_many(preset, stokes=stokes, angle=angle, engine=engine, of=EVERYTHING)
+    assert data.attrs["engine"] == engine
+    for k in range(stokes.size):
+        one = collide(preset, stokes=stokes[k], angle=angle[k], engine=engine, ledger=False).to_dict()
+        assert many.OUTCOMES[data.outcome.values[k]] == one["outcome"]
+        assert bool(data.certified[k]) == one["certified"]
+        assert str(data.reason.values[k]) == ""
+        for name in EVERYTHING:
+            expected = np.nan if one[name] is None else one[name]
+            assert data[name].values[k] == pytest.approx(expected, rel=1e-7, abs=1e-12, nan_ok=True), name
+
+
+def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
+    """A collision that raises has outcome -1, NaN and its reason, even for a defect; its neighbours are unharmed."""
+    scene = Scene.load("granulation")
+    bad = {
+        numbers(scene, scene.speed_of(0.02), 1.0).groups["stokes"]: ComputationError("no luck"),
+        numbers(scene, scene.speed_of(0.03), 1.0).groups["stokes"]: ZeroDivisionError("oops"),
+    }
+
+    def locate(model, groups, *rest):
+        if groups["stokes"] in bad:
+            raise bad[groups["stokes"]]
+        return real(model, groups, *rest)
+
+    real = many.locate
+    plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0)
+    monkeypatch.setattr(many, "locate", locate)
+    data = collide_many(scene, stokes=[0.01, 0.02, 0.03, 0.2], angle=1.0)
+    assert data.outcome.values.tolist() == [plain.outcome.values[0], -1, -1, plain.outcome.values[1]]
+    assert data.reason.values.tolist() == ["", "no luck", "internal error: ZeroDivisionError: oops", ""]
+    assert np.isnan(data.restitution.values[1:3]).all()
+    assert (data.restitution.values[[0, 3]] == plain.restitution.values).all()
+
+
+BAD = [
+    ({"stokes": [0.1, 0.2], "angle": [0.1, 0.2, 0.3]}, "impact.angle", "differs in length"),
+    ({"stokes": [], "angle": [0.1, 0.2, 0.3]}, "impact.angle", "differs in length"),
+    (
+        {"stokes": [0.1], "vary": {"liquid.viscosity": [1.0, 2.0], "bridge.volume": [0.1] * 3}},
+        "bridge.volume",
+        "length",
+    ),
+    ({"stokes": [0.1, -0.2]}, "impact.stokes", "out of range"),
+    ({"stokes": [0.1, np.nan]}, "impact.stokes", "not finite"),
+    ({"stokes": [[0.1, 0.2]]}, "impact.stokes", "2 dimensions"),
+    ({"stokes": ["much"]}, "impact.stokes", "is not a number"),
+    ({"stokes": object()}, "impact.stokes", "not a list of numbers"),
+    ({"stokes": 0.1, "speed": 1.0}, "speed", "together with stokes"),
+    ({"angle": "95 deg"}, "impact.angle", "out of range"),
+    ({"angle": ["60"]}, "impact.angle", "has no unit"),
+    ({"of": ["restitutoin"]}, "of", "did you mean restitution?"),
+    ({"rtol": 1.0}, "rtol", "out of range"),
+    ({"engine": "cvode"}, "engine", "did you mean cvodes?"),
+    ({"vary": {"liquid.viscosty": [1.0]}}, "liquid.viscosty", "did you mean liquid.viscosity?"),
+    ({"vary": {"impact.angle": [1.0]}}, "vary", "has an argument of its own"),
+    ({"vary": {"bridge.law": "willett"}}, "vary", "is a choice"),
+    ({"vary": {"pendulum.length": [1.0]}}, "vary", "table that the scene granulation has not"),
+    ({"vary": {"particles.radius": [1e-4]}}, "particles.radius", "together with particles.reduced_radius"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "field", "says"), BAD, ids=[f"{bad[1]}: {bad[2]}" for bad in BAD])
+def test_bad_input(arguments, field, says):
+    """What cannot be is refused before anything is computed, and named."""
+    with pytest.raises(InputError) as caught:
+        collide_many("granulation", **arguments)
+    assert caught.value.field == field
+    assert says in str(caught.value)
+
+
+def test_of():
+    """Outcome, restitution, certified and reason are always there; anything else only if it is asked for."""
+    always = {"outcome", "restitution", "certified", "reason"}
+    assert set(collide_many("granulation", of=()).data_vars) == always
+    assert set(collide_many("granulation", of="rotation").data_vars) == always | {"rotation"}
+    data = collide_many("granulation", of=EVERYTHING)
+    assert set(data.data_vars) == always | set(EVERYTHING)
+    assert {name: data[name].attrs["units"] for name in ("rotation", "contact_time")} == {
+        "rotation": "rad",
+        "contact_time": "s",
+    }
+
+
+def test_sizes():
+    """One number, none at all, lists of text with units, and one value for all are accepted."""
+    one = collide_many("granulation")
+    assert one.sizes == {"collision": 1}
+    assert (float(one.stokes[0]), float(one.angle[0])) == (0.03, pytest.approx(np.radians(60)))
+    none = collide_many("granulation", stokes=[], angle=1.0, of=EVERYTHING)
+    assert none.sizes == {"collision": 0}
+    some = collide_many("granulation", speed=["54 cm/s", 0.6], angle="75 deg")
+    assert some.speed.values.tolist() == [0.54, 0.6]
+    assert some.angle.values.tolist() == [np.radians(75)] * 2
+
+
+def test_vary():
+    """An entry that varies is that of each scene; where it makes a scene impossible, that collision is marked."""
+    viscosity = [1.0, 2.0, 3.0]
+    data = collide_many("granulation", stokes=0.1, angle="75 deg", vary={"liquid.viscosity": viscosity})
+    scenes = [Scene.load("granulation").with_entries({"liquid.viscosity": mu}) for mu in viscosity]
+    expected = [collide(scene, stokes=0.1, angle="75 deg", engine="rosenbrock").restitution for scene in scenes]
+    assert data.restitution.values == pytest.approx(expected, rel=1e-8)
+    assert data["liquid.viscosity"].values.tolist() == viscosity
+    rough = collide_many("granulation", vary={"particles.roughness": ["0.2 um", "9 um"]})
+    assert rough.outcome.values.tolist()[1] == -1
+    assert "particles.roughness" in str(rough.reason.values[1])
+
+
+def test_parallel_equals_serial(monkeypatch):
+    """The number of cores changes nothing, to the last bit."""
+    stokes, angle = impacts("granulation", 130, 2)
+    data = [collide_many("granulation", stokes=stokes, angle=angle, of=EVERYTHING)]
+    monkeypatch.setattr(many, "_cores", lambda: 1)
+    data.append(collide_many("granulation", stokes=stokes, angle=angle, of=EVERYTHING))
+    xr.testing.assert_identical(*data)
+
+
+def test_without_a_compiler(monkeypatch, capfd):
+    """A machine without a C compiler gives the same results, and says once that it is slower."""
+    stokes, angle = impacts("granulation", 8, 3)
+    request = many.requested("granulation", stokes, None, angle, {}, 1e-9, None, EVERYTHING)
+    fast = many.run(request, machine_code=True)
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delenv("CC", raising=False)
+    many.locate.__globals__["locator"].cache_clear()
+    compiler.cache_clear()
+    try:
+        slow = many.run(request, machine_code=True)
+    finally:
+        compiler.cache_clear()
+        many.locate.__globals__["locator"].cache_clear()
+    assert capfd.readouterr().err.count("no C compiler") == 1
+    for name in ("outcome", "certified", "reason"):
+        assert (fast[name] == slow[name]).all()
+    for name in EVERYTHING:
+        np.testing.assert_allclose(fast[name], slow[name], rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")
+def test_a_cache_that_others_can_write_to_is_refused(tmp_path, monkeypatch):
+    """Code is never loaded from a folder that others can write to; a private one is made in its place."""
+    shared, private = tmp_path / "shared", tmp_path / "private"
+    shared.mkdir()
+    shared.chmod(0o777)
+    found = {}
+    for folder in (shared, private):
+        monkeypatch.setenv("WETDOUBLET_CACHE", str(folder))
+        cache_folder.cache_clear()
+        try:
+            found[folder] = cache_folder()
+        finally:
+            cache_folder.cache_clear()
+    assert found[private] == private
+    assert found[shared] not in (shared, private)
+    assert not any(stat.S_IMODE(folder.stat().st_mode) & 0o022 for folder in found.values())
+    found[shared].rmdir()
+
+
+def test_the_cache_is_used_again(tmp_path, monkeypatch):
+    """A function is compiled once and then loaded; the library is addressed by its content."""
+    from casadi import SX, Function
+
+    if compiler() is None:
+        pytest.skip("no compiler")
+    monkeypatch.setattr("wetdoublet.solvers.compiled.cache_folder", lambda: tmp_path)
+    x = SX.sym("x")
+    for factor in (2, 2, 3):
+        assert float(compiled(Function("scaled", [x], [factor * x]))(1.5)) == factor * 1.5
+    assert len(list(tmp_path.glob("scaled-*.so"))) == 2
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_script_without_a_guard_runs_once(tmp_path):
+    """Workers do not run the caller's script again, so it needs no `if __name__ == "__main__"`."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from wetdoublet.solvers import collide_many\n"
+        "print('begins')\n"
+        "print(collide_many('granulation', stokes=[0.01] * 101, angle=1.3).outcome.values.sum())\n"
+    )
+    result = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True)
+    assert (result.stdout.split(), result.stderr) == (["begins", "0"], "")
