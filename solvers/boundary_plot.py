@@ -36,7 +36,7 @@ def draw(scene: Scene, found: Boundaries) -> Figure:
         marker = "o" if np.count_nonzero(np.isfinite(stokes)) == 1 else ""
         axes.plot(degrees, stokes, dashes, color=colour, label=label, marker=marker, linewidth=1.8)
     axes.set_yscale("log")
-    axes.set_xlabel(r"impact angle $\\theta_0$ (deg)")
+    axes.set_xlabel(r"impact angle $\theta_0$ (deg)")
     axes.set_ylabel("normal Stokes number St")
     axes.set_title(f"{scene.name or 'scene'}: where the outcome changes")
     axes.grid(visible=True, which="both", linewidth=0.3, alpha=0.6)

@@ -20,11 +20,11 @@ from .errors import ComputationError, InputError
 from .probe import Line
 from .requests import checked_numbers
 from .scene import Scene
-from .settings import check_rtol
+from .settings import RTOL, check_rtol
 
 STOKES = (1e-4, 100.0)
-RTOL, SHARPEST = 1e-10, 1e-13
-_PER_DECADE = 2.2  # of the coarse scan
+SHARPEST = 1e-13
+_PER_DECADE = 1.7  # of the coarse scan
 _SURROUND = 1.3  # where the pattern of changes is another one than at the last angle
 _AROUND, _NEAR = 3e-3, 1e-4  # relative doubt of a prediction from two lines, and at least from three
 
@@ -108,7 +108,7 @@ def boundary(
         raise InputError("stokes", f"{low}:{high}", "LO:HI with LO below HI", "is not ascending")
     rtol = check_rtol(rtol)
     order = np.argsort(angles, kind="stable")
-    cores = min(os.cpu_count() or 1, max(1, angles.size // 6))
+    cores = min(os.cpu_count() or 1, max(1, angles.size // 30))  # each part starts with a scan of its own
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0)
     for part in _traces(loaded, parts, (low, high), rtol):

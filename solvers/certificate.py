@@ -20,6 +20,7 @@ from .phases import CLOSING, Phase
 # A proof holds by more than this many times the relative tolerance of the largest energy of the flight: an error made
 # when the motion was fastest stays in the energy, and errors accumulate over some tens of steps.
 _SAFETY = 30.0
+_BEYOND = 1.0  # more of it at the level a flight stops at, so that rounding there does not leave the proof undecided
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
@@ -127,16 +128,21 @@ class BarrierProof:
         self._known: tuple[float, tuple[Barrier, ...]] | None = None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self._level(y, phase, _SAFETY + _BEYOND)
+
+    def _level(self, y: np.ndarray, phase: Phase, safety: float) -> float | None:
         ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
         if not ahead:
             return None
-        scale = self._largest + (abs(float(y[-1])) if self.model.bridge else 0.0) + abs(ahead[0].height)
-        return ahead[0].height - _SAFETY * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
+        scale = self._largest + abs(
+            ahead[0].height
+        )  # the same all along the flight, or a stop would move its own level
+        return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
         if phase.resting and not self.model.oblique:
             return True  # nothing moves, and the force is inward
-        level = self.level(y, phase)
+        level = self._level(y, phase, _SAFETY)
         return level is not None and self.energy(y) < level
 
     def energy(self, y: np.ndarray) -> float:

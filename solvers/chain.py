@@ -7,15 +7,18 @@ time, which the landing step corrects. So events, and later their derivatives, a
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
+from casadi import SX, Function, jtimes, vertcat
 
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import Path, Step
-from .phases import Flow, Watch
+from .phases import Flow, Watch, event_table, expressions
 
 _LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
 _MISSES = 1e-13  # of its scale: what an event's function may be off after the step
+_RISES = 1e-9  # of its scale over the phase: an event's function falls where it is met, but for rounding at a graze
 _TRIES = 8
 
 
@@ -111,7 +114,8 @@ def _flight(
     y = flight(step.duration)
     if step.event is None:
         return step.duration, y
-    land = landing(flow, Watch(tangential_edge=watch.tangential_edge), step.event)
+    watched = Watch(tangential_edge=watch.tangential_edge)
+    land = landing(flow, watched, step.event)
     motion = float(step.phase.motion)
     parameters = np.append(p, [motion, 0.0])
     duration = step.duration
@@ -122,8 +126,20 @@ def _flight(
         if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > step.duration:
             break
         if abs(shift) <= _LANDED * duration and abs(float(miss[0])) <= _MISSES * scale:
+            if float(_slope(flow, watched, step.event)(landed, parameters)) > _RISES * scale / duration:
+                break  # met on the way back: the engine's own event was earlier
             return duration + shift, landed
         duration += shift
         y = flight(duration)
     missed = f"does not meet the event {step.event}: the collision lies within its error of a boundary"
     raise Stopped(missed, step, flown.time + duration, y, missed=True)
+
+
+@lru_cache(maxsize=512)
+def _slope(flow: Flow, watch: Watch, event: str) -> Function:
+    """Rate of an event's function along the flow."""
+    parts = expressions(flow)
+    motion, level = SX.sym("motion"), SX.sym("level")
+    table = {each.name: each.function for each in event_table(flow, watch, motion, level)}
+    rate = jtimes(table[event], parts.variables, parts.rates)
+    return Function("slope", [parts.variables, vertcat(flow.model.parameters, motion, level)], [rate])

@@ -90,9 +90,13 @@ def followed(line: Line, pattern: Sequence[Change], predicted: Sequence[float], 
         bracket = around(function, near, doubt, *span) if function and span[0] < near < span[1] else None
         if function is None or bracket is None:
             return None
+        if one.kind == REVERSED and line.criterion(math.exp(bracket[0].at)) < 0:
+            return None  # a doublet not reversed there: a graze may lie between, where the function jumps
         found = root(function, *bracket)
         if one.kind == GRAZE:
-            *_, free, bounces = beside(line, found)
+            # a doublet that rotates below is seen to by the collision between this change and the last
+            free = one.before == ROTATE or line.escape(found * (1 - _BESIDE), False).separates
+            bounces = line.escape(found * (1 + _BESIDE), True).separates
             if (one.before, one.after) != (ROTATE if free else STICK, BOUNCE if bounces else STICK):
                 return None
         changes.append(_change(line, found, one.before, one.after, one.kind))

@@ -15,7 +15,7 @@ import click
 
 from .errors import InputError, WetDoubletError, did_you_mean
 
-COMMANDS = ("scenes", "collide", "map", "boundary", "reproduce", "generate", "verify")
+COMMANDS = ("scenes", "collide", "map", "boundary", "reproduce", "generate", "verify", "bench")
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
@@ -94,7 +94,7 @@ def _settle_streams() -> None:
     """Give closed standard streams an end that swallows, and keep matplotlib's remarks off standard error."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by the caller, as by >&-
-            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 # open to the end
     # it warns of a home that cannot be written, where it works from a temporary folder, and of slow fonts
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 

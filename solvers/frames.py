@@ -115,8 +115,9 @@ class _Flight:
         return cls(time, gap, rotation, turned, radius, approach, (opening, rate), spin)
 
     def at(self, instant: float) -> Frame:
-        values = (float(np.interp(instant, self.time, known)) for known in (self.gap, self.rotation, self.turned))
-        return Frame(float(instant), *values, self.radius)
+        known = (self.gap, self.rotation, self.turned)
+        gap, rotation, turned = (float(np.interp(instant, self.time, values)) for values in known)
+        return Frame(float(instant), gap, rotation, turned, self.radius)
 
     @property
     def last(self) -> Frame:

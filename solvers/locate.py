@@ -130,6 +130,9 @@ class Locate:
     def _proved(self) -> bool:
         return self.proof.decided(self.y, self.phase)
 
+    def _level(self) -> float | None:
+        return self.proof.level(self.y, self.phase) if self.watch.certificate else None
+
     def _stop(self, step: Step) -> None:
         self.path.steps.append(step)
         self.path.ends.append(self.y)
@@ -142,7 +145,7 @@ class Locate:
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         flown, stretch = 0.0, FIRST_STRETCH
         for _ in range(STRETCHES):
-            level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
+            level = self._level()
             stop = self._advance(find, stretch, -np.inf if level is None else level)
             flown += stop.time
             self.path.time += stop.time

@@ -134,6 +134,9 @@ class _Probe(Locate):
     def _proved(self) -> bool:
         return self.phase.motion == CLOSING and super()._proved()
 
+    def _level(self) -> float | None:
+        return super()._level() if self.phase.motion == CLOSING else None
+
     def _fly(self) -> bool:
         over = super()._fly()
         fell_back = bool(self.path.steps) and "fell back" in self.path.steps[-1].kinds

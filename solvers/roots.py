@@ -57,14 +57,15 @@ def root(function: Function, negative: Sample, positive: Sample) -> float:
     """Stokes number of the root between a negative and a positive sample (the negative one lower).
 
     Secant steps through the two latest values, bisection where a value is missing, a step leaves the bracket, or the
-    bracket is wide and the secant slow. It ends without a last evaluation once the secant's own error, about the product of the last two
-    steps, is below LOCATED.
+    bracket is wide and the secant slow. It ends without a last evaluation once the secant's own error, about the
+    product of the last two steps, is below LOCATED; where the function jumps, once the bracket is.
 
     Raises:
         ComputationError: not located within a fixed number of evaluations.
     """
     a, b = negative, positive
     recent = [a, b] if _smaller(b, a) else [b, a]
+    older: Sample | None = None
     widths = [b.at - a.at]
     for _ in range(_TRIES):
         width = b.at - a.at
@@ -75,18 +76,30 @@ def root(function: Function, negative: Sample, positive: Sample) -> float:
             trial = 0.5 * (a.at + b.at)
         else:
             step, before = abs(trial - recent[1].at), abs(recent[1].at - recent[0].at)
-            if step < 1e-5 and _CURVED * step * before < LOCATED:
+            if step < 1e-5 and _CURVED * step * before < LOCATED and _straight(older, *recent):
                 return math.exp(trial)
             if width > _WIDE and len(widths) > 3 and width > 0.3 * widths[-4]:
                 trial = 0.5 * (a.at + b.at)
         latest = sample(function, math.exp(trial))
         a, b = (a, latest) if latest.positive else (latest, b)
         widths.append(b.at - a.at)
-        recent = [recent[1], latest] if latest.value is not None and recent[1].value is not None else [a, b]
+        if latest.value is not None and recent[1].value is not None:
+            older, recent = recent[0], [recent[1], latest]
+        else:
+            older, recent = None, [a, b]
     raise ComputationError(
         f"a change of outcome between St {math.exp(a.at):.10g} and {math.exp(b.at):.10g} could not be located",
         advice="try another --rtol",
     )
+
+
+def _straight(older: Sample | None, first: Sample, second: Sample) -> bool:
+    """Whether three samples show one slope: at a jump, where a secant's steps say nothing, they do not."""
+    if older is None or older.value is None or first.value is None or second.value is None:
+        return True  # nothing speaks against it
+    one = (first.value - older.value) * (second.at - first.at)
+    other = (second.value - first.value) * (first.at - older.at)
+    return one * other > 0 and 0.2 < one / other < 5
 
 
 def _smaller(one: Sample, other: Sample) -> bool:

@@ -143,7 +143,8 @@ class Scene:
         rules.check_entries(changes)
         replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
-        return type(self)(self.name, tuple(_in_order({**dict(self.given), **changes}, {**kept, **changes})), self.comments)
+        entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
+        return type(self)(self.name, tuple(entries), self.comments)
 
     # ---- lengths, and the impact both ways
 

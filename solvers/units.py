@@ -167,8 +167,8 @@ def _pint_factor(unit: str, si: str, text: str, field: str, accepted: str) -> fl
 
 def _in_words(root: Any) -> str:
     """Return what a product of pint's root units measures: `a force`, or a power product of SI units."""
-    powers = {str(name): power for name, power in root._units.items()}
-    named = next((words for si, words in _WORDS.items() if _powers(si) == powers), None)
+    powers = _powers(root)
+    named = next((words for si, words in _WORDS.items() if _powers(_root(si)) == powers), None)
     if named:
         return named
     si = {"gram": "kg", "meter": "m", "second": "s", "ampere": "A", "kelvin": "K", "mole": "mol", "radian": "rad"}
@@ -176,12 +176,14 @@ def _in_words(root: Any) -> str:
     return f"in {' '.join(parts)}"
 
 
+def _powers(root: Any) -> dict[str, Any]:
+    return dict(_registry().Quantity(1, root).unit_items())
+
+
 @cache
-def _powers(si: str) -> dict[str, Any]:
-    """Return the powers of pint's root units in an SI unit."""
+def _root(si: str) -> Any:
     registry = _registry()
-    _, root = registry.get_root_units(registry.parse_units(si))
-    return {str(name): power for name, power in root._units.items()}
+    return registry.get_root_units(registry.parse_units(si))[1]
 
 
 @cache

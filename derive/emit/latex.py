@@ -45,8 +45,6 @@ _FIRST = [  # of the factors, the rest by vocabulary
 ]
 _ORDER = {name: place for place, name in enumerate(dict.fromkeys([*_FIRST, *NAMES]))}
 _FUNCTIONS: dict[type, str] = {sp.log: r"\ln", sp.sin: r"\sin", sp.cos: r"\cos", sp.tan: r"\tan", sp.exp: r"\exp"}
-
-
 _OPERATORS = tuple(_FUNCTIONS.values())
 
 

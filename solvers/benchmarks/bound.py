@@ -1,21 +1,19 @@
 """The emitted equations as plain numpy callables, for solvers that are called from Python.
 
-A CasADi function of (variables, parameters) with its parameters set once: about 1 us a call, no matrices in between.
+A CasADi function of (variables, parameters) with its parameters set once: a microsecond or two a call, no matrices between.
 Straight-line Python code made of the same expressions takes as long.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 
 from ..phases import Flow, Watch, event_table, expressions
-
-Callback = Callable[[float, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -53,26 +51,21 @@ def equations(flow: Flow, watch: Watch) -> Equations:
     )
 
 
-def bound(function: Function, parameters: np.ndarray) -> Callback:
-    """`function` at fixed parameters as (t, y) -> array; not for several threads at once."""
-    size, shape = function.nnz_in(0), function.size_out(0)
-    argument, rest, result = np.zeros(size), parameters.copy(), np.zeros(function.nnz_out(0))
-    buffer, evaluate = function.buffer()
-    buffer.set_arg(0, memoryview(argument))
-    buffer.set_arg(1, memoryview(rest))
-    buffer.set_res(0, memoryview(result))
-    if shape[1] == 1:
+class Bound:
+    """A function at fixed parameters, called as (t, y) -> array. Not for several threads at once."""
 
-        def column(_: float, y: np.ndarray) -> np.ndarray:
-            argument[:] = y
-            evaluate()
-            return result.copy()
+    def __init__(self, function: Function, parameters: np.ndarray) -> None:
+        self._argument, self._parameters = np.zeros(function.nnz_in(0)), np.array(parameters, dtype=float)
+        self._result = np.zeros(function.nnz_out(0))
+        self._shape = function.size_out(0) if function.size_out(0)[1] > 1 else (function.nnz_out(0),)
+        buffer: Any  # the stubs know its pointers, not its views
+        buffer, self._evaluate = function.buffer()
+        buffer.set_arg(0, self._argument.data)
+        buffer.set_arg(1, self._parameters.data)
+        buffer.set_res(0, self._result.data)
+        self._buffer = buffer  # the evaluation points into it
 
-        return column
-
-    def matrix(_: float, y: np.ndarray) -> np.ndarray:
-        argument[:] = y
-        evaluate()
-        return result.reshape(shape, order="F").copy()
-
-    return matrix
+    def __call__(self, _: float, y: np.ndarray) -> np.ndarray:
+        self._argument[:] = y
+        self._evaluate()
+        return self._result.copy() if len(self._shape) == 1 else self._result.reshape(self._shape, order="F").copy()

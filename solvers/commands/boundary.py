@@ -11,7 +11,7 @@ import click
 from ..errors import CheckFailed, InputError
 from ..ranges import parse_range
 from ..schema import FIELDS
-from ..settings import check_rtol
+from ..settings import RTOL, check_rtol
 from . import options
 
 _ENTRY = FIELDS["impact.angle"]
@@ -37,17 +37,18 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    r"""Changes of outcome of SCENE along lines of constant angle: Stokes number, Ce, and the outcomes on either side.
+    """Changes of outcome of SCENE along lines of constant angle: Stokes number, Ce, and the outcomes on either side.
 
     \b
     Example:
       wetdoublet boundary granulation --angle 20:70:26 --plot boundary.png
-    """
-    from ..bounds import RTOL, STOKES, boundary
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
+    from ..bounds import STOKES, boundary
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
+    options.check_apart(file, "-o", picture, "--plot")
     span = STOKES if stokes is None else _span(stokes)
     angles = None if angle is None else parse_range(angle, "--angle", _degrees, unit="in degrees")
     scene = options.Asked.check(source, changes).scene()

@@ -49,14 +49,14 @@ def command(
     output: str | None,
     plot: str | None,
 ) -> None:
-    r"""Outcomes and restitution of SCENE over impact angle and Stokes number, and whatever else varies.
+    """Outcomes and restitution of SCENE over impact angle and Stokes number, and whatever else varies.
 
     Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end.
 
     \b
     Example:
       wetdoublet map granulation --stokes log:0.005:0.5:60 --angle 0:85:60 -o map.nc --plot map.png
-    """
+    """  # noqa: D301 # click wants the character itself
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     picture = options.check_file(plot, "--plot", options.PICTURES)

@@ -29,7 +29,7 @@ debug = click.option("--debug", is_flag=True, expose_value=False, help="Show a t
 as_json = click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table.")
 rtol = click.option("--rtol", metavar="R", help="Relative tolerance, 1e-13..1e-3 [1e-9].")
 engine = click.option("--engine", metavar="E", help="cvodes or rosenbrock [the best for the scene].")
-plot = click.option("--plot", metavar="FILE.png", help="Draw a picture.")
+plot = click.option("--plot", metavar="FILE.png", help="Draw a picture: .png, .pdf or .svg.")
 output = click.option("-o", "output", metavar="FILE", help="Write to FILE instead of standard output.")
 changes = click.option(
     "--set",

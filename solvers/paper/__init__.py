@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .desk import Detail
+    from .desk import Desk, Detail
     from .parts import Part
 
 PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
@@ -41,13 +41,14 @@ def reproduce(
     desk = Desk(detail, say)
     parts: list[Part] = [import_module(f".{name}", __name__).make(desk, folder) for name in which]
     pictures = [folder / picture.file for part in parts for picture in part.pictures]
-    return [*pictures, *report.write(parts, folder, _how(desk.collisions))]
+    return [*pictures, *report.write(parts, folder, _how(desk))]
 
 
-def _how(collisions: int) -> str:
+def _how(desk: Desk) -> str:
     from importlib.metadata import version
 
-    counted = f", from {collisions} collisions" if collisions else ""
+    counted = f", from {desk.collisions} collisions" if desk.collisions else ""
+    failed = f" Not traced: {'; '.join(desk.failures)}." if desk.failures else ""
     date = time.strftime("%Y-%m-%d", time.gmtime())
     ours = f"wetdoublet {version('wetdoublet')}"
-    return f"Computed by {ours} in one run on {date}{counted}; none of our numbers is typed in."
+    return f"Computed by {ours} in one run on {date}{counted}; none of our numbers is typed in.{failed}"

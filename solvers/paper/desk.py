@@ -16,17 +16,35 @@ from .. import boundary
 from ..errors import ComputationError
 from ..scene import Scene
 from ..simulate import collide
+from .parts import number
+from .printed import CURVES
 
 if TYPE_CHECKING:
     from ..bounds import Boundaries
     from ..changes import Change
 
 Line = tuple["Change", ...]
-Job = tuple[Scene, Sequence[float]]
+Span = tuple[float, float]  # of St
 
 _FEW = 12  # angles; more are shared out among the cores by `boundary` itself
 _TOP = 89.0  # degrees, the highest line of a map
-_ROUND = 9  # angles put between two whose outcomes differ
+_CORNER = 0.04  # of the width of a map
+_ROUND, _BEND = 5, 2  # angles put between two whose outcomes differ, and where a boundary moves far
+
+
+@dataclass(frozen=True)
+class Job:
+    """A scene, the angles (rad) to be traced, and the Stokes numbers to look at; None for all."""
+
+    scene: Scene
+    angles: tuple[float, ...]
+    span: Span | None = None
+
+    def trace(self) -> Boundaries:
+        """Trace it, now."""
+        if self.span is None:
+            return boundary(self.scene, angle=list(self.angles))
+        return boundary(self.scene, angle=list(self.angles), stokes=self.span)
 
 
 @dataclass(frozen=True)
@@ -37,11 +55,13 @@ class Detail:
         step: degrees between lines of a regime map.
         rounds: how often the lines between which a region begins are refined.
         curve: points a curve of Fig. 4b has on either side of a boundary.
+        critical: angles (rad) at which Ce* is tabulated.
     """
 
     step: float = 2.5
     rounds: int = 2
     curve: int = 40
+    critical: tuple[float, ...] = CURVES[2:]
 
 
 class Desk:
@@ -51,54 +71,55 @@ class Desk:
         self.detail = detail or Detail()
         self.collisions = 0
         self._say = say or (lambda _: None)
-        self._known: dict[Scene, dict[float, Line]] = {}
-        self._failed: dict[Scene, dict[float, str]] = {}
+        self._known: dict[tuple[Scene, Span | None], dict[float, Line]] = {}
+        self.failures: list[str] = []
 
     def say(self, what: str) -> None:
         """Tell what is being done."""
         self._say(what)
 
     def lines(self, scene: Scene, angles: Iterable[float]) -> list[Line]:
-        """Changes of outcome at each angle (rad), in their order."""
-        return self.many([(scene, tuple(angles))])[0]
+        """Changes of outcome at each angle (rad), in their order; none, and a word in `failures`, where that fails."""
+        return self.many([Job(scene, tuple(angles))])[0]
 
     def many(self, jobs: Sequence[Job]) -> list[list[Line]]:
-        """The lines of several scenes; what is not known yet is traced on all cores."""
-        wanted: dict[Scene, list[float]] = {}
-        for scene, angles in jobs:
-            known, missing = self._known.setdefault(scene, {}), wanted.setdefault(scene, [])
-            missing += [angle for angle in angles if angle not in known and angle not in missing]
-        small = [(scene, tuple(angles)) for scene, angles in wanted.items() if 0 < len(angles) < _FEW]
-        large = [(scene, tuple(angles)) for scene, angles in wanted.items() if len(angles) >= _FEW]
-        found = [(job, _trace(*job)) for job in large]
-        found += zip(small, _shared_out(small))
-        for (scene, _), traced in found:
+        """The lines of several jobs; what is not known yet is traced on all cores."""
+        wanted: dict[tuple[Scene, Span | None], list[float]] = {}
+        for job in jobs:
+            known = self._known.setdefault((job.scene, job.span), {})
+            missing = wanted.setdefault((job.scene, job.span), [])
+            missing += [angle for angle in job.angles if angle not in known and angle not in missing]
+        todo = [Job(scene, tuple(angles), span) for (scene, span), angles in wanted.items() if angles]
+        small = [job for job in todo if len(job.angles) < _FEW]
+        large = [job for job in todo if len(job.angles) >= _FEW]
+        for job, traced in [*((job, job.trace()) for job in large), *zip(small, _shared_out(small))]:
             self.collisions += traced.collisions
-            self._known[scene] |= dict(zip(traced.angles, traced.changes))
-            self._failed.setdefault(scene, {}).update(traced.failed)
-        return [[self._line(scene, angle) for angle in angles] for scene, angles in jobs]
+            self._known[job.scene, job.span] |= dict(zip(traced.angles, traced.changes))
+            name = job.scene.name
+            self.failures += [f"{name} at {math.degrees(angle):.4g} deg: {why}" for angle, why in traced.failed]
+        return [[self._known[job.scene, job.span][angle] for angle in job.angles] for job in jobs]
 
-    def _line(self, scene: Scene, angle: float) -> Line:
-        if reason := self._failed.get(scene, {}).get(angle):
-            raise ComputationError(f"boundaries of {scene.name} at {math.degrees(angle):.4g} deg: {reason}")
-        return self._known[scene][angle]
+    def map(self, scene: Scene, reach: float, first: float = 0.0) -> tuple[list[float], list[Line]]:
+        """Angles (rad) of a regime map from `first` degrees on, and their lines.
 
-    def map(self, scene: Scene, first: float = 0.0) -> tuple[list[float], list[Line]]:
-        """Angles (rad) of a regime map from `first` degrees on, crowded where a region begins; their lines."""
+        They are crowded where a region begins, and where a boundary moves far over a map that ends at St = `reach`.
+        """
         steps = np.arange(0.0, _TOP, self.detail.step).tolist()
         angles = [math.radians(value) for value in sorted({first, *(v for v in steps if v > first), _TOP})]
         lines = self.lines(scene, angles)
         for _ in range(self.detail.rounds):
-            between = [
-                (low, high)
-                for (low, here), (high, there) in pairwise(zip(angles, lines))
-                if outcomes(here) != outcomes(there)
-            ]
-            if not between:
+            fresh: set[float] = set()
+            for (low, here), (high, there) in pairwise(zip(angles, lines)):
+                if not (here and there):
+                    continue
+                begins = outcomes(here) != outcomes(there)
+                count = _ROUND if begins else _BEND if _far(here, there, reach) else 0
+                fresh.update(np.linspace(low, high, count + 2).tolist()[1:-1])
+            if not fresh:
                 break
-            angles = sorted({*angles, *(new for ends in between for new in np.linspace(*ends, _ROUND + 2).tolist())})
+            angles = sorted({*angles, *fresh})
             lines = self.lines(scene, angles)
-        return angles, lines
+        return [angle for angle, line in zip(angles, lines) if line], [line for line in lines if line]
 
 
 def outcomes(line: Line) -> tuple[str, ...]:
@@ -106,12 +127,26 @@ def outcomes(line: Line) -> tuple[str, ...]:
     return (line[0].before, *(change.after for change in line)) if line else ()
 
 
+def _far(here: Line, there: Line, reach: float) -> bool:
+    """True if a boundary moves by more than shows as a corner."""
+    moved = (abs(min(one.stokes, reach) - min(other.stokes, reach)) for one, other in zip(here, there))
+    return max(moved, default=0.0) > _CORNER * reach
+
+
 def change_at(line: Line, before: str) -> Change:
-    """The change at which an outcome ends; LookupError if it does not."""
+    """The change at which an outcome ends; ComputationError if none was found."""
     for change in line:
         if change.before == before:
             return change
-    raise LookupError(f"no change from {before}")
+    raise ComputationError(f"no boundary at which {before} ends was found where the paper has one")
+
+
+def shown(read: Callable[[], float]) -> str:
+    """A number of a table, or `failed`: one that cannot be computed does not take the others with it."""
+    try:
+        return number(read())
+    except ComputationError:
+        return "failed"
 
 
 def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-7) -> float:
@@ -122,25 +157,21 @@ def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rto
         return one.reversal is not None
 
     if met(low) or not met(high):
-        raise ValueError(f"no criterion is first met between St {low:g} and {high:g}")
+        raise ComputationError(f"no criterion is first met between St {low:g} and {high:g}")
     while high - low > rtol * high:
         middle = math.sqrt(low * high)
         low, high = (low, middle) if met(middle) else (middle, high)
     return math.sqrt(low * high)
 
 
-def _trace(scene: Scene, angles: Sequence[float]) -> Boundaries:
-    return boundary(scene, angle=list(angles))
-
-
 def _shared_out(jobs: Sequence[Job]) -> list[Boundaries]:
     """Small traces, each by one core."""
     if len(jobs) < 2:
-        return [_trace(*job) for job in jobs]
+        return [job.trace() for job in jobs]
     from loky import get_reusable_executor
 
     pool = get_reusable_executor(max_workers=os.cpu_count() or 1)
-    return list(pool.map(_trace, *zip(*jobs)))
+    return list(pool.map(Job.trace, jobs))
 
 
 def progress() -> Callable[[str], None]:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..scene import Scene
-from .desk import Desk
-from .fig4a import centrifugal
+from .desk import Desk, Job, outcomes
+from .fig4a import centrifugal, per_stokes_squared
 from .parts import Comparison, Part, Table, degrees, number
-from .printed import CURVES, PRINTED
+from .printed import PRINTED
+from .style import LETTERS
 from .variants import BRIDGED, described, variant
 
 DOUBLED = {
@@ -22,32 +24,33 @@ DOUBLED = {
 }
 ARMS = ("midgap", "surface")
 _AT = math.radians(45)
-_ANGLES = CURVES[2:]
+_AROUND = 2.0  # in St, i.e. four times in Ce
 _OUT_OF_REACH = 1e9  # times the preset's glass-transition pressure
 
 
 def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
     """Trace the S/SRS boundary of every doubled scene."""
     desk.say("factors: Ce* with one quantity doubled")
+    angles = desk.detail.critical
     arms = {arm: _base(arm) for arm in ARMS}
-    jobs = [
-        (scene, _ANGLES)
-        for base in arms.values()
-        for scene in (base, *(_doubled(base, entry) for entry in DOUBLED.values()))
-    ]
-    traced = iter([[centrifugal(line) for line in lines] for lines in desk.many(jobs)])
-    plain: dict[str, list[float]] = {}
-    factors: dict[str, dict[str, list[float]]] = {}
-    for arm in arms:
-        plain[arm] = next(traced)
-        factors[arm] = {key: [new / old for new, old in zip(next(traced), plain[arm])] for key in DOUBLED}
-    place = _ANGLES.index(_AT)
+    scenes = {(arm, key): _doubled(base, entry) for arm, base in arms.items() for key, entry in DOUBLED.items()}
+    scenes |= {(arm, ""): base for arm, base in arms.items()}
+    jobs = [Job(scene, (angle,), _window(scene, angle)) for scene in scenes.values() for angle in angles]
+    traced = [centrifugal(line) for [line] in desk.many(jobs)]
+    found = {name: traced[k * len(angles) : (k + 1) * len(angles)] for k, name in enumerate(scenes)}
+    plain = {arm: found[arm, ""] for arm in arms}
+    factors = {
+        arm: {key: [new / old for new, old in zip(found[arm, key], plain[arm])] for key in DOUBLED} for arm in arms
+    }
+    place = angles.index(_AT)
+    [in_reach] = desk.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
+    through = ", ".join(LETTERS[outcome] for outcome in outcomes(in_reach))
     rows = [
         Comparison(
             key,
             factors["midgap"][key][place],
             described(arms["midgap"]) + ", p_gt out of reach",
-            f"at {degrees(_AT)}; the paper does not say at which angle. " + _range(key, factors),
+            f"at {degrees(_AT)}. " + _range(key, factors),
             beside=f"(surface arm: {number(factors['surface'][key][place])})",
         )
         for key in DOUBLED
@@ -55,11 +58,11 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
     return Part(
         "Ce* with one quantity doubled",
         "Each quantity alone is doubled; a doubled radius leaves m, x₀ and V/R³. The glass criterion is put out of "
-        f"reach, since with the preset's p_gt a doubled radius turns S directly into B at {degrees(_AT)}. Ce* itself: "
+        f"reach: with the preset's p_gt a doubled radius goes through {through} at {degrees(_AT)}. Ce* itself: "
         + "; ".join(f"{arm} arm {number(values[place])}" for arm, values in plain.items())
-        + ".",
+        + f". The paper does not say at which angle; nearest to its six numbers together is the {_nearest(angles, factors)}.",
         comparisons=rows,
-        tables=[_table(arm, found) for arm, found in factors.items()],
+        tables=[_table(arm, angles, found) for arm, found in factors.items()],
         scenes=(BRIDGED,),
     )
 
@@ -74,13 +77,30 @@ def _doubled(scene: Scene, entry: str) -> Scene:
     return scene.with_entries({entry: 2 * float(scene.entries[entry])})
 
 
+def _window(scene: Scene, angle: float) -> tuple[float, float]:
+    """Stokes numbers around the printed Ce*, where the boundary is looked for."""
+    middle = math.sqrt(PRINTED["centrifugal"].value / per_stokes_squared(scene, angle))
+    return middle / _AROUND, middle * _AROUND
+
+
 def _range(key: str, factors: dict[str, dict[str, list[float]]]) -> str:
     everything = [value for found in factors.values() for value in found[key]]
     return f"Over the angles and arms below: {number(min(everything))} to {number(max(everything))}"
 
 
-def _table(arm: str, found: dict[str, list[float]]) -> Table:
+def _nearest(angles: Sequence[float], factors: dict[str, dict[str, list[float]]]) -> str:
+    """Arm and angle whose factors are nearest to the printed ones, in the sum of the squared differences."""
+    apart = {
+        (arm, angle): sum((found[key][k] - PRINTED[key].value) ** 2 for key in DOUBLED)
+        for arm, found in factors.items()
+        for k, angle in enumerate(angles)
+    }
+    arm, angle = min(apart, key=lambda name: apart[name])
+    return f"{arm} arm at {degrees(angle)}"
+
+
+def _table(arm: str, angles: Sequence[float], found: dict[str, list[float]]) -> Table:
     rows = [
         [PRINTED[key].what, PRINTED[key].text, *(f"{value:.3f}" for value in values)] for key, values in found.items()
     ]
-    return Table(f"Factors of Ce*, {arm} arm", ["", "paper", *(f"at {degrees(angle)}" for angle in _ANGLES)], rows)
+    return Table(f"Factors of Ce*, {arm} arm", ["", "paper", *(f"at {degrees(angle)}" for angle in angles)], rows)

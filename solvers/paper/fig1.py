@@ -8,7 +8,7 @@ from pathlib import Path
 from ..frames import draw_strip, sampled, strip_size
 from ..result import Collision
 from ..simulate import collide
-from .desk import Desk
+from .desk import Desk, Job, Line
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
 from .style import COLUMN, LETTERS, sheet
@@ -58,20 +58,20 @@ def _moved(desk: Desk) -> Table:
     """Outcomes, and the boundaries along the line of Fig. 1, under the variants."""
     scenes = {name: variant(TETHERED, changes) for name, changes in STRING_VARIANTS.items()}
     desk.say("fig. 1: variants")
-    traced = desk.many([(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
+    traced = desk.many([Job(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
     rows = []
     for name, [line] in zip(scenes, traced):
-        at = {shot: _outcome(shot, [(c.stokes, c.after) for c in line], line[0].before) for shot in SHOTS}
         changes = ", ".join(f"{LETTERS[c.before]}/{LETTERS[c.after]} {number(c.stokes)}" for c in line)
-        rows.append([name, *(LETTERS[at[shot]] for shot in SHOTS), changes])
+        rows.append([name, *(_outcome(shot, line) for shot in SHOTS), changes or "failed"])
     rows.append(["paper", *(LETTERS[PRINTED[f"fig1{shot.panel}"].text] for shot in SHOTS), "-"])
     head = ["variant", *(f"({shot.panel}) St {shot.stokes:g}" for shot in SHOTS), "boundaries in St"]
     return Table(f"Pendulum at {degrees(SHOT_ANGLE)}: outcomes of Fig. 1 under the variants", head, rows)
 
 
-def _outcome(shot: Shot, changes: list[tuple[float, str]], first: str) -> str:
-    """The outcome at a Stokes number on a line of constant angle."""
-    return next((after for stokes, after in reversed(changes) if shot.stokes > stokes), first)
+def _outcome(shot: Shot, line: Line) -> str:
+    """The letter of the outcome at a Stokes number on a line of constant angle."""
+    crossed = [change for change in line if shot.stokes > change.stokes]
+    return LETTERS[crossed[-1].after if crossed else line[0].before] if line else "failed"
 
 
 def _draw(flown: list[Collision], file: Path) -> None:

@@ -4,41 +4,47 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..errors import ComputationError
 from ..numbers import numbers
 from ..scene import Scene
 from . import regimes, tune
-from .desk import Desk, Line, change_at, outcomes
+from .desk import Desk, Job, Line, change_at, outcomes, shown
 from .parts import Comparison, Part, Picture, Table, degrees, number
-from .printed import CURVES, PRINTED
+from .printed import PRINTED
 from .style import ANGLE, BLUE, COLUMN, GREY, INK, ORANGE, STOKES, panel, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
+_NO_BRIDGE = "without a bridge there is no centrifugal number"
+_TAIL = 1.15  # times our St*: where the lines of constant Ce end
 _AT = math.radians(45)  # where our Ce* is read
 _FIRST = 0.5  # degrees: the lowest oblique line without a bridge
-_ROTATING = CURVES[2:]  # angles of Fig. 4b that separate by rotation
 
 
 def make(desk: Desk, folder: Path) -> Part:
     """Trace and draw both maps; Ce* and St* under the variants."""
     desk.say("fig. 4a: tracing the granules' boundaries")
     scene, dry = variant(BRIDGED, {}), variant(DRY, {})
-    angles, lines = desk.map(scene)
-    dry_angles, dry_lines = desk.map(dry, _FIRST)
-    [dry_head_on], [head_on] = desk.many([(dry, (0.0,)), (scene, (0.0,))])
-    criticals = [centrifugal(line) for line in desk.lines(scene, _ROTATING)]
+    angles, lines = desk.map(scene, _REACH)
+    dry_angles, dry_lines = desk.map(dry, _REACH, _FIRST)
+    [dry_head_on], [head_on] = desk.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
+    desk.say("fig. 4a: variants")
+    critical = desk.detail.critical
+    moved = _moved(desk)  # traces the variants together
+    criticals = [centrifugal(line) for line in desk.lines(scene, critical)]
     ours = centrifugal(desk.lines(scene, (_AT,))[0])
-    stokes = change_at(head_on, "stick").stokes
+    stokes = _sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = panel(figure)
         regimes.draw(axes, angles, lines, _REACH)
-        _critical_lines(axes, scene, ours)
-        _dry(axes, dry_angles, dry_lines, change_at(dry_head_on, "stick").stokes)
+        _critical_lines(axes, scene, ours, _TAIL * stokes)
+        _dry(axes, dry_angles, dry_lines, _sticks_to(dry_head_on))
     sticking = [angle for angle, line in zip(dry_angles, dry_lines) if "stick" in outcomes(line)]
     only_head_on = not sticking and "stick" in outcomes(dry_head_on)
     caption = (
@@ -50,7 +56,7 @@ def make(desk: Desk, folder: Path) -> Part:
         "Fig. 4a: regime map of granules",
         comparisons=_compared(desk, scene, dry, stokes, ours, criticals, only_head_on),
         pictures=(Picture("fig4a.png", caption, COLUMN),),
-        tables=(_moved(desk),),
+        tables=(moved,),
         scenes=(BRIDGED, DRY),
     )
 
@@ -59,7 +65,19 @@ def centrifugal(line: Line) -> float:
     """Ce* of a line of constant angle: Ce at the end of sticking."""
     found = change_at(line, "stick").centrifugal
     if found is None:
-        raise LookupError("without a bridge there is no centrifugal number")
+        raise ComputationError(_NO_BRIDGE)
+    return found
+
+
+def _sticks_to(line: Line) -> float:
+    return change_at(line, "stick").stokes
+
+
+def per_stokes_squared(scene: Scene, angle: float) -> float:
+    """Ce over St^2 of a scene at an angle (rad)."""
+    found = numbers(scene, scene.speed_of(1.0), angle).centrifugal
+    if found is None:
+        raise ComputationError(_NO_BRIDGE)
     return found
 
 
@@ -73,22 +91,22 @@ def _compared(
     only_head_on: bool,
 ) -> tuple[Comparison, ...]:
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
-    pressure, fitted = scene.liquid.glass_transition_pressure, tune.pressure_for(scene, PRINTED["stokes_4"].value)
+    pressure, fitted = scene.liquid.glass_transition_pressure, tune.pressure_for(desk, scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
-    leading = _spread([centrifugal(line) for line in desk.lines(surface, _ROTATING)])
+    leading = _spread(desk.detail.critical, [centrifugal(line) for line in desk.lines(surface, desk.detail.critical)])
     return (
         Comparison(
             "stokes_4",
             stokes,
             described(scene),
-            f"St* follows from p_gt alone: the printed number is reached with {fitted / 1e6:.3g} MPa in place of the "
+            f"St* follows from p_gt alone: the printed number is reached with {fitted} in place of the "
             f"printed {pressure / 1e6:.3g} MPa. Head-on, arm, log and bridge law have next to no part in it",
         ),
         Comparison(
             "centrifugal",
             ours,
             described(scene),
-            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {_spread(criticals)}. With the "
+            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {_spread(desk.detail.critical, criticals)}. With the "
             f"leading-order arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(
@@ -101,44 +119,48 @@ def _compared(
     )
 
 
-def _spread(values: Sequence[float]) -> str:
-    return ", ".join(f"{number(value)} at {degrees(angle)}" for angle, value in zip(_ROTATING, values))
+def _spread(angles: Sequence[float], values: Sequence[float]) -> str:
+    return ", ".join(f"{number(value)} at {degrees(angle)}" for angle, value in zip(angles, values))
 
 
 def _moved(desk: Desk) -> Table:
-    desk.say("fig. 4a: variants")
+    critical = desk.detail.critical
     scenes = {name: variant(BRIDGED, changes) for name, changes in BRIDGE_VARIANTS.items()}
-    traced = desk.many([(scene, (0.0, *_ROTATING)) for scene in scenes.values()])
+    traced = desk.many([Job(scene, (0.0, *critical)) for scene in scenes.values()])
     rows = [
-        [name, number(change_at(head_on, "stick").stokes), *(number(centrifugal(line)) for line in oblique)]
+        [
+            name,
+            shown(partial(_sticks_to, head_on)),
+            *(shown(partial(centrifugal, line)) for line in oblique),
+        ]
         for name, (head_on, *oblique) in zip(scenes, traced)
     ]
-    rows.append(["paper", PRINTED["stokes_4"].text, *(PRINTED["centrifugal"].text for _ in _ROTATING)])
-    head = ["variant", "St* at 0°", *(f"Ce* at {degrees(angle)}" for angle in _ROTATING)]
+    rows.append(["paper", PRINTED["stokes_4"].text, *(PRINTED["centrifugal"].text for _ in critical)])
+    head = ["variant", "St* at 0°", *(f"Ce* at {degrees(angle)}" for angle in critical)]
     return Table("Granules: St* and Ce* under the variants", head, rows)
 
 
-def _critical_lines(axes: Axes, scene: Scene, ours: float) -> None:
-    angles = np.radians(np.linspace(1, 89.5, 300))
-    per_square = np.array(
-        [numbers(scene, scene.speed_of(1.0), angle).centrifugal for angle in angles.tolist()], dtype=float
-    )
+def _critical_lines(axes: Axes, scene: Scene, ours: float, end: float) -> None:
+    angles = np.radians(np.linspace(1, 89.9, 600))
+    per_square = np.array([per_stokes_squared(scene, angle) for angle in angles.tolist()])
+    far = np.sqrt(ours / per_square) < end
+    angles, per_square = angles[far], per_square[far]
     paper, edge = PRINTED["centrifugal"], PRINTED["stokes_4"]
     up = np.degrees(angles)
     axes.plot(np.sqrt(ours / per_square), up, color=BLUE, linewidth=2.6, alpha=0.55, zorder=2.5)
     axes.plot(np.sqrt(paper.value / per_square), up, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
     axes.axvline(edge.value, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
     axes.annotate(
-        f"$St_n^*$ = {edge.text}", (edge.value, 4), (-3, 0), textcoords="offset points", color=ORANGE, fontsize=7.5,
-        ha="right",
+        f"paper:\n$St_n^*$ = {edge.text}", (edge.value, 4), (-3, 0), textcoords="offset points", color=ORANGE,
+        fontsize=7.5, ha="right",
     )  # fmt: skip
-    place = np.radians(33)
-    at = math.sqrt(paper.value / float(numbers(scene, scene.speed_of(1.0), place).centrifugal or 1.0))
+    place = math.radians(33)
+    at = math.sqrt(paper.value / per_stokes_squared(scene, place))
     axes.annotate(
-        f"$Ce^*$ = {paper.text}", (at, math.degrees(place)), (-8, 0), textcoords="offset points", color=ORANGE,
+        f"paper:\n$Ce^*$ = {paper.text}", (at, math.degrees(place)), (-14, 0), textcoords="offset points", color=ORANGE,
         fontsize=7.5, ha="right", va="center",
     )  # fmt: skip
-    axes.text(0.03, 26, "S", fontsize=13, ha="center", va="center")
+    axes.text(0.03, 18, "S", fontsize=13, ha="center", va="center")
     axes.text(0.075, 62, "SRS", fontsize=13, ha="center", va="center")
     axes.text(0.17, 70, "B", fontsize=13, ha="center", va="center")
     axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)
@@ -156,7 +178,7 @@ def _dry(axes: Axes, angles: list[float], lines: list[Line], stokes: float) -> N
     )
     inset.text(0.055, 55, "SRS", fontsize=8, ha="center")
     inset.text(0.185, 40, "B", fontsize=8, ha="center")
-    inset.set(xlim=(0, _REACH), ylim=(0, 90), xticks=(0, 0.1, 0.2), yticks=(0, 30, 60, 90))
+    inset.set(xlim=(0, _REACH), ylim=(0, 90), xticks=(0.1, 0.2), yticks=(0, 30, 60, 90))
     inset.tick_params(labelsize=6, pad=1.5)
     inset.set_title("without $F_c$", fontsize=7, pad=2)
     for spine in inset.spines.values():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -83,6 +84,9 @@ def make(desk: Desk, folder: Path) -> Part:
     )
     return Part(
         "Fig. 4b: restitution",
+        "The paper speaks of a discontinuity of the slope at St*; here e_n itself jumps, at every boundary (table): a "
+        "doublet that has just passed its barrier takes up speed until rupture, and one that just meets a criterion is "
+        "sent back with what speed it still had.",
         comparisons=rows,
         pictures=(Picture("fig4b.png", caption, COLUMN),),
         tables=(_jumps(lines, curves),),
@@ -146,7 +150,7 @@ def _against_stokes(axes: Axes, curves: list[Curve]) -> None:
     ends: dict[float, tuple[float, float]] = {}  # where the last curve of an angle ended
     for curve in curves:
         place = CURVES.index(curve.angle)
-        look = {"color": _COLOURS[place], "linestyle": _STYLES[place], "zorder": 3 + place}
+        look: dict[str, Any] = {"color": _COLOURS[place], "linestyle": _STYLES[place], "zorder": 3 + place}
         last = ends.get(curve.angle, (0.0, 0.0))
         if curve.angle not in ends:
             axes.plot([0, curve.stokes[0]], [0, 0], **look, clip_on=False, label=degrees(curve.angle))

@@ -40,11 +40,11 @@ class Comparison:
 
     @property
     def verdict(self) -> str:
-        """The relative difference, and whether ours rounds to the printed digits; or yes or no."""
+        """The relative difference, and whether ours rounds to the printed digits; or, of words, whether they agree."""
         if isinstance(self.ours, str) or self.difference is None:
-            return "yes" if self.agrees else "no"
+            return "agrees" if self.agrees else "differs"
         rounded = f"{self.ours:.{self.printed.digits}f}" == self.printed.text
-        return f"{100 * self.difference:+.1f} %" + (" (rounds to it)" if rounded else "")
+        return f"{round(100 * self.difference, 1) + 0.0:+.1f} %" + (" (rounds to it)" if rounded else "")
 
     @property
     def shown(self) -> str:

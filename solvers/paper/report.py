@@ -13,7 +13,14 @@ from .parts import Comparison, Part, Table
 from .printed import CITATION, NOT_COMPARED, PRINTED
 
 _TITLE = "Wet particles, oblique collisions: the paper and this model"
-_HEAD = ("quantity", "paper", "ours", "difference", "with", "why, and what goes with it")
+_HEAD = (
+    "quantity",
+    "paper",
+    "ours",
+    "difference",
+    "with arm, log, glass; bridge or strings",
+    "why, and what goes with it",
+)
 _PER_CM = 60  # pixels on the page
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #202020; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
@@ -77,8 +84,8 @@ def _lead(parts: Sequence[Part], how: str) -> list[str]:
     if not any(part.comparisons for part in parts):
         return [how]
     read = (
-        "“With” has the choices made where the paper leaves them open; how each number moves under the others is in "
-        "the tables of variants below. “Rounds to it”: ours, rounded to the printed digits, is the printed number."
+        "“With” has the variants used where the paper leaves a choice open; how the numbers move under the others is "
+        "in the tables further down. “Rounds to it”: ours, rounded to the printed digits, is the printed number."
     )
     return [f"The paper: {CITATION}.", how, read]
 

@@ -21,7 +21,7 @@ FILLS = {"stick": "#BFDDF0", "stick-rotate-separate": "#FBE3A6", "bounce": "#F4F
 LETTERS = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B"}
 STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
 
-_RC: dict[str, Any] = {
+_RC: Any = {  # matplotlib types its keys one by one
     "font.size": 8,
     "axes.labelsize": 8.5,
     "axes.linewidth": 0.7,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _WIDTH = 17.5  # cm: the table spans both columns
 _TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm: lines with and without a fraction, headings
-_WRAP = 27  # letters of a note in a line
+_WRAP = 37  # letters of a note in a line beside no formula
 
 
 def make(desk: Desk, folder: Path) -> Part:
@@ -84,7 +84,7 @@ def _draw(lines: tuple[Equation, ...], file: Path) -> None:
                     middle = place - _height(line) / 2
                     formula = line.latex.replace(r"\frac", r"\dfrac")
                     put(left + _MARGIN, middle, f"${formula}$", fontsize=8, math_fontfamily="cm", color=INK)
-                    note = textwrap.fill(line.note, _WRAP, break_long_words=False)
+                    note = textwrap.fill(line.note, _WRAP - len(line.latex) // 8, break_long_words=False)
                     put(right, middle, note, fontsize=6.5, color=GREY, ha="right")
                     place -= _height(line)
 

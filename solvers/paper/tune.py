@@ -4,19 +4,27 @@ from __future__ import annotations
 
 import math
 
+from ..errors import ComputationError
 from ..scene import Scene
-from .desk import change_at
+from .desk import Desk, change_at
 
 _ENTRY = "liquid.glass_transition_pressure"
 _CLOSE = 1e-6  # relative, in St
 
 
-def pressure_for(scene: Scene, stokes: float) -> float:
-    """p_gt in Pa at which a head-on collision first bounces at `stokes`: secant in the logarithms."""
-    from .. import boundary
+def pressure_for(desk: Desk, scene: Scene, stokes: float) -> str:
+    """p_gt at which a head-on collision first bounces at `stokes`, in words; why not, if that fails."""
+    try:
+        return f"{_pressure(desk, scene, stokes) / 1e6:.3g} MPa"
+    except ComputationError:
+        return "a pressure that could not be computed"
+
+
+def _pressure(desk: Desk, scene: Scene, stokes: float) -> float:
+    """In Pa, by the secant method in the logarithms."""
 
     def reached(pressure: float) -> float:
-        line = boundary(scene.with_entries({_ENTRY: pressure}), angle=0.0).changes[0]
+        [line] = desk.lines(scene.with_entries({_ENTRY: pressure}), (0.0,))
         return math.log(change_at(line, "stick").stokes / stokes)
 
     pressure = scene.liquid.glass_transition_pressure

@@ -37,11 +37,10 @@ def variant(preset: str, changes: Mapping[str, Any]) -> Scene:
 
 
 def described(scene: Scene) -> str:
-    """The choices a scene makes where the paper leaves them open."""
-    said = [f"arm {scene.model.arm}", f"log {scene.model.tangential}", f"glass {scene.model.glass}"]
+    """The choices a scene makes where the paper leaves them open: arm, log and glass; bridge law or strings."""
+    said = ", ".join((scene.model.arm, scene.model.tangential, scene.model.glass))
     if scene.bridge is not None:
-        said.append(f"bridge {scene.bridge.law}")
+        said += f"; {scene.bridge.law}"
     if scene.pendulum is not None:
-        length = "" if scene.pendulum.law == "small-angle" else f"{scene.pendulum.law}, "
-        said.append(f"strings {length or 'small-angle, '}l = {scene.pendulum.length:g} m")
-    return ", ".join(said)
+        said += f"; {scene.pendulum.law} strings, l = {scene.pendulum.length:g} m"
+    return said

@@ -104,7 +104,13 @@ class Spheres:
             s_n = m * g * (r - 4 * a * math.cos(beta)) / height
             s_t = m * g * 4 * a * math.sin(beta) / height
         arm = 2 * a + x / 2 if self.scene.model.arm == "midgap" else 2 * a
-        return [u, r * omega**2 - (f_n + self.pull(x) + s_n) / m, (-(f_t + s_t) / m - 2 * u * omega) / r, f_t * arm / (3.2 * m * a * a), omega]
+        return [
+            u,
+            r * omega**2 - (f_n + self.pull(x) + s_n) / m,
+            (-(f_t + s_t) / m - 2 * u * omega) / r,
+            f_t * arm / (3.2 * m * a * a),
+            omega,
+        ]
 
     def pressure(self, y: np.ndarray) -> float:
         """Glass criterion's pressure on the axis."""

@@ -279,7 +279,7 @@ def test_closed_streams():
 
 
 def test_a_home_that_cannot_be_written(tmp_path):
-    """matplotlib then works from a temporary folder, and standard error stays clean."""
+    """Matplotlib then works from a temporary folder, and standard error stays clean."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}
     line = ["-m", "wetdoublet.solvers", "collide", "granulation", "--plot", str(tmp_path / "a.png")]
     done = subprocess.run(

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, FancyArrowPatch
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.draw import draw
 from wetdoublet.solvers.frames import frames, orientation, wetted_radius
@@ -210,3 +210,32 @@ def test_pyplot_stays_out():
         "c.plot(); assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_rupture_off_the_scale_stands_in_the_margin(collisions, figures):
+    """Where x_f is far above every gap of the flight it is named beside the last panel, where no curve comes."""
+    assert collisions["sticks later"].scene.rupture_gap > 3 * float(collisions["sticks later"].trajectory["gap"].max())
+    figure = figures["sticks later"]
+    figure.draw_without_rendering()
+    found = [(axes, text) for axes in figure.axes for text in axes.texts if "46.42" in text.get_text()]
+    ((axes, text),) = found
+    assert text.get_window_extent().x0 > axes.get_window_extent().x1
+
+
+@pytest.mark.parametrize("name", ["head-on", "escapes"])
+def test_arrows_do_not_meet(figures, name):
+    """The velocities of an approach are drawn through the centres, their tips inside their own spheres."""
+    strip = figures[name].axes[-1]
+    spheres = [patch for patch in strip.patches if patch.get_gid() == "sphere"][:2]
+    arrows = [patch for patch in strip.patches if isinstance(patch, FancyArrowPatch)][:2]
+    for sphere, arrow in zip(spheres, arrows, strict=True):
+        tail, tip = arrow._posA_posB
+        assert [(p + q) / 2 for p, q in zip(tail, tip, strict=True)] == pytest.approx(sphere.center, abs=1e-12)
+        assert math.dist(tip, sphere.center) < 0.6
+
+
+def test_short_times_have_a_prefix():
+    """A flight of picoseconds is drawn in picoseconds, not in seconds with an offset."""
+    figure = draw(collide("granulation", stokes=1e5, trajectory=True))
+    assert "time (ps)" in [panel.get_xlabel() for panel in figure.axes]
+    assert not any("e-1" in word for word in words(figure))

@@ -1,4 +1,4 @@
-"""Events at the edges: coincident ones, grazes, steps that see nothing, weak rebounds, cut-offs."""
+"""Events at the edges: coincident ones, grazes, steps that see nothing."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def test_without_elastic_constants_nothing_is_elastic(stokes: float) -> None:
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("dry", [0.99, 0.5, 0.0])
 def test_reversal_at_first_touch_with_a_bridge(engine: str, dry: float) -> None:
-    """Glass at first touch with a bridge: the doublet goes on, beyond the film, from e_dry v0 (nothing at e_dry = 0)."""
+    """Glass at first touch with a bridge: the doublet goes on, beyond the film, from e_dry v0 (0 included)."""
     scene = Scene.load("granulation").with_entries({"particles.dry_restitution": dry})
     found = collide(scene, stokes=0.3, angle="70 deg", rtol=1e-11, engine=engine)
     assert found.events[0].time == 0.0
@@ -138,16 +138,34 @@ def test_soft_spheres(times: float) -> None:
 # ---- what a step may not see
 
 
-@pytest.mark.parametrize("rtol", [1e-6, 1e-8, 1e-10, 1e-12])
-def test_out_and_back_within_a_step_is_a_separation(rtol: float) -> None:
-    """Pendulum at 55 deg, 1e-7 above St*: the doublet opens past x_f by so little that it would be back in a step."""
+@pytest.mark.parametrize(
+    ("rtol", "above"), [(1e-6, 1e-6), (1e-7, 1e-7), (1e-8, 1e-7), (1e-9, 1e-7), (1e-10, 1e-7), (1e-12, 1e-7)]
+)
+def test_out_and_back_within_a_step_is_a_separation(rtol: float, above: float) -> None:
+    """Pendulum at 55 deg, just above St*: the doublet opens past x_f by so little that it would be back in a step."""
     (starts,) = [c.values[2] for c in STARTS if c.values[0] == "pendulum" and c.values[1] == math.radians(55)]
-    found = collide("pendulum", stokes=starts["stokes"] * (1 + 1e-7), angle="55 deg", rtol=rtol)
-    if rtol < 1e-7:
-        assert found.outcome == "stick-rotate-separate"
+    found = collide("pendulum", stokes=starts["stokes"] * (1 + above), angle="55 deg", rtol=rtol)
+    assert found.outcome == "stick-rotate-separate"
+    if rtol < 1e-9:  # else an error in e_n^2 of rtol is as large as what is left of it
         # square root of the distance from the boundary, from the reference at 5e-11/2 of it
-        expected = starts["restitution_above"] * math.sqrt(1e-7 / (starts["relative_width"] / 2))
-        assert found.restitution == pytest.approx(expected, rel=0.5)
+        expected = starts["restitution_above"] * math.sqrt(above / (starts["relative_width"] / 2))
+        # the reference's boundary is known to half its width, so its distance from it to a factor of two at most
+        assert expected / math.sqrt(2) / 1.1 < found.restitution < expected * 1.1
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_what_separates_is_opening(engine: str, rtol: float) -> None:
+    """Just above a start from e_n = 0 a loose engine may miss x_f or cross it twice: e_n is never negative there."""
+    (starts,) = [c.values[2] for c in STARTS if c.values[0] == "pendulum" and c.values[1] == math.radians(55)]
+    for above in (3e-6, 1e-5, 3e-5, 1e-4):
+        found = collide("pendulum", stokes=starts["stokes"] * (1 + above), angle="55 deg", rtol=rtol, engine=engine)
+        assert found.outcome == "stick-rotate-separate"
+        assert found.restitution > 0
+        # e_n^2 grows in proportion to the distance; the reference's own is known to half its width, a factor of two
+        # at most; blurred by what CVODES is told, rtol/30
+        expected = starts["restitution_above"] ** 2 * above / (starts["relative_width"] / 2)
+        assert found.restitution**2 == pytest.approx(expected, rel=0.5, abs=rtol / 30)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -188,50 +206,3 @@ def test_beside_a_stick(name: str, angle: float, change: dict[str, Any], engine:
     ]
     assert [found.outcome for found in sides] == [change["from"], change["to"]]
     assert sides[1].reversal == change["reversal_above"]
-
-
-# ---- weak rebounds and cut-offs
-
-
-def test_chatter_rests() -> None:
-    """Rebounds that die out end as resting contact after a few reversals, and the doublet sticks."""
-    surface = Scene.load("granulation").with_entries({"model.arm": "surface"})
-    rough = Scene.load("pendulum").with_entries({"particles.roughness": "100 um"})
-    for scene, stokes, angle in ((surface, 0.05, "40 deg"), (rough, 1.0, "45 deg")):
-        found = collide(scene, stokes=stokes, angle=angle)
-        assert found.outcome == "stick"
-        assert kinds(found).count("rests") == 1
-        assert len(found.events) < 20
-
-
-def test_resting_turns_on() -> None:
-    """A resting doublet keeps its gap at the roughness while it rotates, up to a cut-off of the strings."""
-    scene = Scene.load("pendulum").with_entries({"particles.roughness": "100 um"})
-    found = collide(scene, stokes=1.0, angle="45 deg", trajectory=True)
-    assert found.trajectory is not None
-    rests = next(event.time for event in found.events if event.kind == "rests")
-    resting = found.trajectory.where(found.trajectory.phase == "resting contact", drop=True)
-    assert float(resting.time[0]) == pytest.approx(rests)
-    assert float(abs(resting.gap / 100e-6 - 1).max()) < 1e-9
-    assert not resting.opening_velocity.any()
-    assert float(resting.rotation[-1]) > float(resting.rotation[0])
-
-
-@pytest.mark.parametrize(
-    ("stokes", "angle", "kind", "variable", "value"),
-    [(0.3, 30, "rotation reverses", "rotation_rate", 0.0), (0.05, 85, "half turn", "rotation", math.pi)],
-)
-def test_cut_offs(stokes: float, angle: float, kind: str, variable: str, value: float) -> None:
-    """Strings end a stick where omega passes through zero, or where beta is pi: the last sample says so."""
-    found = collide("pendulum", stokes=stokes, angle=math.radians(angle), rtol=1e-10, trajectory=True)
-    assert (found.outcome, kinds(found)[-1]) == ("stick", kind)
-    assert found.until == found.events[-1].time
-    assert found.trajectory is not None
-    assert float(found.trajectory.time[-1]) == pytest.approx(found.until, rel=1e-14)
-    last = float(found.trajectory[variable][-1])
-    # relative to omega0 and to pi; the integration's error at 1e-10 with room
-    scale = math.pi if kind == "half turn" else float(found.trajectory.rotation_rate[0])
-    assert abs(last - value) < 1e-8 * scale
-    other = flown(found.scene, stokes, math.radians(angle))
-    assert other.events == kinds(found)
-    assert other.time == pytest.approx(found.until, rel=SAME)

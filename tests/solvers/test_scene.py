@@ -323,3 +323,41 @@ def test_junk_files_are_input_errors(text):
     with pytest.raises(InputError) as caught:
         Scene.from_toml(text)
     assert len(str(caught.value).splitlines()) == 1
+
+
+def test_an_impact_replaced_keeps_text_and_order():
+    """An impact given as text stands in the file as it was given, stokes or speed before the angle."""
+    scene = Scene.load("granulation").with_impact(angle="20deg").with_impact(speed="1 m/s")
+    assert scene.to_toml().endswith('[impact]\nspeed = "1 m/s"\nangle = "20deg"\n')
+    assert [*scene.to_dict()] == [*Scene.load("granulation").to_dict()]
+    first = Scene.from_toml(scene.to_toml().partition("[impact]")[0]).with_impact(angle=1.0, stokes=0.1)
+    assert first.to_toml().endswith('[impact]\nstokes = 0.1\nangle = "1.0 rad"\n')
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ('reduced_radius = "5 um"', 'reduced_radius: "5 um" has an unknown name, belongs in [particles]; accepted'),
+        ('density = "1 g/cm^3"', "belongs in [particles] or [liquid]; accepted"),
+        ('liquids = "1 g/cm^3"', "did you mean liquid?; accepted"),
+    ],
+)
+def test_an_entry_outside_its_table_is_told_where_it_belongs(line, says):
+    """An entry before any table names the table that it belongs in."""
+    with pytest.raises(InputError) as error:
+        Scene.from_toml(line + "\n" + Scene.load("granulation").to_toml())
+    assert says in str(error.value)
+
+
+def test_a_plain_angle_is_radians():
+    """An angle of 75 is told that plain numbers are radians; one that is wrong in degrees as well is not."""
+    with pytest.raises(InputError, match='75 is out of range: plain numbers are radians, did you mean "75 deg"'):
+        Scene.load("granulation").with_impact(angle=75)
+    with pytest.raises(InputError, match="90 is out of range; accepted"):
+        Scene.load("granulation").with_impact(angle=90)
+
+
+def test_the_other_way_of_saying_it():
+    """A radius beside the scene's reduced radius is told what to set instead; both at once stay an error."""
+    with pytest.raises(InputError, match=r"set particles\.reduced_radius here, or edit the scene file"):
+        Scene.load("granulation").with_entries({"particles.radius": "100 um"})

@@ -71,7 +71,7 @@ def test_a_stick_without_proof_says_so(collisions):
 
 
 def test_a_stick_says_where_integration_stopped(collisions):
-    """`until` is where the outcome was certain, not an event: the table says so, unless a cut-off or first touch does."""
+    """`until` is where the outcome was certain, not an event: the table says so, unless a cut-off does."""
     stick = replace(collisions["sticks later"], until=5.889e-3)
     assert "integration stopped there, 5.889 ms after first touch" in table(stick)
     for name in ("sticks at touch", "half turn", "escapes"):
@@ -160,7 +160,16 @@ def test_many_events_are_shortened(collisions):
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(0.0, "0 s"), (None, "-"), (1.5e-3, "1.5 ms"), (9.99999e-4, "1 ms"), (5e-6, "5 us"), (3e-9, "3 ns"), (1.762e-11, "17.62 ps"), (-2, "-2 s")],
+    [
+        (0.0, "0 s"),
+        (None, "-"),
+        (1.5e-3, "1.5 ms"),
+        (9.99999e-4, "1 ms"),
+        (5e-6, "5 us"),
+        (3e-9, "3 ns"),
+        (1.762e-11, "17.62 ps"),
+        (-2, "-2 s"),
+    ],
 )
 def test_prefixes(value, text):
     """A quantity takes the prefix of its rounded size; None is a dash."""

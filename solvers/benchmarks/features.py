@@ -1,0 +1,142 @@
+"""What a certificate, a ledger and a trajectory cost: switched on one at a time, as ratios to the bare collision."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import locate as locating
+from ..certificate import NoProof, Proof
+from ..compiled import compiler
+from ..model import Model
+from ..phases import Phase
+from ..scene import Scene
+from ..settings import RTOL
+from ..simulate import collide
+from .engines import engines
+from .reference import Reference
+from .tasks import Impact, Task
+
+FEATURES = ("certificate", "ledger", "trajectory")
+_CUT = 3  # stretches of a phase without an event
+HORIZON = sum(locating.FIRST_STRETCH * locating.GROWTH**k for k in range(_CUT))  # x0/v0
+
+
+class TimeCut(NoProof):
+    """No certificate: a flight without an event for HORIZON x0/v0 is given up as a stick, unproved."""
+
+    def __init__(self) -> None:
+        self._phase: Phase | None = None
+        self._asked = 0
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        """Asked where a phase starts, then after every stretch without an event."""
+        self._phase, self._asked = phase, self._asked + 1 if phase == self._phase else 0
+        return self._asked >= _CUT
+
+
+@contextmanager
+def certificate(on: bool) -> Iterator[None]:
+    """Collide with the proofs that hold for a scene, or with none."""
+    module: Any = locating  # the flight asks this module for its proof
+    usual = module.proof_for
+
+    def none(_model: Model, _p: np.ndarray, _rtol: float) -> Proof:
+        return TimeCut()
+
+    module.proof_for = usual if on else none
+    try:
+        yield
+    finally:
+        module.proof_for = usual
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Mean CPU time (s) of a collision with some features on, best of the repeats, and its ratio to none."""
+
+    task: str
+    engine: str
+    outcome: str  # "separating" or "stick"
+    collisions: int
+    on: tuple[str, ...]
+    cpu: float
+    ratio: float
+    changed: int  # outcomes that the features changed; a cut on time may take a slow separation for a stick
+
+
+Setup = tuple[str, ...]
+_SETUPS: tuple[Setup, ...] = ((), *((name,) for name in FEATURES), FEATURES)
+
+
+def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list[Cost]:
+    """The table of a task at the default tolerance."""
+    found = []
+    for outcome in ("separating", "stick"):
+        impacts = [
+            each.impact for each in references if each.counts and (each.outcome == "stick") == (outcome == "stick")
+        ]
+        if impacts:
+            for engine in ("cvodes", "rosenbrock", "rosenbrock, compiled"):
+                found += _of_engine(task, engine, outcome, impacts, repeats)
+    return found
+
+
+def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], repeats: int) -> list[Cost]:
+    """One engine's rows; the compiled one has neither ledger nor trajectory."""
+    compiled = engine == "rosenbrock, compiled"
+    if compiled and compiler() is None:
+        return []
+    setups: tuple[Setup, ...] = ((), ("certificate",)) if compiled else _SETUPS
+    provable = task.scene.pendulum is None
+    setups = tuple(each for each in setups if provable or "certificate" not in each or len(each) > 1)
+    runs = {
+        on: _compiled(task.scene, impacts) if compiled else _chained(task.scene, impacts, engine, on) for on in setups
+    }
+    best = dict.fromkeys(setups, float("inf"))
+    changed = dict.fromkeys(setups, 0)
+    for turn in range(repeats + 1):  # the first pass builds
+        for on, run in runs.items():
+            with certificate("certificate" in on):
+                start = time.process_time()
+                outcomes = run()
+                taken = time.process_time() - start
+            best[on] = min(best[on], taken) if turn else best[on]
+            changed[on] = sum((each == "stick") != (outcome == "stick") for each in outcomes)
+    return [
+        Cost(task.preset, engine, outcome, len(impacts), on, best[on] / len(impacts), best[on] / best[()], changed[on])
+        for on in setups
+    ]
+
+
+def _chained(scene: Scene, impacts: list[Impact], plugin: str, on: Setup) -> Callable[[], list[str]]:
+    def run() -> list[str]:
+        return [
+            collide(
+                scene,
+                stokes=impact.stokes,
+                angle=impact.angle,
+                rtol=RTOL,
+                engine=plugin,
+                ledger="ledger" in on,
+                trajectory="trajectory" in on,
+            ).outcome
+            for impact in impacts
+        ]
+
+    return run
+
+
+def _compiled(scene: Scene, impacts: list[Impact]) -> Callable[[], list[str]]:
+    engine = next(each for each in engines() if each.name == "rosenbrock, compiled")
+    one = engine.prepare(scene, impacts, RTOL)
+
+    def run() -> list[str]:
+        return [one(k).outcome for k in range(len(impacts))]
+
+    return run

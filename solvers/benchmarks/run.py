@@ -1,0 +1,87 @@
+"""The whole benchmark as one record: everything that `bench.json` holds and the tables and plots are made of."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from .cold import cold_start
+from .engines import Engine, engines
+from .environment import environment
+from .features import HORIZON, Cost, costs
+from .reference import Reference, references
+from .tasks import SEED, TASKS, Task
+from .work import REPEATS, TOLERANCES, Point, Tell, work
+
+Record = dict[str, Any]
+
+
+def bench(
+    tasks: Sequence[Task] = TASKS,
+    tolerances: Sequence[float] = TOLERANCES,
+    repeats: int = REPEATS,
+    cold: Callable[[], dict[str, list[float]]] = cold_start,
+    tell: Tell = lambda _: None,
+) -> Record:
+    """Run the benchmark.
+
+    Arguments:
+        cold: measures the cold start.
+        tell: is told what goes on.
+
+    Returns:
+        A record that JSON can hold: environment, settings, engines, tasks (references, points, costs), cold start.
+    """
+    start = time.perf_counter()
+    where = environment()  # the load before we add to it
+    all_engines = engines()
+    tell("cold start")
+    started = cold()
+    found = [_task(task, all_engines, tolerances, repeats, tell) for task in tasks]
+    return {
+        "environment": where,
+        "settings": {"seed": SEED, "tolerances": list(tolerances), "repeats": repeats, "horizon": HORIZON},
+        "engines": [{"name": each.name, "missing": each.missing} for each in all_engines],
+        "tasks": found,
+        "cold_start": started,
+        "wall": time.perf_counter() - start,
+    }
+
+
+def _task(task: Task, all_engines: Sequence[Engine], tolerances: Sequence[float], repeats: int, tell: Tell) -> Record:
+    tell(f"{task.preset}: reference values")
+    truths = references(task.scene, task.impacts())
+    points = work(task, truths, all_engines, tolerances, repeats, tell)
+    tell(f"{task.preset}: certificate, ledger, trajectory")
+    return {
+        "preset": task.preset,
+        "drawn": str(task),
+        "collisions": [_truth(each) for each in truths],
+        "points": [_point(each) for each in points],
+        "costs": [_cost(each) for each in costs(task, truths, repeats)],
+    }
+
+
+def _truth(truth: Reference) -> Record:
+    return {
+        "stokes": truth.impact.stokes,
+        "angle": math.degrees(truth.impact.angle),
+        "outcome": truth.outcome,
+        "restitution": truth.restitution,
+        "decided_at_first_touch": truth.decided,
+        "largest_difference": truth.difference,
+        "computed": truth.computed,
+        "problem": truth.problem,
+    }
+
+
+def _point(point: Point) -> Record:
+    runs = [asdict(run) | {"error": error} for run, error in zip(point.timed, point.errors(), strict=True)]
+    return {"engine": point.engine, "rtol": point.rtol, "summary": point.summary(), "runs": runs}
+
+
+def _cost(cost: Cost) -> Record:
+    return {name: value for name, value in asdict(cost).items() if name != "task"} | {"on": list(cost.on)}

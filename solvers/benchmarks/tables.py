@@ -1,0 +1,176 @@
+"""A benchmark's record as Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from statistics import median
+from typing import Any
+
+from .features import FEATURES
+
+BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
+
+Record = dict[str, Any]
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table whose columns also line up as text; the first is left-aligned."""
+    widths = [max(len(row[k]) for row in (head, *rows)) for k in range(len(head))]
+
+    def line(cells: Sequence[str]) -> str:
+        padded = [
+            cell.ljust(width) if k == 0 else cell.rjust(width) for k, (cell, width) in enumerate(zip(cells, widths))
+        ]
+        return "| " + " | ".join(padded) + " |"
+
+    rule = [("-" * width if k == 0 else "-" * (width - 1) + ":") for k, width in enumerate(widths)]
+    return "\n".join([line(head), line(rule), *(line(row) for row in rows)])
+
+
+def ms(seconds: float) -> str:
+    """Milliseconds with three digits."""
+    return f"{seconds * 1e3:#.3g}".removesuffix(".")
+
+
+def _error(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1e}"
+
+
+def report(record: Record) -> str:
+    """Everything, as `bench.md` and the terminal show it."""
+    parts = ["# wetdoublet bench", surroundings(record)]
+    for task in record["tasks"]:
+        parts += [f"## {task['preset']}", sample(task)]
+        if task["points"]:
+            parts += [work_table(task), equal_error(task), failures(task)]
+    parts += ["## What a feature costs", cost_table(record), cost_note(record)]
+    parts += ["## Cold start", cold_table(record)]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def surroundings(record: Record) -> str:
+    """Where and how it was run, and which engines were missing."""
+    where = record["environment"]
+    lines = [f"* {name}: {_shown(value)}" for name, value in where.items() if value is not None]
+    lines.append(f"* {record['settings']['repeats']} runs of each, the best counts; {record['wall']:.0f} s in all")
+    lines += [f"* {each['name']}: {each['missing']}" for each in record["engines"] if each["missing"]]
+    return "\n".join(lines)
+
+
+def _shown(value: Any) -> str:
+    return ", ".join(f"{each:.2f}" for each in value) if isinstance(value, list) else str(value)
+
+
+def sample(task: Record) -> str:
+    """The collisions and how well they are known."""
+    known = task["collisions"]
+    decided = sum(each["decided_at_first_touch"] for each in known)
+    counted = [each for each in known if not each["decided_at_first_touch"] and not each["problem"]]
+    apart = [each for each in counted if each["outcome"] != "stick"]
+    free = f"{task['drawn']}; {decided} are proved sticks at first touch and do not count."
+    lines = [f"{free} Of the other {len(counted)}, {len(apart)} separate."]
+    if apart:
+        names = list(apart[0]["computed"])
+        differ = {
+            name: max(abs(each["computed"][name] - each["restitution"]) for each in apart if name in each["computed"])
+            for name in names[1:]
+            if any(name in each["computed"] for each in apart)
+        }
+        against = ", ".join(f"{value:.0e} from {name}" for name, value in differ.items())
+        lines.append(f"Reference values by {names[0]} at rtol 1e-13; e_n differs by at most {against}.")
+    lines += [
+        f"St {each['stokes']:.4g} at {each['angle']:.4g} deg is left out: {each['problem']}."
+        for each in known
+        if each["problem"]
+    ]
+    return "\n".join(lines)
+
+
+def work_table(task: Record) -> str:
+    """Time and error by engine and tolerance."""
+    rows = []
+    for point in task["points"]:
+        s = point["summary"]
+        times = [ms(s[name]) for name in ("cpu_median", "cpu_mean", "cpu_total", "wall_median", "wall_total")]
+        errors = [_error(s["error_largest"]), _error(s["error_median"])]
+        rows.append([point["engine"], f"{point['rtol']:.0e}", *times, *errors, str(s["wrong"]), str(s["failed"])])
+    rows.sort(key=lambda row: [each["engine"] for each in task["points"]].index(row[0]))
+    head = ["engine", "rtol", "CPU ms: median", "mean", "total", "wall ms: median", "total"]
+    return table([*head, "error in e_n: largest", "median", "wrong", "failed"], rows)
+
+
+def equal_error(task: Record) -> str:
+    """Mean CPU time at the cheapest setting that is good enough, and its ratio to the fastest engine's."""
+    best: dict[str, dict[float, float]] = {point["engine"]: {} for point in task["points"]}
+    for point in task["points"]:
+        s = point["summary"]
+        for bound in BOUNDS:
+            if not s["wrong"] and not s["failed"] and s["error_largest"] is not None and s["error_largest"] <= bound:
+                row = best[point["engine"]]
+                row[bound] = min(row.get(bound, float("inf")), s["cpu_mean"])
+    fastest = {bound: min((row[bound] for row in best.values() if bound in row), default=0.0) for bound in BOUNDS}
+    rows = [
+        [
+            engine,
+            *(f"{ms(row[bound])} ({row[bound] / fastest[bound]:.3g})" if bound in row else "-" for bound in BOUNDS),
+        ]
+        for engine, row in best.items()
+    ]
+    title = (
+        "Mean CPU ms a collision (times the fastest), cheapest setting with all outcomes right and largest error below"
+    )
+    return f"{title}\n\n{table(['engine', *(f'{bound:.0e}' for bound in BOUNDS)], rows)}"
+
+
+def failures(task: Record) -> str:
+    """Every collision that failed or came out wrong, with what the engine said."""
+    counted = [each for each in task["collisions"] if not each["decided_at_first_touch"] and not each["problem"]]
+    lines = []
+    for point in task["points"]:
+        for run, truth in zip(point["runs"], counted, strict=True):
+            said = run["failure"] or (
+                f"{run['outcome']} instead of {truth['outcome']}" if run["outcome"] != truth["outcome"] else ""
+            )
+            if said:
+                where = f"St {truth['stokes']:.4g} at {truth['angle']:.4g} deg"
+                lines.append(f"* {point['engine']}, rtol {point['rtol']:.0e}, {where}: {said}")
+    return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else "No failures, no wrong outcomes."
+
+
+def cost_table(record: Record) -> str:
+    """CPU time of the bare collision, and ratios with the features on."""
+    rows = []
+    for task in record["tasks"]:
+        groups: dict[tuple[str, str, int], dict[tuple[str, ...], Record]] = {}
+        for cost in task["costs"]:
+            key = (cost["outcome"], cost["engine"], cost["collisions"])
+            groups.setdefault(key, {})[tuple(cost["on"])] = cost
+        for (outcome, engine, count), found in groups.items():
+            ratios = [
+                f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), FEATURES)
+            ]
+            rows.append([f"{task['preset']}, {count} {outcome}", engine, ms(found[()]["cpu"]), *ratios])
+    return table(["collisions", "engine", "bare ms", *FEATURES, "all three"], rows)
+
+
+def cost_note(record: Record) -> str:
+    """What the columns are."""
+    changed = max((cost["changed"] for task in record["tasks"] for cost in task["costs"]), default=0)
+    return (
+        "Mean CPU time at rtol 1e-9; ratios to the bare collision. Without a certificate a stick ends when nothing has "
+        f"happened for {record['settings']['horizon']:g} x0/v0, unproved; a longer wait would cost more. Strings have no "
+        "certificate; compiled integrators keep neither ledger nor trajectory. "
+        + (f"Up to {changed} outcomes of a group changed." if changed else "No outcome changed.")
+    )
+
+
+def cold_table(record: Record) -> str:
+    """Wall times of fresh processes."""
+    taken = record["cold_start"]
+    least = {name: min(times) for name, times in taken.items()}
+    base = least.get("import casadi")
+    rows = [
+        [name, f"{least[name]:.3f}", f"{median(times):.3f}", f"{least[name] / base:.2f}" if base else "-"]
+        for name, times in taken.items()
+    ]
+    return table(["process", "best s", "median s", "times import casadi"], rows)

@@ -1,0 +1,184 @@
+"""The benchmark measures what it says: peers solve the same problem, the record is complete. No time is asserted."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers import locate as locating
+from wetdoublet.solvers.benchmarks import reference as references
+from wetdoublet.solvers.benchmarks import run as running
+from wetdoublet.solvers.benchmarks.cold import COMMANDS
+from wetdoublet.solvers.benchmarks.engines import Answer, Engine, answer, engines
+from wetdoublet.solvers.benchmarks.features import HORIZON, certificate
+from wetdoublet.solvers.benchmarks.record import write
+from wetdoublet.solvers.benchmarks.reference import Reference, reference
+from wetdoublet.solvers.benchmarks.tables import equal_error, failures, report, table
+from wetdoublet.solvers.benchmarks.tasks import TASKS, Impact, Task
+from wetdoublet.solvers.benchmarks.work import work
+from wetdoublet.solvers.model import choose, load
+from wetdoublet.solvers.numbers import numbers
+
+TINY = (Task("granulation", 3, (0.02, 0.5), 85.0), Task("pendulum", 2, (1.0, 3.0), 80.0))
+
+
+@pytest.fixture(scope="module")
+def record() -> dict[str, Any]:
+    """A benchmark of six collisions at two tolerances."""
+    pytest.importorskip("scipy")
+    return running.bench(TINY, (1e-5, 1e-7), 1, lambda: {name: [0.2, 0.1] for name in COMMANDS})
+
+
+def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
+    scene = Scene.from_dict(case["scene"]).with_impact(stokes=case["impact"]["stokes"], angle=case["impact"]["angle"])
+    n = numbers(scene, *scene.need_impact())
+    return load(choose(scene, n.oblique)), n.groups
+
+
+@pytest.mark.parametrize(("method", "rtol", "within"), [("LSODA", 1e-10, 1e-7), ("Radau", 1e-7, 1e-5)])
+def test_peers_solve_the_same_problem(reference: dict[str, Any], method: str, rtol: float, within: float) -> None:
+    """Scipy's methods reach the reference's outcome, restitution and first criterion."""
+    pytest.importorskip("scipy")
+    from wetdoublet.solvers.benchmarks.peers import fly
+
+    path = fly(*_numbers(reference), rtol, method)
+    expected = reference["results"]
+    assert path.outcome == expected["outcome"]
+    if expected["outcome"] == "stick":
+        return
+    assert answer(path).restitution == pytest.approx(expected["restitution"], rel=within)
+    assert path.reversal == expected["reversal"]
+    assert path.kinds == [event["kind"] for event in expected["events"]]
+
+
+def test_reference_values_equal_the_independent_ones(reference: dict[str, Any]) -> None:
+    """What errors are measured against agrees with the 80-bit Taylor series to 1e-11, and knows its own error."""
+    pytest.importorskip("scipy")
+    impact = reference["impact"]
+    scene = Scene.from_dict(reference["scene"])
+    asked = scene.with_impact(stokes=impact["stokes"], angle=impact["angle"])
+    found = references.reference(scene, Impact(float(impact["stokes"]), asked.need_impact()[1]))
+    expected = reference["results"]
+    assert not found.problem
+    assert found.outcome == expected["outcome"]
+    assert found.restitution == pytest.approx(expected["restitution"], abs=1e-11 * max(1.0, reference["kappa"] or 1.0))
+    assert found.difference < 1e-8
+
+
+def test_a_hidden_graze_is_found_by_the_peers() -> None:
+    """A glass criterion that is met and left within one step is met: its minimum is looked for between the ends."""
+    pytest.importorskip("scipy")
+    from wetdoublet.solvers.benchmarks.peers import fly
+
+    scene = Scene.load("granulation")
+    angle = np.radians(60.0)
+    low, high = 0.03, 0.3  # stick-rotate-separate and bounce: the change between them is a graze
+    for _ in range(30):
+        middle = (low * high) ** 0.5
+        met = collide(scene, stokes=middle, angle=angle, engine="rosenbrock", ledger=False).reversal is not None
+        low, high = (low, middle) if met else (middle, high)
+    for stokes, kind in ((high * (1 + 1e-5), "glass"), (low * (1 - 1e-5), None)):
+        n = numbers(scene, scene.speed_of(stokes), angle)
+        assert fly(load(choose(scene, True)), n.groups, 1e-8, "LSODA").reversal == kind
+
+
+def test_impacts_are_the_same_in_every_run() -> None:
+    """The draw is fixed by its seed, and within its ranges."""
+    for task in TASKS:
+        impacts = task.impacts()
+        assert impacts == task.impacts()
+        assert len(impacts) == task.count
+        assert all(task.stokes[0] <= each.stokes <= task.stokes[1] for each in impacts)
+        assert all(0 <= each.angle <= np.radians(task.degrees) for each in impacts)
+
+
+def test_record_is_complete(record: dict[str, Any]) -> None:
+    """Every engine that is there, at every tolerance, on every collision that counts, without a wrong outcome."""
+    assert {"environment", "settings", "engines", "tasks", "cold_start", "wall"} == set(record)
+    assert {"date", "cpu", "cores", "system", "python", "casadi", "numpy", "scipy"} <= set(record["environment"])
+    there = [each["name"] for each in record["engines"] if not each["missing"]]
+    assert {"cvodes", "rosenbrock", "scipy LSODA", "scipy Radau"} <= set(there)
+    for task in record["tasks"]:
+        counted = [each for each in task["collisions"] if not each["decided_at_first_touch"]]
+        assert counted
+        assert [(p["engine"], p["rtol"]) for p in task["points"]] == [(n, r) for r in (1e-5, 1e-7) for n in there]
+        for point in task["points"]:
+            assert len(point["runs"]) == len(counted)
+            assert point["summary"]["wrong"] == point["summary"]["failed"] == 0
+            assert all(run["cpu"] > 0 and run["runs"] == 1 for run in point["runs"])
+        tight = [p["summary"]["error_largest"] for p in task["points"] if p["rtol"] == 1e-7]
+        assert all(error is None or error < 1e-5 for error in tight)
+        assert {tuple(cost["on"]) for cost in task["costs"]} >= {(), ("ledger",), ("trajectory",)}
+        assert all(cost["changed"] == 0 for cost in task["costs"])
+    json.dumps(record, allow_nan=False)
+
+
+def test_files_are_written(record: dict[str, Any], tmp_path: Path) -> None:
+    """JSON that reads back as the record, the tables, and two pictures."""
+    text, files = write(record, tmp_path / "new" / "folder")
+    assert sorted(file.name for file in files) == ["bench.json", "bench.md", "cost.png", "work.png"]
+    assert json.loads(files[0].read_text()) == json.loads(json.dumps(record))
+    assert files[1].read_text() == text == report(record)
+    assert all(file.read_bytes()[:4] == b"\x89PNG" for file in files[2:])
+    for word in ("scipy Radau", "certificate", "import casadi", "No failures"):
+        assert word in text
+
+
+def test_failures_and_wrong_outcomes_are_counted_and_told() -> None:
+    """An engine that fails on one collision and errs on another is measured, counted and named with both."""
+    task = TINY[1]
+    truth = [Reference(impact, "bounce", 0.5, False, 1e-13, {"DOP853": 0.5}) for impact in task.impacts()]
+
+    def prepare(*_: Any) -> Callable[[int], Answer]:
+        def one(k: int) -> Answer:
+            if k == 0:
+                raise ComputationError("gave up")
+            return Answer("stick", 0.0)
+
+        return one
+
+    (point,) = work(task, truth, [Engine("odd", prepare), Engine("gone", prepare, missing="not here")], [1e-6], 2)
+    assert point.summary()["failed"] == point.summary()["wrong"] == 1
+    assert point.errors() == [None, None]
+    entry = {"collisions": [running._truth(each) for each in truth], "points": [running._point(point)]}
+    assert "gave up" in failures(entry)
+    assert "stick instead of bounce" in failures(entry)
+    assert "odd" in equal_error(entry)
+
+
+def test_without_scipy_the_peers_are_listed_as_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No scipy: its methods say so, ours stay, and the reference is Rosenbrock's beside CVODES'."""
+    from wetdoublet.solvers.benchmarks import engines as listing
+
+    monkeypatch.setattr(listing, "find_spec", lambda _: None)
+    monkeypatch.setattr(references, "find_spec", lambda _: None)
+    missing = [each.name for each in engines() if "not installed" in each.missing]
+    assert missing == ["scipy LSODA", "scipy Radau"]
+    found = reference(Scene.load("granulation"), Impact(0.05, 1.0))
+    assert list(found.computed) == ["rosenbrock", "cvodes"]
+
+
+def test_certificate_can_be_taken_away() -> None:
+    """Without it a stick ends unproved after the stated time; afterwards it is there again."""
+    scene, impact = Scene.load("granulation"), {"stokes": 0.012, "angle": "50 deg"}
+    usual = locating.proof_for
+    with certificate(False):
+        bare = collide(scene, **impact, ledger=False)
+    assert locating.proof_for is usual
+    proved = collide(scene, **impact, ledger=False)
+    assert (bare.outcome, bare.certified) == ("stick", False)
+    assert (proved.outcome, proved.certified) == ("stick", True)
+    scale = scene.liquid.film_thickness / bare.speed
+    assert bare.until is not None
+    assert proved.until is not None
+    assert bare.until >= HORIZON * scale > proved.until
+
+
+def test_tables_line_up() -> None:
+    """A Markdown table whose columns are as wide as their widest cell."""
+    assert table(["a", "long"], [["bcd", "1"]]) == "| a   | long |\n| --- | ---: |\n| bcd |    1 |"

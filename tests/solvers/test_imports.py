@@ -1,0 +1,41 @@
+"""What a command loads: a cold start pays only for what it needs."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("sympy", "pint", "xarray", "matplotlib", "loky", "scipy")
+PROGRAM = """
+import atexit, json, sys
+atexit.register(lambda: sys.stderr.write("loaded " + json.dumps(sorted({m.split(".")[0] for m in sys.modules}))))
+from wetdoublet.solvers.cli import main
+main(sys.argv[1:])
+"""
+
+
+def loaded(*arguments: str) -> tuple[str, set[str]]:
+    """Standard output of a command in a fresh interpreter, and the packages in it at exit."""
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, *arguments], capture_output=True, text=True, check=True, timeout=120
+    )
+    return done.stdout, set(json.loads(done.stderr.partition("loaded ")[2]))
+
+
+@pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
+def test_one_collision_loads_nothing_heavy(name: str) -> None:
+    """`collide --json`: neither sympy, pint, xarray, matplotlib, loky nor scipy; the answer needs casadi and numpy."""
+    out, packages = loaded("collide", name, "--json")
+    assert json.loads(out)["outcome"] == "stick-rotate-separate"
+    assert {"casadi", "numpy", "wetdoublet"} <= packages
+    assert not packages & set(HEAVY)
+
+
+def test_an_input_error_loads_no_integrator() -> None:
+    """`scenes` integrates nothing and does not load casadi."""
+    out, packages = loaded("scenes")
+    assert "granulation" in out
+    assert not packages & {"casadi", *HEAVY}

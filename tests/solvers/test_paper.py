@@ -1,0 +1,235 @@
+"""The paper's figures and numbers: computed in the run, complete, and beside the printed ones."""
+
+from __future__ import annotations
+
+import html.parser
+import math
+import re
+import time
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from matplotlib.image import imread
+from matplotlib.mathtext import MathTextParser
+from wetdoublet.solvers.cli import cli
+from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
+from wetdoublet.solvers.paper.desk import Desk, Detail, Job, outcomes
+from wetdoublet.solvers.paper.parts import Comparison, number
+from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
+from wetdoublet.solvers.paper.variants import BRIDGED, variant
+
+COARSE = Detail(step=30.0, rounds=0, curve=12, critical=(CURVES[3],))
+FACTORS = {  # MODEL.md section 8, independent prototype: midgap, surface
+    "factor_volume": (1.038, 1.038),
+    "factor_film": (0.762, 0.778),
+    "factor_viscosity": (0.983, 0.984),
+    "factor_tension": (1.010, 1.009),
+    "factor_mass": (1.010, 1.009),
+    "factor_radius": (1.136, 1.125),
+}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Every part, coarsely drawn, in one folder with the report."""
+    folder = tmp_path_factory.mktemp("paper")
+    desk = Desk(COARSE)
+    modules = {"table1": table1, "fig1": fig1, "fig3": fig3, "fig4a": fig4a, "fig4b": fig4b, "factors": factors}
+    assert tuple(modules) == PARTS
+    parts = {name: module.make(desk, folder) for name, module in modules.items()}
+    report.write(list(parts.values()), folder, "In a test.")
+    return folder, parts, desk
+
+
+@pytest.fixture
+def compared(made):
+    """Comparisons by key."""
+    return {one.key: one for part in made[1].values() for one in part.comparisons}
+
+
+def test_nothing_failed(made):
+    """Every line that the parts asked for was traced."""
+    assert made[2].failures == []
+
+
+def test_every_printed_number_is_compared_once(made):
+    """The paper's data table and the comparisons have the same entries, each once."""
+    keys = [one.key for part in made[1].values() for one in part.comparisons]
+    assert sorted(keys) == sorted(PRINTED)
+
+
+def test_report_holds_each_number_once_and_no_nan(made):
+    """One row for each printed number, in the paper's order; nothing failed, no nan, no infinity, no code left over."""
+    for name in ("report.md", "report.html"):
+        text = (made[0] / name).read_text(encoding="utf-8")
+        assert not re.search(r"\b(nan|inf|None|failed)\b", text)
+    lines = (made[0] / "report.md").read_text(encoding="utf-8").splitlines()
+    start = lines.index("**Every number the paper prints, beside ours**")
+    rows = [line.split(" | ") for line in lines[start + 4 : start + 4 + len(PRINTED)]]
+    assert [row[0].removeprefix("| ") for row in rows] == [entry.what for entry in PRINTED.values()]
+    assert [row[1] for row in rows] == [entry.text for entry in PRINTED.values()]
+    assert lines[start + 4 + len(PRINTED)] == ""
+
+
+def test_printed_data_is_complete():
+    """Every entry says where it stands and in which words; numbers of Fig. 1 and the six factors are there."""
+    for entry in PRINTED.values():
+        assert entry.what
+        assert entry.text
+        assert entry.place
+        assert entry.quote
+    assert [PRINTED[key].text for key in factors.DOUBLED] == ["1.0", "0.79", "0.99", "1.01", "1.01", "1.13"]
+    assert [(shot.stokes, shot.interval) for shot in SHOTS] == [(1.0, 79.0), (1.3, 61.0), (1.5, 49.0)]
+
+
+def test_figure_1_has_the_papers_outcomes(compared):
+    """S, SRS and B with the preset's strings."""
+    for shot in SHOTS:
+        one = compared[f"fig1{shot.panel}"]
+        assert one.ours == shot.outcome
+        assert one.verdict == "agrees"
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("stokes_3", 1.44666), ("stokes_4", 0.115321), ("centrifugal", 4.121), ("angle_3", 60.0)]
+)
+def test_critical_numbers(compared, key, value):
+    """St* and Ce* are those of the independent prototype (MODEL.md section 8); the coarse map begins SRS at 60 deg."""
+    assert compared[key].ours == pytest.approx(value, rel=2e-4)
+
+
+def test_both_readings_of_stokes_3(compared):
+    """A criterion is met from St 1.348 on, well before the doublet escapes."""
+    assert "1.348" in compared["stokes_3"].beside
+
+
+@pytest.mark.parametrize("key", FACTORS)
+def test_factors(compared, key):
+    """Ce* factors for both arms are those of the independent prototype, and on the paper's side of 1."""
+    midgap, surface = FACTORS[key]
+    one = compared[key]
+    assert one.ours == pytest.approx(midgap, abs=6e-4)
+    assert float(re.findall(r"[\d.]+", one.beside)[0]) == pytest.approx(surface, abs=6e-4)
+    assert (one.ours > 1) == (one.printed.value >= 1)
+
+
+@pytest.mark.parametrize("key", ["dry", "two_at_15", "same_at_15", "above_one"])
+def test_findings_in_words(compared, key):
+    """Only theta0 = 0 sticks without F_c; S and B at 15 deg, as head-on; e_n > 1."""
+    assert compared[key].verdict == "agrees"
+
+
+def test_variants_are_all_there(made):
+    """Tables of variants name arm, log, glass, bridge law and string lengths, and end with the paper's numbers."""
+    for name, needed in (("fig1", "l = 1 m"), ("fig3", "small-angle strings"), ("fig4a", "mikami-log10")):
+        [table] = made[1][name].tables
+        names = [row[0] for row in table.rows]
+        assert {needed, "preset", "arm surface", "log film", "glass film-corrected"} <= set(names)
+        assert names[-1] == "paper"
+        assert {len(row) for row in table.rows} == {len(table.head)}
+
+
+def test_table_1_can_be_drawn(made):
+    """The table's formulas have every force and parse as mathtext; the LaTeX document has them all."""
+    parser = MathTextParser("path")
+    formulas = [latex for _, latex, _ in made[1]["table1"].formulas]
+    document = (made[0] / "table1.tex").read_text(encoding="utf-8")
+    for force in ("F_{L,n}", "F_{L,t}", "F_c", "F_{S,n}", "F_{S,t}"):
+        assert sum(formula.startswith(f"{force} =") for formula in formulas) == 1
+        assert force in document
+    for formula in formulas:
+        parser.parse(f"${formula}$")
+    assert document.count(r"\begin{align*}") == document.count(r"\end{align*}") > 3
+
+
+@pytest.mark.parametrize("name", ["table1", "fig1", "fig3", "fig4a", "fig4b"])
+def test_pictures_are_not_clipped(made, name):
+    """Every picture is there at print resolution, with a white margin all around."""
+    [picture] = made[1][name].pictures
+    pixels = imread(made[0] / picture.file)[..., :3]
+    assert pixels.shape[1] == pytest.approx(picture.width / 2.54 * 300, abs=2)
+    for edge in (pixels[:3], pixels[-3:], pixels[:, :3], pixels[:, -3:]):
+        assert np.all(edge == 1)
+
+
+def test_page_is_whole(made):
+    """The HTML closes what it opens, loads nothing from elsewhere, and links pictures that exist."""
+
+    class Tags(html.parser.HTMLParser):
+        void = frozenset({"meta", "img", "br"})
+
+        def __init__(self):
+            super().__init__()
+            self.open, self.images = [], []
+
+        def handle_starttag(self, tag, attrs):
+            if tag not in self.void:
+                self.open.append(tag)
+            if tag == "img":
+                self.images.append(dict(attrs))
+
+        def handle_endtag(self, tag):
+            assert self.open.pop() == tag
+
+    tags = Tags()
+    text = (made[0] / "report.html").read_text(encoding="utf-8")
+    tags.feed(text)
+    assert tags.open == []
+    assert len(tags.images) == 5
+    for image in tags.images:
+        assert (made[0] / image["src"]).is_file()
+        assert image["alt"]
+    assert "http" not in text
+
+
+def test_assumed_values_are_named(made):
+    """Entries of the presets that the paper does not print are marked, wherever a preset is used."""
+    text = (made[0] / "report.md").read_text(encoding="utf-8")
+    for assumed in ("70 GPa (assumed)", "203 GPa (assumed)", "0.5 m (assumed)"):
+        assert assumed in text
+
+
+def test_desk_traces_nothing_twice():
+    """A line that is known is not traced again, in whatever order it is asked for."""
+    desk, scene = Desk(COARSE), variant(BRIDGED, {})
+    first = desk.lines(scene, CURVES[2:4])
+    count = desk.collisions
+    start = time.perf_counter()
+    again = desk.many([Job(scene, CURVES[3:4]), Job(scene, CURVES[2:3])])
+    assert time.perf_counter() - start < 0.1
+    assert desk.collisions == count
+    assert [again[1][0], again[0][0]] == first
+    assert outcomes(first[0]) == ("stick", "stick-rotate-separate", "bounce")
+
+
+def test_comparison_says_whether_it_rounds():
+    """A relative difference, and whether ours has the printed digits; no minus zero, no nan."""
+    assert Comparison("factor_film", 0.7921, "").verdict == "+0.3 % (rounds to it)"
+    assert Comparison("factor_tension", 1.00999, "").verdict == "+0.0 % (rounds to it)"
+    assert Comparison("centrifugal", 4.121, "").verdict == "-1.9 %"
+    assert number(math.nan) == "-"
+
+
+def test_command_writes_one_part(tmp_path):
+    """`reproduce table1` makes its folder, leaves other files alone and lists what it wrote."""
+    folder = tmp_path / "new"
+    folder.mkdir()
+    (folder / "mine.txt").write_text("mine")
+    done = CliRunner().invoke(cli, ["reproduce", "table1", "--out", str(folder)], standalone_mode=False)
+    assert done.exception is None or isinstance(done.exception, SystemExit)
+    assert done.output.split() == [str(folder / name) for name in ("table1.png", "report.md", "report.html")]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "mine.txt", "report.html", "report.md", "table1.png", "table1.tex",
+    ]  # fmt: skip
+
+
+def test_command_knows_its_parts():
+    """A misspelt part names the nearest and all known ones, before anything is computed."""
+    from wetdoublet.solvers.commands.reproduce import command
+
+    with pytest.raises(
+        InputError, match=r"PART: \"fig4\" is not known, did you mean fig4[ab]\?; accepted: all, table1"
+    ):
+        command.main(["fig4"], standalone_mode=False)

@@ -1,0 +1,159 @@
+"""Interrupts, threads, failures: what a run does when something goes wrong."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide, integrators, simulate
+from wetdoublet.solvers.chain import Flown
+from wetdoublet.solvers.simulate import _compute
+
+# the command, made to collide the same spheres for ever, and to say when it has begun
+LONG = """
+import sys
+from wetdoublet.solvers import simulate
+from wetdoublet.solvers.cli import main
+once = simulate.collide
+def collide(*args, **options):
+    once(*args, **options)
+    print("begun", flush=True)
+    while True:
+        once(*args, **options)
+simulate.collide = collide
+main(["collide", "granulation", "--stokes", "0.0342316", "--angle", "55 deg", "--rtol", "1e-13"])
+"""
+IMPACTS = [(name, s, a) for name in ("granulation", "pendulum") for s in (0.03, 0.3, 1.4) for a in (0.0, 0.6, 1.1)]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are sent as on POSIX")
+@pytest.mark.parametrize("delay", [0.0, 0.05, 0.11])
+def test_interrupt(delay: float) -> None:
+    """Ctrl-C during a collision, wherever it is: exit status 130, one line, no traceback."""
+    with subprocess.Popen(
+        [sys.executable, "-c", LONG], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline() == "begun\n"
+        time.sleep(delay)
+        running.send_signal(signal.SIGINT)
+        _, said = running.communicate(timeout=30)
+    assert running.returncode == 130
+    assert said.strip() == "interrupted"
+
+
+def test_threads_give_the_serial_results() -> None:
+    """Two threads that collide at once: every result is the one of a single thread, to the bit."""
+
+    def one(impact: tuple[str, float, float]) -> dict[str, Any]:
+        name, stokes, angle = impact
+        return collide(name, stokes=stokes, angle=angle, rtol=1e-8).to_dict()
+
+    serial = [one(impact) for impact in IMPACTS]
+    with ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(one, IMPACTS * 2))
+    assert together == serial * 2
+
+
+@pytest.fixture
+def few_steps(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Integrators that are built from now on give up after three steps; none of them outlives the test."""
+    monkeypatch.setattr(integrators, "_MAX_STEPS", 3)
+    integrators.plain.cache_clear()
+    yield
+    integrators.plain.cache_clear()
+    integrators.locator.cache_clear()
+
+
+@pytest.mark.parametrize("failing", ["locator", "cvodes", "rosenbrock"])
+def test_an_engine_that_gives_up(failing: str, request: pytest.FixtureRequest) -> None:
+    """Too few steps: ComputationError with phase, time in s, state in SI, and advice, all in its one line."""
+    engine = "rosenbrock" if failing == "rosenbrock" else "cvodes"
+    integrators.locator.cache_clear()
+    if failing != "locator":
+        collide("granulation", stokes=0.03, angle="60 deg", engine=engine)  # its locators are built now
+    request.getfixturevalue("few_steps")
+    with pytest.raises(ComputationError) as caught:
+        collide("granulation", stokes=0.03, angle="60 deg", engine=engine)
+    error = caught.value
+    assert failing == "locator" or error.message.startswith(f"{engine} gave up")
+    assert error.phase == "closing inside the film"
+    assert error.time == 0.0
+    assert error.state["gap"] == pytest.approx(8e-6)  # m
+    assert error.state["opening velocity"] == pytest.approx(-Scene.load("granulation").speed_of(0.03))  # m/s
+    # v0 tan(theta0)/(4a), rad/s
+    assert error.state["rotation rate"] == pytest.approx(-error.state["opening velocity"] * math.sqrt(3) / 200e-6)
+    assert error.advice.startswith("try --engine rosenbrock" if failing == "cvodes" else "try --rtol")
+    line = str(error)
+    assert "\n" not in line
+    assert all(part in line for part in (error.phase, "gap = 8e-06", error.advice))
+
+
+@pytest.mark.parametrize("stokes", [1e300, 1e308, 1e-310, math.inf, math.nan, -1.0, 0.0])
+def test_absurd_impacts(stokes: float) -> None:
+    """A Stokes number whose groups leave a double's range, or that cannot be, is bad input and names the impact."""
+    with pytest.raises(InputError, match=r"^impact\."):
+        collide("granulation", stokes=stokes, angle=0.5)
+
+
+def test_an_open_ledger_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ledger's term off by a hundredth of the energy: the flight is refused, the residual is in the message."""
+    extra = Flown.extra
+
+    def falsified(flown: Flown, name: str) -> float:
+        return extra(flown, name) + (0.01 if name == "normal_lubrication" else 0.0)
+
+    before = collide("granulation", stokes=0.03, angle="65 deg")
+    monkeypatch.setattr(Flown, "extra", falsified)
+    with pytest.raises(ComputationError, match="energy ledger is open by"):
+        collide("granulation", stokes=0.03, angle="65 deg")
+    lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
+    assert lean.restitution == pytest.approx(before.restitution, rel=1e-7)
+
+
+def test_nothing_extra_is_integrated(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the ledger only the rotation rides along and no spin is kept; a trajectory only where asked for."""
+    flows: list[Any] = []
+
+    def watched(*args: Any) -> Any:
+        found = _compute(*args)
+        flows.append(found[2])
+        return found
+
+    monkeypatch.setattr(simulate, "_compute", watched)
+    lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
+    full = collide("granulation", stokes=0.03, angle="65 deg")
+    assert (flows[0].extras, tuple(flows[0].model.state)) == (("rotation",), ("gap", "opening", "orbit"))
+    assert set(flows[1].extras) == {"rotation", "normal_lubrication", "tangential_lubrication", "capillary"}
+    assert "spin" in flows[1].model.state
+    assert (lean.energy, lean.angular_momentum_drift) == (None, None)
+    assert lean.trajectory is None
+    assert full.trajectory is None
+    kept = collide("granulation", stokes=0.03, angle="65 deg", trajectory=True).trajectory
+    assert kept is not None
+    assert np.isfinite(kept.gap.values).all()
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        InputError("impact.angle", "91 deg", "0 <= angle < 90 deg", "is too large"),
+        ComputationError("gave up", "closing", 1e-3, {"gap": 1e-6}, "try --rtol 1e-8"),
+        CheckFailed("one of two"),
+    ],
+)
+def test_errors_pickle(error: Exception) -> None:
+    """Errors cross between processes: type, text and parts survive."""
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error)
+    assert str(again) == str(error)
+    assert vars(again) == vars(error)

@@ -1,0 +1,31 @@
+"""The Dataset of a flight."""
+
+from importlib.metadata import version
+
+import pytest
+from wetdoublet.solvers import Scene, collide
+
+
+def test_attributes_suffice_to_repeat_the_flight():
+    """The Dataset carries scene, outcome, engine, tolerance and version: enough to compute it again."""
+    first = collide("granulation", stokes=0.14, angle="40 deg", rtol=1e-8, engine="rosenbrock", trajectory=True)
+    attrs = first.trajectory.attrs
+    assert {name: attrs[name] for name in ("outcome", "engine", "rtol", "version")} == {
+        "outcome": "bounce",
+        "engine": "rosenbrock",
+        "rtol": 1e-8,
+        "version": version("wetdoublet"),
+    }
+    again = collide(Scene.from_toml(attrs["scene"]), rtol=attrs["rtol"], engine=attrs["engine"])
+    assert again.restitution == pytest.approx(first.restitution, rel=1e-12)
+    assert again == first
+
+
+def test_attributes_survive_a_file(tmp_path):
+    """They are text and numbers that NetCDF takes."""
+    import xarray
+
+    flight = collide("pendulum", trajectory=True).trajectory
+    flight.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    with xarray.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
+        assert {name: read.attrs[name] for name in flight.attrs} == flight.attrs
