@@ -86,8 +86,8 @@ class Tolerance:
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
 
-# CVODES' global error at a given tolerance is some hundred times Rosenbrock's (DESIGN.md 2; tests/benchmarks): it is
-# given a tighter one, so that rtol means about the same for both.
+# CVODES' global error at a given tolerance is 20 to 600 times Rosenbrock's (docs/performance.md): it is given a tighter
+# one, so that rtol means about the same for both.
 _CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
 
 

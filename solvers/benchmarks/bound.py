@@ -1,7 +1,7 @@
 """The emitted equations as plain numpy callables, for solvers that are called from Python.
 
-A CasADi function of (variables, parameters) with its parameters set once: a microsecond or two a call, no matrices between.
-Straight-line Python code made of the same expressions takes as long.
+A CasADi function of (variables, parameters) with its parameters set once: a microsecond or two a call, no matrices in
+between. Straight-line Python code made of the same expressions takes as long.
 """
 
 from __future__ import annotations

@@ -146,6 +146,8 @@ def cost_table(record: Record) -> str:
             key = (cost["outcome"], cost["engine"], cost["collisions"])
             groups.setdefault(key, {})[tuple(cost["on"])] = cost
         for (outcome, engine, count), found in groups.items():
+            if len(found) == 1:
+                continue  # nothing that could be switched on
             ratios = [
                 f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), FEATURES)
             ]
@@ -158,8 +160,8 @@ def cost_note(record: Record) -> str:
     changed = max((cost["changed"] for task in record["tasks"] for cost in task["costs"]), default=0)
     return (
         "Mean CPU time at rtol 1e-9; ratios to the bare collision. Without a certificate a stick ends when nothing has "
-        f"happened for {record['settings']['horizon']:g} x0/v0, unproved; a longer wait would cost more. Strings have no "
-        "certificate; compiled integrators keep neither ledger nor trajectory. "
+        f"happened for {record['settings']['horizon']:g} x0/v0, unproved; a longer wait would cost more. Strings have "
+        "no certificate; compiled integrators keep neither ledger nor trajectory. "
         + (f"Up to {changed} outcomes of a group changed." if changed else "No outcome changed.")
     )
 

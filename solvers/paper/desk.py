@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 Line = tuple["Change", ...]
 Span = tuple[float, float]  # of St
+Result = TypeVar("Result")
 
 _FEW = 12  # angles; more are shared out among the cores by `boundary` itself
 _TOP = 89.0  # degrees, the highest line of a map
@@ -92,7 +93,7 @@ class Desk:
         todo = [Job(scene, tuple(angles), span) for (scene, span), angles in wanted.items() if angles]
         small = [job for job in todo if len(job.angles) < _FEW]
         large = [job for job in todo if len(job.angles) >= _FEW]
-        for job, traced in [*((job, job.trace()) for job in large), *zip(small, _shared_out(small))]:
+        for job, traced in [*((job, job.trace()) for job in large), *zip(small, shared_out(Job.trace, small))]:
             self.collisions += traced.collisions
             self._known[job.scene, job.span] |= dict(zip(traced.angles, traced.changes))
             name = job.scene.name
@@ -149,7 +150,7 @@ def shown(read: Callable[[], float]) -> str:
         return "failed"
 
 
-def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-7) -> float:
+def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-6) -> float:
     """The Stokes number, between `low` and `high`, from which a reversal criterion is met, bisected to `rtol`."""
 
     def met(stokes: float) -> bool:
@@ -164,14 +165,14 @@ def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rto
     return math.sqrt(low * high)
 
 
-def _shared_out(jobs: Sequence[Job]) -> list[Boundaries]:
-    """Small traces, each by one core."""
-    if len(jobs) < 2:
-        return [job.trace() for job in jobs]
+def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[Result]:
+    """The function of each item, on all cores."""
+    if len(items) < 2:
+        return [function(item) for item in items]
     from loky import get_reusable_executor
 
     pool = get_reusable_executor(max_workers=os.cpu_count() or 1)
-    return list(pool.map(Job.trace, jobs))
+    return list(pool.map(function, items))
 
 
 def progress() -> Callable[[str], None]:

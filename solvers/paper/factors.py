@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..scene import Scene
-from .desk import Desk, Job, outcomes
-from .fig4a import centrifugal, per_stokes_squared
+from .desk import Desk, outcomes
+from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, Table, degrees, number
 from .printed import PRINTED
 from .style import LETTERS
@@ -24,7 +24,6 @@ DOUBLED = {
 }
 ARMS = ("midgap", "surface")
 _AT = math.radians(45)
-_AROUND = 2.0  # in St, i.e. four times in Ce
 _OUT_OF_REACH = 1e9  # times the preset's glass-transition pressure
 
 
@@ -35,7 +34,7 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
     arms = {arm: _base(arm) for arm in ARMS}
     scenes = {(arm, key): _doubled(base, entry) for arm, base in arms.items() for key, entry in DOUBLED.items()}
     scenes |= {(arm, ""): base for arm, base in arms.items()}
-    jobs = [Job(scene, (angle,), _window(scene, angle)) for scene in scenes.values() for angle in angles]
+    jobs = [near_printed(scene, angle) for scene in scenes.values() for angle in angles]
     traced = [centrifugal(line) for [line] in desk.many(jobs)]
     found = {name: traced[k * len(angles) : (k + 1) * len(angles)] for k, name in enumerate(scenes)}
     plain = {arm: found[arm, ""] for arm in arms}
@@ -60,7 +59,7 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
         "Each quantity alone is doubled; a doubled radius leaves m, x₀ and V/R³. The glass criterion is put out of "
         f"reach: with the preset's p_gt a doubled radius goes through {through} at {degrees(_AT)}. Ce* itself: "
         + "; ".join(f"{arm} arm {number(values[place])}" for arm, values in plain.items())
-        + f". The paper does not say at which angle; nearest to its six numbers together is the {_nearest(angles, factors)}.",
+        + f". The paper does not say at which angle; nearest to its six numbers is the {_nearest(angles, factors)}.",
         comparisons=rows,
         tables=[_table(arm, angles, found) for arm, found in factors.items()],
         scenes=(BRIDGED,),
@@ -75,12 +74,6 @@ def _base(arm: str) -> Scene:
 
 def _doubled(scene: Scene, entry: str) -> Scene:
     return scene.with_entries({entry: 2 * float(scene.entries[entry])})
-
-
-def _window(scene: Scene, angle: float) -> tuple[float, float]:
-    """Stokes numbers around the printed Ce*, where the boundary is looked for."""
-    middle = math.sqrt(PRINTED["centrifugal"].value / per_stokes_squared(scene, angle))
-    return middle / _AROUND, middle * _AROUND
 
 
 def _range(key: str, factors: dict[str, dict[str, list[float]]]) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..scene import Scene
 from . import regimes, tune
-from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shown
+from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shared_out, shown
 from .parts import Comparison, Part, Picture, Table, number
 from .printed import PRINTED
 from .style import ANGLE, COLUMN, GREY, STOKES, panel, sheet
@@ -83,12 +83,15 @@ def _moved(desk: Desk) -> Table:
     desk.say("fig. 3: variants")
     scenes = {name: variant(TETHERED, changes) for name, changes in STRING_VARIANTS.items()}
     traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
-    rows = []
-    for (name, scene), (head_on,) in zip(scenes.items(), traced):
-        rows.append([name, shown(partial(_met, scene, head_on)), shown(partial(_escapes, head_on))])
+    rows = shared_out(_row, [(name, scene, line) for (name, scene), [line] in zip(scenes.items(), traced)])
     rows.append(["paper", PRINTED["stokes_3"].text, ""])
     head = ["variant", "St*: a criterion is met", "St*: escapes"]
     return Table("Pendulum at θ₀ = 0: St* under the variants (head-on, arm and log have no part)", head, rows)
+
+
+def _row(case: tuple[str, Scene, Line]) -> list[str]:
+    name, scene, head_on = case
+    return [name, shown(partial(_met, scene, head_on)), shown(partial(_escapes, head_on))]
 
 
 def _draw(angles: list[float], lines: list[Line], file: Path) -> None:

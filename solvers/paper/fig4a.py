@@ -22,6 +22,7 @@ from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
 _NO_BRIDGE = "without a bridge there is no centrifugal number"
+_AROUND = 2.0  # in St, i.e. four times in Ce
 _TAIL = 1.15  # times our St*: where the lines of constant Ce end
 _AT = math.radians(45)  # where our Ce* is read
 _FIRST = 0.5  # degrees: the lowest oblique line without a bridge
@@ -81,6 +82,12 @@ def per_stokes_squared(scene: Scene, angle: float) -> float:
     return found
 
 
+def near_printed(scene: Scene, angle: float) -> Job:
+    """What traces the S/SRS boundary alone: looked for around the printed Ce*."""
+    middle = math.sqrt(PRINTED["centrifugal"].value / per_stokes_squared(scene, angle))
+    return Job(scene, (angle,), (middle / _AROUND, middle * _AROUND))
+
+
 def _compared(
     desk: Desk,
     scene: Scene,
@@ -93,6 +100,7 @@ def _compared(
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
     pressure, fitted = scene.liquid.glass_transition_pressure, tune.pressure_for(desk, scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
+    found = _spread(desk.detail.critical, criticals)
     leading = _spread(desk.detail.critical, [centrifugal(line) for line in desk.lines(surface, desk.detail.critical)])
     return (
         Comparison(
@@ -106,7 +114,7 @@ def _compared(
             "centrifugal",
             ours,
             described(scene),
-            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {_spread(desk.detail.critical, criticals)}. With the "
+            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {found}. With the "
             f"leading-order arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(
@@ -126,15 +134,13 @@ def _spread(angles: Sequence[float], values: Sequence[float]) -> str:
 def _moved(desk: Desk) -> Table:
     critical = desk.detail.critical
     scenes = {name: variant(BRIDGED, changes) for name, changes in BRIDGE_VARIANTS.items()}
-    traced = desk.many([Job(scene, (0.0, *critical)) for scene in scenes.values()])
-    rows = [
-        [
-            name,
-            shown(partial(_sticks_to, head_on)),
-            *(shown(partial(centrifugal, line)) for line in oblique),
-        ]
-        for name, (head_on, *oblique) in zip(scenes, traced)
-    ]
+    head_on = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
+    jobs = [near_printed(scene, angle) for scene in scenes.values() for angle in critical]
+    oblique = iter(desk.many(jobs))
+    rows = []
+    for name, [line] in zip(scenes, head_on):
+        cells = [shown(partial(centrifugal, *next(oblique))) for _ in critical]
+        rows.append([name, shown(partial(_sticks_to, line)), *cells])
     rows.append(["paper", PRINTED["stokes_4"].text, *(PRINTED["centrifugal"].text for _ in critical)])
     head = ["variant", "St* at 0°", *(f"Ce* at {degrees(angle)}" for angle in critical)]
     return Table("Granules: St* and Ce* under the variants", head, rows)

@@ -49,12 +49,14 @@ A point is one engine at one tolerance (1e-4 to 1e-12 in steps of 100): mean CPU
 at first touch, against the largest absolute error in e_n among those that separate.
 
 * **The same for all**: equations and Jacobian from the emitted modules, events with their rules, stop rule, stick
-  certificate with its margin, absolute tolerance, and the overhead in Python from the scene to its numbers and the
-  search for barriers. scipy's methods call CasADi functions with parameters bound once.
-* **`cvodes`, `rosenbrock`** are `collide(ledger=False)`: a located path (interpreted Rosenbrock), then the engine's own
-  flight along it. **`rosenbrock, compiled`** is what `collide_many` does: the located path alone, in C.
-  Below 1e-6 locating is not loosened, so 1e-4 and 1e-6 cost almost the same.
-* **scipy** stops at terminal events of `solve_ivp` and looks for grazing minima afterwards, on the steps taken.
+  certificate with its margin and its search for barriers, absolute tolerance, the way from a scene to its numbers.
+* **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the impact is checked, the path located
+  (by the interpreted Rosenbrock), then flown again by the engine, and a result made with its SI quantities.
+  **`rosenbrock, compiled`** is what `collide_many` does: the located path alone, in C. Locating is never looser than
+  1e-6, so that 1e-4 and 1e-6 cost almost the same.
+* **scipy's** methods call CasADi functions with parameters bound once; they have neither check of the impact nor second
+  flight to pay for.
+  They stop at terminal events of `solve_ivp` and look for grazing minima afterwards, on the steps taken.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Where an error is below the difference to
   the next best computation (grey in the plot), it cannot be told from the reference's own."""
 
@@ -72,7 +74,7 @@ def flags_table(flags: Record) -> str:
         first, inside = (base[row["task"]][name] for name in ("first_pass", "integrators"))
         rows.append(
             [
-                f"{row['task']} ({row['libraries']} libraries)",
+                f"{row['task']}, libraries: {row['libraries']}",
                 row["level"],
                 f"{row['first_pass']:.2f} ({row['first_pass'] / first:.2f})",
                 f"{ms(row['integrators'])} ({row['integrators'] / inside:.2f})",
