@@ -40,7 +40,7 @@ class Numbers:
     def in_si(self, error: ComputationError) -> ComputationError:
         """A failure in dimensionless time and state, in SI units."""
         state = dict(error.state)
-        shown = {}
+        shown: dict[str, float] = {}
         if "gap" in state:
             shown |= {"gap": state["gap"] * self.length, "opening velocity": state["opening"] * self.speed}
         if "orbit" in state:

@@ -101,7 +101,10 @@ def _compared(
     pressure, fitted = scene.liquid.glass_transition_pressure, tune.pressure_for(desk, scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
     found = _spread(desk.detail.critical, criticals)
-    leading = _spread(desk.detail.critical, [centrifugal(line) for line in desk.lines(surface, desk.detail.critical)])
+    leading = _spread(
+        desk.detail.critical,
+        [centrifugal(line) for [line] in desk.many([near_printed(surface, angle) for angle in desk.detail.critical])],
+    )
     return (
         Comparison(
             "stokes_4",
