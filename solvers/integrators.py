@@ -41,12 +41,14 @@ def quiet() -> Iterator[None]:
 
 def _call(function: Function, x0: np.ndarray, p: np.ndarray, counted: bool = False) -> np.ndarray:
     """Evaluate an integrator; its prints are dropped, its failure becomes one line; `counted` keeps its statistics."""
+    heard = io.StringIO()
     try:
-        with contextlib.redirect_stderr(io.StringIO()):
+        with contextlib.redirect_stderr(heard):
             found = function(x0=x0, p=p)["xf"].full() if counted else _buffered(function)(x0, p)
     except (RuntimeError, SystemError) as error:
-        # CasADi wraps an interrupt that arrives while it works
-        if "KeyboardInterrupt" in str(error) or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+        # CasADi wraps an interrupt that arrives while it works; CVODES swallows it and only prints it
+        said = str(error) + heard.getvalue()
+        if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
             raise KeyboardInterrupt from None
         raise IntegrationFailed(_reason(str(error))) from None
     if not np.isfinite(found).all():

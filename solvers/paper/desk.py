@@ -14,8 +14,11 @@ import numpy as np
 
 from .. import boundary
 from ..errors import ComputationError
+from ..locate import locate
+from ..model import choose, load
+from ..numbers import numbers
 from ..scene import Scene
-from ..simulate import collide
+from ..settings import RTOL
 from .parts import number
 from .printed import CURVES
 
@@ -29,7 +32,7 @@ Result = TypeVar("Result")
 
 _FEW = 12  # angles; more are shared out among the cores by `boundary` itself
 _TOP = 89.0  # degrees, the highest line of a map
-_CORNER = 0.04  # of the width of a map
+_CORNER = 0.025  # of the width of a map
 _ROUND, _BEND = 5, 2  # angles put between two whose outcomes differ, and where a boundary moves far
 
 
@@ -154,8 +157,9 @@ def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rto
     """The Stokes number, between `low` and `high`, from which a reversal criterion is met, bisected to `rtol`."""
 
     def met(stokes: float) -> bool:
-        one = collide(scene, stokes=stokes, angle=angle, engine="rosenbrock", ledger=False)
-        return one.reversal is not None
+        n = numbers(scene, scene.speed_of(stokes), angle)
+        path = locate(load(choose(scene, n.oblique)), n.groups, RTOL, machine_code=True)
+        return path.reversal is not None
 
     if met(low) or not met(high):
         raise ComputationError(f"no criterion is first met between St {low:g} and {high:g}")

@@ -22,7 +22,7 @@ from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
 _NO_BRIDGE = "without a bridge there is no centrifugal number"
-_AROUND = 2.0  # in St, i.e. four times in Ce
+_AROUND = 1.35  # in St: nearly a factor of two in Ce
 _TAIL = 1.15  # times our St*: where the lines of constant Ce end
 _AT = math.radians(45)  # where our Ce* is read
 _FIRST = 0.5  # degrees: the lowest oblique line without a bridge
