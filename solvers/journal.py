@@ -55,6 +55,18 @@ class Journal:
         self.path.unlink(missing_ok=True)
 
 
+def kept_in(path: Path) -> int:
+    """Collisions that a journal holds for the request that wrote its last whole line."""
+    sizes: dict[bytes, int] = {}
+    last = b""
+    for line in path.read_bytes().split(b"\n"):
+        key, checksum, text = [*line.split(b" ", 2), b"", b"", b""][:3]
+        if text and checksum == _checksum(text):
+            sizes[key] = sizes.get(key, 0) + len(json.loads(text)["where"])
+            last = key
+    return sizes.get(last, 0)
+
+
 def _checksum(text: bytes) -> bytes:
     return hashlib.sha256(text).hexdigest()[:16].encode()
 

@@ -157,7 +157,9 @@ def _computed(
     except KeyboardInterrupt:
         if journal is None or not journal.exists():
             raise
-        kept = f"{done[0]} of {done[1]} collisions are kept in {journal}"
+        from ..journal import kept_in
+
+        kept = f"{kept_in(journal)} of {done[1]} collisions are kept in {journal}"  # an interrupt may outrun a count
         raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
     return data
 
