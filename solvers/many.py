@@ -21,7 +21,6 @@ from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
 from .requests import QUANTITIES, Request, requested
-from .requests import checked_numbers as _numbers  # noqa: F401 # boundary.py knows it under this name
 from .scene import Scene
 from .schema import FIELDS
 from .settings import RTOL
