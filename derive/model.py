@@ -38,6 +38,8 @@ from .quantities import (
 )
 from .rates import inward_force, rates, resting_rates, turning_rate
 from .structure import Structure
+from .tethered import definitions as tether_definitions
+from .tethered import margins as tether_margins
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,8 @@ def derive(structure: Structure) -> Model:
     states = _states(structure)
     functions = _functions(structure, states)
     definitions = intermediates(structure)
+    if _tethered(structure):
+        definitions += tether_definitions()
     used = _closure(functions, definitions)
     return Model(
         structure,
@@ -86,6 +90,11 @@ def derive(structure: Structure) -> Model:
         definitions=tuple((symbol, expression) for symbol, expression in definitions if symbol in used),
         functions=functions,
     )
+
+
+def _tethered(structure: Structure) -> bool:
+    """Whether the stick proof of `tethered` is about this structure: strings that turn, and a film alone."""
+    return structure.oblique and structure.strings and not structure.bridge
 
 
 _GROUP_ORDER = (
@@ -189,6 +198,14 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             tuple(outputs(structure).items()),
         )
     )
+    if _tethered(structure):
+        functions.append(
+            ModelFunction(
+                "tethered",
+                "Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.",
+                tuple(tether_margins().items()),
+            )
+        )
     if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument
         functions.append(
             ModelFunction(

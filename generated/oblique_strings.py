@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 2ca1fa1343f985ea1186a6c74a68aeb24a172b6e016550e8dc733a935b90d9e1
+# Equations sha256 f3a01cf791d429399e062b7337c5ca807169f2c95c143da4673d3d442fc3cc9f
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -28,7 +28,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import pi, sin
+from casadi import fmax, fmin, pi, sin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -59,9 +59,10 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "tethered",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "2ca1fa1343f985ea1186a6c74a68aeb24a172b6e016550e8dc733a935b90d9e1"
+DIGEST = "f3a01cf791d429399e062b7337c5ca807169f2c95c143da4673d3d442fc3cc9f"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -338,4 +339,40 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def tethered(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.
+
+    Total operations: 67
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    glass_number = groups["glass_number"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    largest_pull = weight*(aspect + 8)*laws.strings.stiffness(string_ratio, aspect**2/4 + 4*aspect + 16)
+    fastest = sqrt(2*largest_pull + fmin(0, opening)**2)
+    reach = fmax(contact, laws.glass.reach(fastest, glass_number))
+    return {
+        "outward": aspect*largest_orbit**2*obliquity**2/(16*nearest**3),
+        "pull": weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2),
+        "film": stokes*fmax(0, opening) - laws.film.stopping(gap),
+        "recoil": dry_restitution*fastest*stokes - laws.film.stopping(reach),
     }

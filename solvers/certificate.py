@@ -2,7 +2,8 @@
 
 With a bridge (or head-on, strings): mechanical energy never increases and angular momentum is conserved, so energy
 below the barrier of the effective potential U_eff = L^2/(2 I) + W_c (+ U_s) on the far side cannot be made up for.
-Head-on with a film alone: the film's momentum integral decides.
+Head-on with a film alone: the film's momentum integral decides. On strings, turning: the strings outweigh the
+centrifugal force for good, and the film stops every rebound (derive/tethered.py).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 from casadi import SX, Function
 
 from .model import Model
-from .phases import CLOSING, Phase
+from .phases import CLOSING, Phase, tethered_margin
 
 # A proof holds by more than this many times the relative tolerance of the largest energy of the flight: an error made
 # when the motion was fastest stays in the energy, and errors accumulate over some tens of steps.
@@ -28,19 +29,24 @@ class Proof(Protocol):
     """What a flight asks of a proof. `y` is the locating state: the model's states, then the capillary work."""
 
     theorem: bool  # a stick found by it is proved, not only certain for practical purposes
-    by_energy: bool  # it may give a level, and then `y` carries the capillary work
+    watches: (
+        str | None
+    )  # what a flight watches for it (`Watch.certificate`); by "energy", `y` carries the capillary work
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        """Energy (over m v0^2) below which the doublet at `y` is proved to stick; None if energy proves nothing."""
+        """What is watched for: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the
+        relative margin of the proof on strings; None if there is nothing to watch for.
+        """
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
         """Whether the stick is proved at `y`."""
 
 
 class NoProof:
-    """No certificate: strings with rotation end by their cut-off, an oblique doublet with a film alone always parts."""
+    """No certificate: an oblique doublet with a film alone always parts; on strings none but `TetherProof` is known."""
 
-    theorem, by_energy = False, False
+    theorem = False
+    watches: str | None = None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return None
@@ -52,7 +58,8 @@ class NoProof:
 class FilmProof:
     """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
 
-    theorem, by_energy = True, False
+    theorem = True
+    watches: str | None = None
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         self.model, self.p = model, p
@@ -118,7 +125,7 @@ class BarrierProof:
     the level is lowered by what the drift can still do, and the stick is not called a theorem.
     """
 
-    by_energy = True
+    watches: str | None = "energy"
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         self.model, self.p, self.rtol = model, p, rtol
@@ -228,8 +235,32 @@ class BarrierProof:
         return float(np.sum((_WEIGHTS @ integrand) * (high - low) / 2))
 
 
+class TetherProof:
+    """Strings that turn, a film and no bridge: all but lubrication pulls inward for good (derive/tethered.py)."""
+
+    theorem = True
+    watches: str | None = "tethered"
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p, self.rtol = model, p, rtol
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return (_SAFETY + _BEYOND) * self.rtol
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return float(_tethered(self.model)(y[: len(self.model.state)], self.p, _SAFETY * self.rtol)) < 0
+
+
+@lru_cache(maxsize=64)
+def _tethered(model: Model) -> Function:
+    margin = SX.sym("margin")
+    return Function("tethered", [model.column, model.parameters, margin], [tethered_margin(model, margin)])
+
+
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
+    if model.has("tethered") and model.choice.law("arm") == "midgap":
+        return TetherProof(model, p, rtol)
     if model.oblique and (model.strings or not model.bridge):
         return NoProof()
     if model.bridge or model.strings:

@@ -96,8 +96,8 @@ class Locate:
         rupture = groups["rupture_gap"] if model.bridge else 1.0
         self.edge = float(model.laws.shear.edge(groups["aspect"])) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
-        self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.by_energy)
-        self.extras = extras + (("capillary",) if self.proof.by_energy and model.bridge else ())
+        self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
+        self.extras = extras + (("capillary",) if self.proof.watches == "energy" and model.bridge else ())
         self.path = Path(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)

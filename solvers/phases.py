@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from casadi import SX, densify, vertcat
+from casadi import SX, densify, fmax, vertcat
 
 from .model import Choice, Model, load
 
@@ -114,17 +114,18 @@ class Watch:
 
     Arguments:
         tangential_edge: the edge of the tangential force lies within reach and is not the film's own.
-        certificate: watch the energy level that proves a stick.
+        certificate: watch for the proof of a stick: "energy" below a level, or "tethered" by a margin.
     """
 
     tangential_edge: bool = False
-    certificate: bool = False
+    certificate: str | None = None
 
 
 def event_table(flow: Flow, watch: Watch, motion: SX, level: SX) -> tuple[Event, ...]:
     """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
 
-    The order is the order of precedence among coincident ones. `level` is the energy below which a stick is proved.
+    The order is the order of precedence among coincident ones. `level` is the energy below which a stick is proved, or
+    the relative margin by which the proof on strings must hold.
     """
     model, region = flow.model, flow.region
     found = model("events")
@@ -148,9 +149,20 @@ def event_table(flow: Flow, watch: Watch, motion: SX, level: SX) -> tuple[Event,
             table.append(Event("tangential_edge", found["tangential_edge"] * (1 if region.shear else -1)))
     if "half_turn" in found:
         table += [Event("half_turn", found["half_turn"]), Event("unwinding", found["unwinding"], dips=True)]
-    if watch.certificate:
+    if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
+    elif watch.certificate == "tethered":
+        table.append(Event("certified", tethered_margin(model, level)))
     return tuple(table)
+
+
+def tethered_margin(model: Model, margin: SX | float) -> SX:
+    """Negative where the proof on strings holds by the relative `margin`: the worst of its three inequalities."""
+    found = model("tethered")
+    outward, pull = found["outward"], found["pull"]
+    slack = margin * fmax(model.groups["stokes"], 1)
+    inward = outward - pull + margin * (outward + pull)
+    return fmax(inward, fmax(found["film"], found["recoil"]) + slack)
 
 
 def mechanical_energy(flow: Flow) -> SX:

@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -103,9 +103,11 @@ def _approach(model: Model, groups: dict[str, float], rtol: float) -> tuple[floa
     y, phase, p = flight.y, flight.phase, flight.p
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
+    # the proof on strings reckons with the criteria, which are left out here
+    watch = replace(flight.watch, certificate=None) if flight.watch.certificate == "tethered" else flight.watch
     for _ in range(10 * STRETCHES):
-        level = flight.proof.level(y, phase) if flight.watch.certificate else None
-        find = locator(Flow(model.choice, phase.region, flight.extras), flight.watch, flight.tolerance, True)
+        level = flight.proof.level(y, phase) if watch.certificate else None
+        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, True)
         try:
             stop = find(y, p, stretch, CLOSING, -_NEVER if level is None else level)
         except IntegrationFailed as error:

@@ -98,6 +98,8 @@ def _stuck(collision: Collision) -> str:
         return f"decided{when}, not proved: energy below the barrier"
     if scene.bridge is None and scene.pendulum is None:
         return f"proved{when}: the film stops it"
+    if scene.pendulum is not None and collision.angle > 0:
+        return f"proved{when}: the strings hold it for good (certificate)"
     return f"proved{when}: energy below the barrier (certificate)"
 
 

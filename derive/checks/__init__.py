@@ -13,6 +13,7 @@ from .dimensions import dimension_checks
 from .groups import centrifugal_number, normalisation_of_the_paper, number_of_groups
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
+from .tethered import tethered
 
 __all__ = ["Check", "symbolic_checks"]
 
@@ -28,6 +29,7 @@ def symbolic_checks() -> tuple[Check, ...]:
         reduced_is_full(),
         head_on_is_oblique_at_rest(),
         least_energy(),
+        *tethered(),
         centrifugal_number(),
         normalisation_of_the_paper(),
         number_of_groups(),

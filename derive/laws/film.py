@@ -43,6 +43,11 @@ def _resistance() -> sp.Expr:
     return sp.factor(sp.simplify(normal_force() / viscous_scale).subs(x, gap * x0))
 
 
+def _stopping() -> sp.Expr:
+    """Opening velocity that the film takes from here to its surface, over v0/St: the resistance's integral."""
+    return sp.expand(sp.integrate(sp.expand(_resistance()), (gap, gap, 1)))
+
+
 FILMS = (
     Law(
         slot="film",
@@ -55,6 +60,12 @@ FILMS = (
                 arguments=(gap,),
                 result=_resistance(),
                 doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
+            ),
+            LawFunction(
+                name="stopping",
+                arguments=(gap,),
+                result=_stopping(),
+                doc="Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.",
             ),
         ),
     ),

@@ -6,7 +6,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..quantities import a, gap, mu, u, x, x0
+from ..quantities import a, gap, glass_number, mu, u, x, x0
 from .base import Law, LawFunction
 from .film import axis_pressure
 
@@ -27,14 +27,26 @@ def _literal() -> sp.Expr:
     return sp.simplify((unbounded * x0**2 / (3 * mu * a)).subs({x: gap * x0, u: -approach}, simultaneous=True))
 
 
+def _reach(pressure: sp.Expr) -> sp.Expr:
+    """The largest gap at which an approach meets the criterion: the pressure falls along the gap."""
+    fast = sp.Symbol("approach", positive=True)
+    (farthest,) = (root for root in sp.solve(pressure.subs(approach, fast) - glass_number, gap) if root.is_positive)
+    return sp.simplify(farthest).subs(fast, approach)
+
+
 def _law(name: str, pressure: sp.Expr, meaning: str) -> Law:
-    function = LawFunction("pressure", (gap, approach), pressure, "Film pressure on the axis over 3 mu a v0/x0^2.")
+    functions = (
+        LawFunction("pressure", (gap, approach), pressure, "Film pressure on the axis over 3 mu a v0/x0^2."),
+        LawFunction(
+            "reach", (approach, glass_number), _reach(pressure), "Gap at which this approach speed meets the criterion."
+        ),
+    )
     return Law(
         "glass",
         name,
         meaning,
         "Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure",
-        (function,),
+        functions,
     )
 
 

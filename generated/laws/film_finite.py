@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 9b66da56ca31df20e0735dd2715e9031e78a2c8b43f45ddec99f1e1031fbb191
+# Equations sha256 3d470e90fe424e3706551e89983e88be0b06f2174c18d9d7b2a4581c0acff8ac
 """film law `finite`: Reynolds film of finite thickness, the same on approach and rebound (no cavitation).
 
 Source: Kantak & Davis, Powder Technol. 168, 42 (2006); derived: pressure integrated over the disc h < x0.
@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from casadi import log
+
 
 def resistance(gap: Any) -> Any:
     """Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).
@@ -16,3 +18,11 @@ def resistance(gap: Any) -> Any:
     Total operations: 3
     """
     return (gap - 1)**2/gap
+
+
+def stopping(gap: Any) -> Any:
+    """Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.
+
+    Total operations: 8
+    """
+    return 2*gap - gap**2/2 - log(gap) - 1.5

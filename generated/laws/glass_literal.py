@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 6d11af5a4eb759126b87121372f56726cdbf140445c2d2fb878fdfaea4ffa230
+# Equations sha256 cbe29fa6b784a9433b151f8a5c6c8a7a624f3bd19d59c86ae0f66c0c4662e956
 """glass law `literal`: 3 mu a |u|/x^2 as published: can fire at first touch.
 
 Source: Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure.
@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from casadi import sqrt
+
 
 def pressure(gap: Any, approach: Any) -> Any:
     """Film pressure on the axis over 3 mu a v0/x0^2.
@@ -16,3 +18,11 @@ def pressure(gap: Any, approach: Any) -> Any:
     Total operations: 2
     """
     return approach/gap**2
+
+
+def reach(approach: Any, glass_number: Any) -> Any:
+    """Gap at which this approach speed meets the criterion.
+
+    Total operations: 5
+    """
+    return sqrt(approach)/sqrt(glass_number)

@@ -1,0 +1,166 @@
+"""The stick proof on strings: each of its steps, on the emitted equations (derive/tethered.py says how they join)."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..forces import SHEAR
+from ..intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE
+from ..laws import LAWS
+from ..laws.strings import offset_squared
+from ..model import Model, derive
+from ..quantities import aspect, beta, gap, glass_number, opening, orbit, spin, stokes, string_ratio, weight
+from ..rates import rates
+from ..scaling import DISTANCE
+from ..structure import Structure
+from ..tethered import outward_at, pull_at, rigid_orbit
+from .base import Check, vanishing
+from .closed import emitted_rates, filled
+
+_TETHERED = Structure(oblique=True, bridge=False, strings=True)
+_HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
+_COS = sp.Symbol("half_angle_cosine", nonnegative=True)
+_BEYOND = sp.Symbol("beyond", nonnegative=True)  # what is left of a quantity above its least value
+
+
+def _model() -> Model:
+    return derive(_TETHERED)
+
+
+def _midgap(expression: sp.Expr) -> sp.Expr:
+    return filled(expression, {"arm": LAWS["arm"]["midgap"]})
+
+
+def momentum_falls() -> Check:
+    """dL/dt = -r S_t, and S_t has the sign of sin(beta): without the strings nothing turns the doublet."""
+    found = emitted_rates(_model())
+    total = _midgap(found[orbit] + sp.Rational(32, 5) * found[spin])
+    lever = sp.sin(beta) * sp.Function("strings.stiffness", real=True)(string_ratio, _swing())
+    share = sp.simplify(total / lever)
+    ok = bool(_positive(-share))
+    return Check(
+        "strings only take from L", "dL/dt = -r S_t <= 0 while 0 <= beta <= pi", ok, f"dL/dt ~ {share} sin(beta)"
+    )
+
+
+def _swing() -> sp.Expr:
+    return dict(_model().definitions)[offset_squared].subs(DISTANCE, 4 + aspect * gap)
+
+
+def _positive(expression: sp.Expr) -> bool | None:
+    """Whether a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
+    top, bottom = sp.fraction(sp.together(sp.expand(expression)))
+    return all(
+        all(coefficient >= 0 for coefficient in sp.Poly(part, *sorted(part.free_symbols, key=str)).coeffs())
+        if part.free_symbols
+        else part > 0
+        for part in (sp.expand(top), sp.expand(bottom))
+    )
+
+
+def orbit_is_bounded() -> Check:
+    """J falls wherever it exceeds the rigid body's share of L, and that share grows with the gap and with L."""
+    model = _model()
+    momentum = orbit + sp.Rational(32, 5) * spin
+    share = rigid_orbit(momentum, DISTANCE)
+    slip = model.expanded(orbit / DISTANCE**2 - spin).subs(DISTANCE, 4 + aspect * gap)
+    inverse = (1 / DISTANCE**2 + sp.Rational(5, 32)).subs(DISTANCE, 4 + aspect * gap)
+    identity = slip - (orbit - share.subs(DISTANCE, 4 + aspect * gap)) * inverse
+    # dJ/dt holds nothing but the shear, which has the sign of the slip, and the strings
+    log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
+    without = emitted_rates(model)[orbit].subs(log_factor, 0)
+    shear = sp.simplify((emitted_rates(model)[orbit] - without) / (SHEAR * log_factor * slip))
+    level = sp.Symbol("momentum", positive=True)
+    slope = sp.together(rigid_orbit(level, DISTANCE).diff(DISTANCE))
+    rest = vanishing("", "", [identity])
+    ok = (
+        rest.ok and bool(_positive(-shear)) and bool(_positive(slope)) and bool(_positive(rigid_orbit(level, DISTANCE)))
+    )
+    return Check(
+        "J stays below J_max",
+        "dJ/dt <= 0 where J > L r^2/(r^2 + (32/5) a^2), a share that grows with r and with L",
+        ok,
+        f"omega - xi = (J - J_rigid) ({sp.simplify(1 / DISTANCE**2 + sp.Rational(5, 32))})"
+        if ok
+        else f"left over: {rest.figure}",
+    )
+
+
+def pull_grows() -> tuple[Check, ...]:
+    """S_n grows with the gap and with the angle, for either strings."""
+    checks = []
+    for name, law in LAWS["strings"].items():
+        pull = filled(pull_at(gap, beta), {"strings": law}).subs(sp.sin(beta / 2), _HALF)
+        # 2 * stiffness'/stiffness^3 > 0 and swing' > 0, numerator' > 0: written out in d(pull)
+        stiffness = law["stiffness"].result
+        hanging = sp.Symbol("hanging", positive=True)  # string_ratio^2 - offset_squared, the strings' height squared
+        steeper = stiffness.diff(offset_squared).subs(offset_squared, string_ratio**2 - hanging)
+        swing = (aspect * gap) ** 2 / 4 + (4 + aspect * gap) * 4 * _HALF**2
+        across = sp.simplify(pull / stiffness.subs(offset_squared, swing))
+        grows = [_positive(across.diff(q)) and _positive(swing.diff(q)) for q in (gap, _HALF)]
+        ok = all(grows) and bool(_positive(across)) and sp.simplify(steeper).is_nonnegative is True
+        checks.append(
+            Check(
+                f"S_n grows, {name} strings",
+                "dS_n/dr >= 0 and dS_n/dbeta >= 0 up to beta = pi",
+                ok,
+                f"S_n ~ ({sp.factor(across / weight)}) stiffness",
+            )
+        )
+    return tuple(checks)
+
+
+def centrifugal_falls() -> Check:
+    """At a given J the centrifugal force falls with the distance."""
+    level = sp.Symbol("momentum", positive=True)
+    slope = outward_at(level, DISTANCE).diff(DISTANCE)
+    return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", bool(_positive(-slope)), f"{sp.factor(slope)}")
+
+
+def film_stops() -> Check:
+    """Opening under an inward force, u - stopping(gap)/St never grows: `stopping` is the resistance's integral."""
+    law = LAWS["film"]["finite"]
+    left = [
+        law["stopping"].result.diff(gap) + law["resistance"].result,
+        law["stopping"].result.subs(gap, 1),
+        rates(_TETHERED)[opening].coeff(FILM_FORCE) + 1,
+        rates(_TETHERED)[opening].coeff(CENTRIFUGAL_FORCE) - 1,
+        rates(_TETHERED)[opening].diff(BRIDGE_FORCE),
+        dict(_model().definitions)[FILM_FORCE].diff(opening) * stokes / sp.Symbol("film", nonnegative=True)
+        - sp.Function("film.resistance", real=True)(gap),
+    ]
+    return vanishing("the film stops", "d(u St/v0)/dx = -resistance - St (inward)/u <= -resistance", left)
+
+
+def criterion_reach() -> tuple[Check, ...]:
+    """The glass criterion is met at `reach` for a given speed, further out for a faster one, and never beyond."""
+    checks = []
+    speed = sp.Symbol("approach", positive=True)
+    for name, law in LAWS["glass"].items():
+        pressure, reach = law["pressure"], law["reach"]
+        at = reach(speed, glass_number)
+        left = sp.simplify(pressure(at, speed) - glass_number)
+        falls = sp.simplify(-pressure(gap, speed).diff(gap))
+        grows = sp.simplify(at.diff(speed))
+        ok = left == 0 and falls.is_positive is True and grows.is_positive is True
+        checks.append(
+            Check(
+                f"reach of the glass criterion, {name}",
+                "pressure(reach(u), u) = p_gt; larger for a larger u",
+                ok,
+                str(at),
+            )
+        )
+    return tuple(checks)
+
+
+def tethered() -> tuple[Check, ...]:
+    """Every step of the stick proof on strings."""
+    return (
+        momentum_falls(),
+        orbit_is_bounded(),
+        *pull_grows(),
+        centrifugal_falls(),
+        film_stops(),
+        *criterion_reach(),
+    )
