@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import sympy as sp
 
 from .forces import TANGENTIAL, force_laws, scaled_strings
@@ -13,18 +15,28 @@ from .quantities import a, aspect, gap, m, omega, omega0, orbit, r, spin
 from .scaling import DISTANCE, INERTIA, nondimensional
 from .structure import Structure
 
+if TYPE_CHECKING:
+    from .invariants import Invariant
+
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
 FILM_FORCE, BRIDGE_FORCE, SHEAR_FORCE = sp.symbols("film_force bridge_force shear_force", real=True)
 STRING_PULL, STRING_SIDEWAYS, CENTRIFUGAL_FORCE = sp.symbols("string_pull string_sideways centrifugal_force", real=True)
 LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
 
 
-def intermediates(structure: Structure) -> tuple[Definition, ...]:
-    """Every named intermediate that `structure` can use, in the order of the derivation."""
+Conserved = tuple["Invariant", sp.Expr]  # an invariant and its value at the start
+
+
+def intermediates(structure: Structure, conserved: Conserved | None = None) -> tuple[Definition, ...]:
+    """Every named intermediate that `structure` can use, in the order of the derivation.
+
+    Arguments:
+        conserved: what a reduced structure eliminates the spin with: the invariant found and its value at the start.
+    """
     laws = force_laws()
     definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
     if structure.oblique:
-        definitions += _rotation(structure.reduced)
+        definitions += _rotation(conserved)
         slip_form = _scaled(laws[F_t], TANGENTIAL)
         definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - spin, SLIP)))
         definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(m * r * omega**2 / INERTIA))))
@@ -42,16 +54,15 @@ def intermediates(structure: Structure) -> tuple[Definition, ...]:
     return tuple(definitions)
 
 
-def _rotation(reduced: bool) -> list[Definition]:
+def _rotation(conserved: Conserved | None) -> list[Definition]:
     """Orbital rate, angular momentum, the spin if it is eliminated, slip and inertia."""
     definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / omega0))]
-    momentum = nondimensional(equations_of_motion().angular_momentum / (m * a**2 * omega0))
-    if reduced:
-        # the invariant handed in: L, at its start value (4 + x0/a)^2; solved for the spin it eliminates
-        definitions.append((MOMENTUM, (4 + aspect) ** 2))
-        definitions.append((spin, sp.solve(sp.Eq(momentum, MOMENTUM), spin)[0]))
+    if conserved is not None:
+        invariant, value = conserved
+        definitions.append((MOMENTUM, value))
+        definitions.append((spin, invariant.solved(spin, MOMENTUM)))
     else:
-        definitions.append((MOMENTUM, momentum))
+        definitions.append((MOMENTUM, nondimensional(equations_of_motion().angular_momentum / (m * a**2 * omega0))))
     definitions.append((SLIP, ORBITAL_RATE - spin))
     definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (m * a**2))))
     return definitions

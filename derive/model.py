@@ -7,13 +7,15 @@ slots, definitions and functions, each with the doc it is emitted with.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import sympy as sp
 
 from .events import events, reversal, reversal_loss, start
 from .intermediates import intermediates
+from .invariants import Invariant, conserved_momentum
+from .laws import LAWS
 from .laws.base import Definition
 from .observables import angular_momentum, effective_potential, energies, energy_rates, outputs, rigid_rotation
 from .quantities import (
@@ -78,7 +80,7 @@ def derive(structure: Structure) -> Model:
     """The nondimensional model of `structure`."""
     states = _states(structure)
     functions = _functions(structure, states)
-    definitions = intermediates(structure)
+    definitions = intermediates(structure, _conserved(structure) if structure.reduced else None)
     if _tethered(structure):
         definitions += tether_definitions()
     used = _closure(functions, definitions)
@@ -101,6 +103,16 @@ _GROUP_ORDER = (
     stokes, aspect, obliquity, capillary, volume, contact_angle, weight, string_ratio,
     glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
 )  # fmt: skip
+
+
+def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
+    """The angular momentum, as found in the full equations with the arm that conserves it, and its value at the start.
+
+    Raises:
+        NoInvariantError: the full equations do not conserve it.
+    """
+    invariant = conserved_momentum(derive(replace(structure, reduced=False)), {"arm": LAWS["arm"]["midgap"]})
+    return invariant, invariant.at(start())
 
 
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:

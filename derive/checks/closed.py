@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..laws import Law, fill, slot_call
-from ..laws.base import is_slot_call
+from ..laws import slot_call
+from ..laws.base import filled, is_slot_call
 from ..model import Model
+
+__all__ = ["emitted_rates", "filled", "slope_along"]
 
 
 def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
@@ -26,12 +26,3 @@ def slope_along(energy: sp.Expr, variable: sp.Symbol) -> sp.Expr:
     for node, height in heights.items():
         slope += flat.diff(height) * slot_call("strings", "stiffness", *node.args) / 2 * node.args[1].diff(variable)
     return slope
-
-
-def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
-    """`fill` for the slots in `laws` alone; the others stay calls, i.e. hold for any law."""
-    kept: dict[sp.Basic, sp.Basic] = {}
-    for node in expression.atoms(AppliedUndef):
-        if is_slot_call(node) and node.func.__name__.split(".")[0] not in laws:
-            kept[node] = sp.Dummy(node.func.__name__.replace(".", "_"))
-    return fill(expression.xreplace(kept), laws).xreplace({dummy: node for node, dummy in kept.items()})

@@ -84,3 +84,12 @@ def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
             slot, function = node.func.__name__.split(".")
             replaced[node] = laws[slot][function](*node.args)
         expression = expression.xreplace(replaced)
+
+
+def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
+    """`fill` for the slots in `laws` alone; the others stay calls, i.e. hold for any law."""
+    kept: dict[sp.Basic, sp.Basic] = {}
+    for node in expression.atoms(AppliedUndef):
+        if is_slot_call(node) and node.func.__name__.split(".")[0] not in laws:
+            kept[node] = sp.Dummy(node.func.__name__.replace(".", "_"))
+    return fill(expression.xreplace(kept), laws).xreplace({dummy: node for node, dummy in kept.items()})
