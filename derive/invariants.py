@@ -14,6 +14,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 import sympy as sp
+from sympy.polys.matrices import DomainMatrix
 
 from .laws.base import Law, filled
 from .mechanics import equations_of_motion
@@ -110,7 +111,9 @@ def invariants(
     ansatz = [(momentum, gap**power) for momentum in momenta for power in powers]
     if not ansatz:
         return ()
-    return tuple(_normalised(ansatz, vector) for vector in _conditions(rates, ansatz).nullspace(simplify=True))
+    field = DomainMatrix.from_Matrix(_conditions(rates, ansatz)).to_field()  # exact, over the groups
+    basis = field.nullspace().rref()[0].to_Matrix()
+    return tuple(_normalised(ansatz, basis.row(index)) for index in range(basis.rows))
 
 
 def conserved_momentum(system: Model | Mapping[sp.Symbol, sp.Expr], laws: Mapping[str, Law] | None = None) -> Invariant:
@@ -140,7 +143,7 @@ def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol
         change += factor * (power.diff(gap) * plain.get(gap, sp.Integer(0)) * momentum + power * plain[momentum])
     top, _ = sp.fraction(sp.together(change))
     equations = sp.Poly(sp.expand(top), *rates, *values.values(), *_flags(change, rates, unknown)).coeffs()
-    return sp.linear_eq_to_matrix(equations, list(unknown))[0]
+    return sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
 
 
 def _flags(change: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr], unknown: Sequence[sp.Symbol]) -> list[sp.Symbol]:
@@ -168,5 +171,3 @@ def _normalised(ansatz: list[tuple[sp.Symbol, sp.Expr]], vector: sp.Matrix) -> I
         if value != 0:
             total[momentum] = total.get(momentum, sp.Integer(0)) + sp.factor(value / first) * power
     return Invariant(tuple(total.items()))
-
-

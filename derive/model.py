@@ -17,7 +17,15 @@ from .intermediates import intermediates
 from .invariants import Invariant, conserved_momentum
 from .laws import LAWS
 from .laws.base import Definition
-from .observables import angular_momentum, effective_potential, energies, energy_rates, outputs, rigid_rotation
+from .observables import (
+    angular_momentum,
+    effective_potential,
+    energies,
+    energy_rates,
+    outputs,
+    restitution_ceiling,
+    rigid_rotation,
+)
 from .quantities import (
     aspect,
     beta,
@@ -232,6 +240,15 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "rigid_rotation",
                 "The state that has this least energy: at rest in the gap, turning as one body.",
                 of_states(rigid_rotation(structure)),
+            )
+        )
+    if not structure.strings:
+        functions.append(
+            ModelFunction(
+                "restitution_ceiling",
+                "Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; "
+                "the bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.",
+                tuple(restitution_ceiling(structure).items()),
             )
         )
     return tuple(functions)

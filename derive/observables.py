@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from .events import start
 from .forces import TANGENTIAL
 from .intermediates import (
     BRIDGE_FORCE,
@@ -16,6 +17,7 @@ from .intermediates import (
     STRING_PULL,
     by_orbital_rate,
 )
+from .invariants import angular_momentum as angular_momentum_invariant
 from .laws import slot_call
 from .laws.strings import offset_squared
 from .mechanics import doublet_inertia, equations_of_motion
@@ -96,3 +98,17 @@ def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
     rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
     return {gap: gap, opening: sp.Integer(0), orbit: DISTANCE**2 * rate, spin: rate}
+
+
+def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
+    """Largest e_n^2 of a doublet without strings that parts at this gap, the bridge's work left out.
+
+    Twice the energy at the start less the least rotational energy at this gap for the L of the start.
+    """
+    at_start = {ORBITAL_RATE: start()[orbit] / DISTANCE**2, opening: start()[opening], spin: start()[spin]}
+    initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + aspect)
+    least = sp.Integer(0)
+    if structure.oblique:
+        momentum = (m * a**2 * omega0 * angular_momentum_invariant().subs(start())) ** 2
+        least = nondimensional(momentum / (2 * m * a**2) / (m * v0**2)) / INERTIA_RATIO
+    return {"squared": 2 * initial - 2 * least}

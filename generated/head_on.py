@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c6045c26a5e2a6c01a8bd12e903ff0db7a11855e195b5204857113be47a6c828
+# Equations sha256 a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5
 """Head-on doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -39,9 +39,10 @@ FUNCTIONS = (
     "outputs",
     "effective_potential",
     "rigid_rotation",
+    "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "c6045c26a5e2a6c01a8bd12e903ff0db7a11855e195b5204857113be47a6c828"
+DIGEST = "a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -187,4 +188,15 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "gap": gap,
         "opening": 0,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 0
+    """
+    return {
+        "squared": 1,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 cab9d6da3b59efced0dc437ab9305f1442ced9d438467dc1a0b4009499141504
+# Equations sha256 2cd559f275449aa65a42d0a4a5652682b7b959677bd8b8f2fe4054367edc6465
 """Head-on doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -55,9 +55,10 @@ FUNCTIONS = (
     "outputs",
     "effective_potential",
     "rigid_rotation",
+    "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "cab9d6da3b59efced0dc437ab9305f1442ced9d438467dc1a0b4009499141504"
+DIGEST = "2cd559f275449aa65a42d0a4a5652682b7b959677bd8b8f2fe4054367edc6465"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -230,4 +231,15 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "gap": gap,
         "opening": 0,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 0
+    """
+    return {
+        "squared": 1,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 34609559b3a54c159f2ce8c9e35314db9ab179465ee091bf2956702cf91ab187
+# Equations sha256 c2744abbed573e941f258457259f8acdeff24c6d678cc0ff4384639f86cc703d
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -62,9 +62,10 @@ FUNCTIONS = (
     "outputs",
     "effective_potential",
     "rigid_rotation",
+    "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "34609559b3a54c159f2ce8c9e35314db9ab179465ee091bf2956702cf91ab187"
+DIGEST = "c2744abbed573e941f258457259f8acdeff24c6d678cc0ff4384639f86cc703d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -367,4 +368,20 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "opening": 0,
         "orbit": distance**2*momentum/inertia_ratio,
         "spin": momentum/inertia_ratio,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 18
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "squared": obliquity**2*(aspect + 4)**2/16 + 1 - obliquity**2*(aspect + 4)**4/(16*inertia_ratio),
     }

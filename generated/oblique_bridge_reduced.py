@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3c55cb7b5ab0d0d0435059b789ab32f05e06093acbcb3a13a86ef48b48c9f435
+# Equations sha256 2471638297c978f414ba0c6c4bd77f2f04fba55e15bd951af0298a9e71211d56
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -60,9 +60,10 @@ FUNCTIONS = (
     "outputs",
     "effective_potential",
     "rigid_rotation",
+    "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3c55cb7b5ab0d0d0435059b789ab32f05e06093acbcb3a13a86ef48b48c9f435"
+DIGEST = "2471638297c978f414ba0c6c4bd77f2f04fba55e15bd951af0298a9e71211d56"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -334,4 +335,20 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "gap": gap,
         "opening": 0,
         "orbit": distance**2*momentum/inertia_ratio,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 18
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "squared": obliquity**2*(aspect + 4)**2/16 + 1 - obliquity**2*(aspect + 4)**4/(16*inertia_ratio),
     }

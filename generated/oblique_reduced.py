@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8388d82d77d4b31ace14c349e6d63675b1e2d9e59debaaeaf18a45a21f8d3ea6
+# Equations sha256 d0205c577f23f4804710ce0711e24dab988a41fdb475d9c183971d384367236a
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -52,9 +52,10 @@ FUNCTIONS = (
     "outputs",
     "effective_potential",
     "rigid_rotation",
+    "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "8388d82d77d4b31ace14c349e6d63675b1e2d9e59debaaeaf18a45a21f8d3ea6"
+DIGEST = "d0205c577f23f4804710ce0711e24dab988a41fdb475d9c183971d384367236a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -299,4 +300,20 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "gap": gap,
         "opening": 0,
         "orbit": distance**2*momentum/inertia_ratio,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 18
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "squared": obliquity**2*(aspect + 4)**2/16 + 1 - obliquity**2*(aspect + 4)**4/(16*inertia_ratio),
     }

@@ -1,4 +1,4 @@
-"""What must hold of the derivation: dimensions, conservation laws, limits between structures, and the groups.
+"""What must hold of the derivation: dimensions, conservation laws, signs of losses, limits, groups, and what follows.
 
 Every check works on the expressions that are emitted (or on the SI equations they come from), symbolically: a check
 that holds, holds for all values. `symbolic_checks` runs them all.
@@ -6,30 +6,68 @@ that holds, holds for all values. `symbolic_checks` runs them all.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from ..laws import LAWS, Law
+from .admission import Certificate, certificate, certificates
 from .base import Check
-from .certificate import least_energy
-from .conservation import angular_momentum, energy
+from .certificate import least_energy, least_energy_is_a_minimum
+from .conservation import energy
 from .dimensions import dimension_checks
-from .groups import centrifugal_number, normalisation_of_the_paper, number_of_groups
+from .dissipation import arms, bridge_does_work, film_dissipates, reversal_dissipates
+from .groups import (
+    centrifugal_number,
+    groups_are_the_papers,
+    groups_span_the_nullspace,
+    normalisation_of_the_paper,
+    number_of_groups,
+)
+from .laws import film_ends, head_on_closed_form, long_strings_vanish, rigid_rotation_is_free, small_angle_is_linear
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
+from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
 from .tethered import tethered
 
-__all__ = ["Check", "symbolic_checks"]
+__all__ = ["Certificate", "Check", "certificate", "symbolic_checks"]
 
 
-def symbolic_checks() -> tuple[Check, ...]:
-    """Every check, in the order of the derivation."""
+def symbolic_checks(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
+    """Every check, in the order of the derivation.
+
+    Arguments:
+        laws: slot -> law of the scene in question; what depends on a law is then checked for it alone, and for all of
+            the library's laws in a slot that is left out.
+    """
+    own = dict(laws or {})
+
+    def of(slot: str) -> list[Law]:
+        return [own[slot]] if slot in own else list(LAWS[slot].values())
+
     return (
         *dimension_checks(),
         inertia_is_rigid_rotation(),
-        *strings_are_conservative(),
-        *angular_momentum(),
+        *strings_are_conservative(of("strings")),
         *energy(),
+        *arms(of("arm"), of("shear")),
+        *(film_dissipates(law) for law in of("film")),
+        bridge_does_work(),
+        *reversal_dissipates(),
         reduced_is_full(),
         head_on_is_oblique_at_rest(),
+        *head_on_closed_form(of("film")),
+        rigid_rotation_is_free(),
+        *film_ends(of("film"), of("shear")),
+        *long_strings_vanish(of("strings")),
+        small_angle_is_linear(),
+        decomposition(),
+        ceiling_is_the_published(),
+        rotation_can_be_released(),
         least_energy(),
+        least_energy_is_a_minimum(),
         *tethered(),
+        *certificates(own),
+        groups_span_the_nullspace(),
+        groups_are_the_papers(),
         centrifugal_number(),
         normalisation_of_the_paper(),
         number_of_groups(),

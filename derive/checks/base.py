@@ -6,27 +6,47 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..quantities import VOCABULARY
+
 
 @dataclass(frozen=True)
 class Check:
-    """A statement about the derivation, whether it holds, and what was found."""
+    """A statement about the derivation, whether it holds (None: reported, held to nothing), and what was found."""
 
     name: str
     statement: str
-    ok: bool
+    ok: bool | None
     figure: str
 
 
-def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "") -> Check:
-    """A check that every expression of `left` vanishes identically; the first that does not is the figure."""
-    rest = [value for value in map(_settled, left) if value != 0]
+def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", *, holds: bool | None = True) -> Check:
+    """A check that every expression of `left` vanishes identically; the first that does not is the figure.
+
+    Arguments:
+        holds: what `ok` is if they do; None for a known violation, which is reported and held to nothing.
+    """
+    rest = [value for value in map(settled, left) if value != 0]
     shown = figure or (f"{len(left)} identities" if len(left) > 1 else "identity")
-    return Check(name, statement, not rest, f"left over: {rest[0]}" if rest else shown)
+    return Check(name, statement, False if rest else holds, f"left over: {readable(rest[0])}" if rest else shown)
 
 
-def _settled(expression: sp.Expr) -> sp.Expr:
+def settled(expression: sp.Expr) -> sp.Expr:
     """Zero if the expression vanishes identically: expanded, and simplified only where that is not enough."""
     quick = sp.expand(expression)
     if quick == 0:
         return quick
     return sp.simplify(sp.factor(quick))
+
+
+def readable(expression: sp.Expr) -> str:
+    """The expression as text, its quantities under the literature's symbols instead of their full names."""
+    short = {
+        quantity.symbol: sp.Symbol(_plain(quantity.latex))
+        for name, quantity in VOCABULARY.items()
+        if quantity.symbol in expression.free_symbols and any(quantity.dimension.exponents)
+    }
+    return str(expression.xreplace(short))
+
+
+def _plain(latex: str) -> str:
+    return latex.replace("\\", "").replace("_", "").replace("{", "").replace("}", "").replace(",", "")

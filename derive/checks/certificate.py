@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
+from ..invariants import conserved_momentum
+from ..laws import LAWS
 from ..model import derive
 from ..quantities import aspect, gap, obliquity, opening, orbit, spin
 from ..structure import structures
@@ -38,3 +42,39 @@ def least_energy() -> Check:
             change += model.expanded(work) / opening
         left += [value - expected, slope - change]
     return vanishing("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L", left)
+
+
+def least_energy_is_a_minimum() -> Check:
+    """At fixed gap and L the energy T + W_c (+ U_s) is least in rigid rotation: stationary, convex, and of that value.
+
+    T alone depends on the velocities; its gradient over (u, orbit), with the spin that L leaves, vanishes at
+    `rigid_rotation`, its Hessian is positive definite there and everywhere, and its value is the emitted energy's.
+    """
+    left: list[sp.Expr] = []
+    convex = True
+    tangent, momentum = sp.symbols("tangent L", positive=True)
+    for structure in structures():
+        if structure.reduced or structure.strings:
+            continue  # the strings' energy holds no velocity; the reduced form is the full one (`reduced form`)
+        model = derive(structure)
+        kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"]).subs(obliquity, tangent)
+        least = model.expanded(dict(model["effective_potential"].outputs)["energy"]).subs(obliquity, tangent)
+        at_least = {s: model.expanded(dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states}
+        velocities = [opening]
+        if structure.oblique:
+            velocities.append(orbit)
+            left_over = {spin: conserved_momentum(model, {"arm": LAWS["arm"]["midgap"]}).solved(spin, momentum)}
+            kinetic, least = kinetic.subs(left_over), sp.factor(least.subs(left_over))
+            at_least = {s: sp.factor(value.subs(left_over)) for s, value in at_least.items() if s != spin}
+        gradient = [kinetic.diff(velocity).subs(at_least) for velocity in velocities]
+        left += [*gradient, kinetic.subs(at_least) - least]
+        hessian = sp.hessian(kinetic, velocities)
+        minors = [sp.factor(hessian[:k, :k].det()) for k in range(1, len(velocities) + 1)]
+        convex &= all(minor.is_positive for minor in minors)
+    found = vanishing(
+        "least energy at fixed L",
+        "min over (u, omega, xi) of T at fixed L and x is L^2/(2 I(x)), in rigid rotation: stationary and convex",
+        left,
+        "gradient zero, Hessian positive definite, value as emitted",
+    )
+    return found if convex else replace(found, ok=False, figure="the Hessian is not positive definite")

@@ -1,4 +1,4 @@
-"""Conservation: angular momentum and energy along the emitted equations, for all laws."""
+"""Conservation: energy along the emitted equations, for all laws; the rate of angular momentum for a chosen arm."""
 
 from __future__ import annotations
 
@@ -6,49 +6,20 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from ..forces import force_laws
-from ..laws import LAWS, Law, strings
-from ..mechanics import F_t
+from ..laws import Law, strings
 from ..model import derive
-from ..quantities import a, m, omega0, orbit, spin, v0, x, x0
-from ..scaling import nondimensional
+from ..quantities import orbit, spin
 from ..structure import Structure, structures
 from .base import Check, vanishing
 from .closed import emitted_rates, filled, slope_along
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
-_FREE_SPINNING = tuple(s for s in _FULL if s.oblique and not s.strings)  # where nothing exerts a torque
 
 
 def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
     """d/dtau of orbit + (32/5) spin, the angular momentum over m a^2 omega0, along the emitted right-hand side."""
     rates = emitted_rates(derive(structure))
     return sp.factor(sp.expand(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], laws)))
-
-
-def angular_momentum() -> tuple[Check, ...]:
-    """Without strings the midgap arm conserves L identically; the surface arm loses x F_t."""
-    arms = LAWS["arm"]
-    conserved, surface = [], []
-    for structure in _FREE_SPINNING:
-        conserved.append(momentum_rate(structure, {"arm": arms["midgap"]}))
-        for name in LAWS["shear"]:
-            tangential = {"shear": LAWS["shear"][name]}
-            conserved.append(momentum_rate(structure, {"arm": arms["midgap"], **tangential}))
-            lost = nondimensional(-x * force_laws()[F_t] * x0 / (v0 * m * a**2 * omega0))
-            found = momentum_rate(structure, {"arm": arms["surface"], **tangential})
-            surface.append(found - derive(structure).expanded(filled(lost, tangential)))
-    return (
-        vanishing(
-            "angular momentum, midgap arm", "dL/dt = 0 without strings, for every tangential and bridge law", conserved
-        ),
-        vanishing(
-            "angular momentum, surface arm",
-            "dL/dt = -x F_t without strings",
-            surface,
-            "dL/dt = -x F_t: a known violation of the leading-order arm",
-        ),
-    )
 
 
 def energy_balance(structure: Structure) -> sp.Expr:

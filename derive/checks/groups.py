@@ -10,17 +10,30 @@ from ..quantities import (
     aspect,
     capillary,
     centrifugal,
+    m,
+    mu,
     obliquity,
     omega,
     omega0,
+    sigma,
     stokes,
+    theta0,
     u,
+    v0,
     x,
+    x0,
     xi,
 )
 from ..quantities import t as time
-from ..scaling import centrifugal_identity, dimension_matrix, group_definitions, paper_normalisation
-from .base import Check, vanishing
+from ..scaling import (
+    centrifugal_identity,
+    dimension_matrix,
+    exponents,
+    group_definitions,
+    paper_normalisation,
+    pi_groups,
+)
+from .base import Check, readable, vanishing
 
 
 def centrifugal_number() -> Check:
@@ -55,3 +68,35 @@ def number_of_groups() -> Check:
     left = [sp.Integer(found - (len(given) - rank)), *(dimensions * powers.T)]
     statement = "groups = dimensional quantities - rank of their dimension matrix (density included)"
     return vanishing("number of groups", statement, left, f"{found} = {len(given)} - {rank}")
+
+
+def groups_span_the_nullspace() -> Check:
+    """St, Ca and Ce out of the nullspace: each a combination of the dimensionless monomials of its quantities."""
+    left, shown = [], []
+    for group, label in ((stokes, "St"), (capillary, "Ca"), (centrifugal, "Ce")):
+        definition = group_definitions()[group]
+        used = [
+            q.symbol for q in VOCABULARY.values() if q.symbol in definition.free_symbols and any(q.dimension.exponents)
+        ]
+        powers = sp.Matrix([sp.simplify(definition.diff(s) * s / definition) for s in used])
+        monomials = pi_groups(used)
+        basis = (
+            sp.Matrix.hstack(*(exponents(each, used) for each in monomials)) if monomials else sp.zeros(len(used), 1)
+        )
+        left.append(sp.Integer(sp.Matrix.hstack(basis, powers).rank() - len(monomials)))
+        factor = sp.simplify(definition / sp.prod([s**power for s, power in zip(used, powers, strict=True)]))
+        shown.append(f"{label} = {readable(factor)} times one of {len(monomials)}")
+    return vanishing("St, Ca, Ce", "each in the span of the nullspace of its dimension matrix", left, "; ".join(shown))
+
+
+def groups_are_the_papers() -> Check:
+    """St, Ca and Ce as ratios of terms are the paper's numbers, Ce with omega0 = v0 tan(theta0)/(4a)."""
+    expected = {
+        stokes: m * v0 / (6 * sp.pi * mu * a**2),
+        capillary: 3 * mu * a * v0 / (sigma * x0),
+        centrifugal: m * (v0 * sp.tan(theta0) / (4 * a)) ** 2 / sigma,
+    }
+    left = [group_definitions()[group] - value for group, value in expected.items()]
+    return vanishing(
+        "paper's groups", "St = m v0/(6 pi mu a^2), Ca = 3 mu a v0/(sigma x0), Ce = m omega0^2/sigma", left
+    )

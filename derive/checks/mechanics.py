@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import sympy as sp
 
 from ..forces import force_laws
-from ..laws import LAWS, strings
+from ..laws import LAWS, Law, strings
 from ..mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
-from ..quantities import a, beta, m, omega, r, u, x, xi
+from ..quantities import a, beta, g, l_s, m, omega, r, u, x, xi
 from .base import Check, vanishing
 from .closed import filled
 
@@ -22,18 +24,27 @@ def inertia_is_rigid_rotation() -> Check:
     )
 
 
-def strings_are_conservative() -> tuple[Check, ...]:
-    """The strings' forces are minus the gradient of their potential, and `stiffness` twice the slope of `rise`."""
+def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
+    """The strings' forces are minus the gradient of their potential, and `stiffness` twice the slope of `rise`.
+
+    The potential is that of `rise`, 4 m g a for either sphere; for the library's laws also the one they come from.
+    """
     checks = []
     forces = force_laws()
-    for name, law in LAWS["strings"].items():
-        normal, sideways = string_forces(strings.potential(name == "small-angle"), strings.r, beta)
-        pairs = ((S_n, normal), (S_t, sideways))
-        left = [
-            sp.simplify(filled(forces[force], {"strings": law}) - expected.subs(strings.r, r))
-            for force, expected in pairs
-        ]
+    swing = strings.swing_squared() / a**2
+    for law in laws:
         rise, stiffness = law["rise"], law["stiffness"]
-        left.append(sp.simplify(2 * rise.result.diff(strings.offset_squared) - stiffness.result))
-        checks.append(vanishing(f"strings: {name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left))
+        potentials = [4 * m * g * a * rise(l_s / a, swing)]
+        if LAWS["strings"].get(law.name) is law:
+            potentials.append(strings.potential(law.name == "small-angle"))
+        left = []
+        for potential in potentials:
+            normal, sideways = string_forces(potential, strings.r, beta)
+            left += [
+                sp.simplify(filled(forces[force], {"strings": law}) - expected.subs(strings.r, r))
+                for force, expected in ((S_n, normal), (S_t, sideways))
+            ]
+        arguments = rise.arguments
+        left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
+        checks.append(vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left))
     return tuple(checks)

@@ -1,0 +1,125 @@
+"""Which stick certificate a model admits: its preconditions, each computed, and why there is none where one fails."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..invariants import invariants
+from ..laws import LAWS, Law
+from ..model import derive
+from ..quantities import gap
+from ..structure import Structure, structures
+from .base import Check, readable
+from .dissipation import (
+    bridge_does_work,
+    conserves,
+    film_dissipates,
+    indefinite_shear,
+    reversal_dissipates,
+    shear_dissipates,
+    torque,
+)
+from .mechanics import strings_are_conservative
+
+_DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A proof that a doublet never separates, as far as the model has one.
+
+    Arguments:
+        structure: of the model.
+        argument: the proof, or "" if there is none.
+        held: preconditions that were computed and hold.
+        against: why there is no proof, empty if there is one.
+    """
+
+    structure: Structure
+    argument: str
+    held: tuple[str, ...]
+    against: tuple[str, ...]
+
+    @property
+    def admitted(self) -> bool:
+        return not self.against
+
+    def describe(self) -> str:
+        return self.argument if self.admitted else "none: " + "; ".join(self.against)
+
+
+def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> Certificate:
+    """The certificate of a structure with these laws (slot -> law; where left out, the default).
+
+    Its preconditions: solids, film and shear take energy and give none; bridge and strings have a potential; the
+    angular momentum, if there is any, is among the invariants found; and the potential has a barrier to stay behind.
+    """
+    chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
+    checks = [film_dissipates(chosen["film"]), reversal_dissipates()[1]]
+    if structure.bridge:
+        checks.append(bridge_does_work())
+    if structure.strings:
+        checks += strings_are_conservative([chosen["strings"]])
+    held, against = [], []
+    if structure.oblique:
+        _rotation(structure, chosen, checks, held, against)
+    held += [f"{check.name} ({check.statement})" for check in checks if check.ok]
+    against += [f"{check.name}: {check.figure}" for check in checks if not check.ok]
+    if not _has_barrier(structure):
+        against.append("no barrier: L^2/(2 I) falls with the gap and nothing attracts, an oblique doublet always parts")
+    return Certificate(structure, _argument(structure), tuple(held), tuple(against))
+
+
+def _rotation(
+    structure: Structure, laws: Mapping[str, Law], checks: list[Check], held: list[str], against: list[str]
+) -> None:
+    """Whether angular momentum is conserved, and whether the shear takes energy."""
+    lever, shear = laws["arm"], laws["shear"]
+    found = [each.describe() for each in invariants(derive(structure), {"arm": lever}) if each.is_angular_momentum]
+    held += [f"conserved: {text}" for text in found]
+    if not found and structure.strings:
+        against.append("strings exert a torque: dL/dt = -r S_t, so no least energy at fixed L")
+    if conserves(lever):
+        checks.append(shear_dissipates(shear, lever))
+    else:
+        against.append(f"{lever.name} arm: L not conserved, dL/dt = {readable(torque(lever))}")
+        against.append(f"D_t indefinite, {indefinite_shear(shear, lever).figure}")
+
+
+def _has_barrier(structure: Structure) -> bool:
+    """Whether the least energy can rise with the gap: it cannot where its slope is the centrifugal term alone."""
+    model = derive(structure)
+    if structure.strings or not structure.oblique:
+        return True  # head-on with a film alone needs none: the film's momentum integral decides
+    slope = model.expanded(dict(model["effective_potential"].outputs)["slope"])
+    start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states if s != gap}
+    return not sp.factor(-slope.subs(start)).is_nonnegative
+
+
+def _argument(structure: Structure) -> str:
+    if not (structure.oblique or structure.bridge or structure.strings):
+        return "momentum: the film's integral up to its rim, u - Lf(s)/St < 0, stops the opening"
+    parts = ["L^2/(2 I(x))"] * structure.oblique + ["W_c(x)"] * structure.bridge + ["U_s(x)"] * structure.strings
+    return f"energy below the barrier ahead of U_eff = {' + '.join(parts)}, which no loss can make up for"
+
+
+def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
+    """The certificate of every structure, for each arm in question; a model without one is a note that says why."""
+    checks = []
+    for structure in structures():
+        if structure.reduced:
+            continue
+        levers: Iterable[Law] = [LAWS["arm"]["midgap"]]
+        if structure.oblique and not structure.strings and structure.bridge:
+            levers = [laws["arm"]] if laws and "arm" in laws else LAWS["arm"].values()
+        for lever in levers:
+            found = certificate(structure, {**(laws or {}), "arm": lever})
+            suffix = f", {lever.name} arm" if structure.oblique and structure.bridge and not structure.strings else ""
+            statement = "; ".join(found.held) or "which proof of a stick the model admits"
+            checks.append(
+                Check(f"certificate: {structure.name}{suffix}", statement, found.admitted or None, found.describe())
+            )
+    return tuple(checks)

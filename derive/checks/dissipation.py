@@ -1,0 +1,182 @@
+"""Dissipation, term by term: what film, shear and solids take is shown not to be negative, what the bridge takes a work.
+
+The arm of the tangential force decides two things at once. Its torque on the doublet is F_t (2 arm - r), and the
+shear's power F_t (r omega - 2 arm xi) with F_t ~ omega - xi vanishes at xi = omega and at xi = omega r/(2 arm): it is
+a square, and L conserved, only where arm = r/2. An arm that is not is told the range where the shear gives energy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..forces import SHEAR, force_laws
+from ..intermediates import BRIDGE_FORCE, ORBITAL_RATE
+from ..invariants import Invariant, invariants
+from ..laws import Law
+from ..laws.base import filled
+from ..mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
+from ..model import Model, derive
+from ..quantities import a, aspect, beta, e_dry, gap, m, omega, omega0, opening, orbit, r, spin, v0, x, x0, xi
+from ..scaling import DISTANCE, nondimensional
+from ..structure import Structure, structures
+from .base import Check, readable, settled, vanishing
+from .closed import emitted_rates
+from .signs import nonnegative
+
+_OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
+
+
+def _taken(model: Model, term: str) -> sp.Expr:
+    """An emitted loss with the forces put back in; distance and orbital rate stay names, of known sign."""
+    expression = dict(model["energy_rates"].outputs)[term]
+    for symbol, value in reversed(model.definitions):
+        if symbol not in (ORBITAL_RATE, DISTANCE):
+            expression = expression.subs(symbol, value)
+    return expression
+
+
+@cache
+def film_dissipates(law: Law) -> Check:
+    """What the film takes, F_n u, is not negative for any gap inside it."""
+    rate = filled(_taken(derive(_OBLIQUE), "normal_lubrication"), {"film": law})
+    sign = nonnegative(rate, gap, sp.Integer(1))
+    return Check(f"film dissipates: {law.name}", "F_n u >= 0 for 0 < x <= x0", sign.proved, sign.shown)
+
+
+@cache
+def shear_dissipates(law: Law, lever: Law) -> Check:
+    """What the shear takes, F_t (r omega - 2 arm xi), is not negative inside its edge, with an arm that conserves L."""
+    rate = filled(_taken(derive(_OBLIQUE), "tangential_lubrication"), {"shear": law, "arm": lever})
+    sign = nonnegative(rate, gap, law["edge"](aspect))
+    statement = "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
+    return Check(f"shear dissipates: {law.name}, {lever.name} arm", statement, sign.proved, sign.shown)
+
+
+@cache
+def torque(lever: Law) -> sp.Expr:
+    """dL/dt of a free doublet for an arm, in SI and in F_t: the orbit's torque and both spins'."""
+    motion = equations_of_motion()
+    whole = motion.orbital_momentum_rate.subs(S_t, 0) + 2 * sphere_inertia() * motion.spin_acceleration
+    return sp.factor(sp.expand(filled(whole.subs(arm, force_laws()[arm]), {"arm": lever})))
+
+
+@cache
+def conserves(lever: Law) -> bool:
+    """Whether angular momentum is among the invariants found for the free doublet with this arm."""
+    return any(each.is_angular_momentum for each in _found(lever))
+
+
+@cache
+def _found(lever: Law) -> tuple[Invariant, ...]:
+    return invariants(derive(_OBLIQUE), {"arm": lever})
+
+
+def is_known(lever: Law) -> bool:
+    """Whether an arm that does not conserve L is the paper's leading-order one, dL/dt = -x F_t."""
+    return settled(torque(lever) + x * F_t) == 0
+
+
+def angular_momentum(lever: Law) -> Check:
+    """dL/dt for an arm along the emitted equations, for any tangential and bridge law: none, -x F_t, or a failure."""
+    name, left = f"angular momentum, {lever.name} arm", []
+    expected = torque(lever)
+    per_time = x0 / (v0 * m * a**2 * omega0)
+    lost = nondimensional(expected.subs(F_t, force_laws()[F_t]) * per_time) if expected != 0 else expected
+    for structure in structures():
+        if structure.oblique and not structure.strings and not structure.reduced:
+            model = derive(structure)
+            rates = emitted_rates(model)
+            left.append(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], {"arm": lever}) - model.expanded(lost))
+    if conserves(lever):
+        found = "; ".join(each.describe() for each in _found(lever))
+        return vanishing(
+            name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {found}"
+        )
+    rate = f"dL/dt = {readable(expected)}"
+    if is_known(lever):
+        known = f"{rate}: a known violation of the leading-order arm"
+        return vanishing(name, "dL/dt = -x F_t without strings", left, known, holds=None)
+    return Check(name, "dL/dt = 0 without strings (or -x F_t, the leading-order arm)", False, rate)
+
+
+def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """Of an arm that does not conserve L: the shear's power, both ends of xi/omega where it is negative, its least.
+
+    In SI, at given omega and gap inside the edge; the least is half-way between the ends.
+    """
+    ratio, log_factor = sp.Symbol("ratio", real=True), sp.Symbol("log_factor", positive=True)
+    force = force_laws()[F_t].subs(SHEAR, 1)
+    call = next(node for node in force.atoms(AppliedUndef) if node.func.__name__ == "shear.log_factor")
+    rate = force.xreplace({call: log_factor}) * (r * omega - 2 * filled(force_laws()[arm], {"arm": lever}) * xi)
+    turning = sp.expand(rate.subs(xi, ratio * omega) / omega**2)
+    low, high = sp.roots(sp.Poly(turning, ratio))
+    if low != 1:
+        low, high = high, low
+    least = sp.factor(sp.simplify(turning.subs(ratio, (low + high) / 2))) * omega**2
+    logarithm = filled(call, {"shear": law})
+    return sp.factor(rate).subs(log_factor, logarithm), low, sp.expand(high), least.subs(log_factor, logarithm)
+
+
+@cache
+def indefinite_shear(law: Law, lever: Law) -> Check:
+    """The shear's power for an arm that does not conserve L: where it gives energy and how much at most, by name."""
+    rate, low, high, least = shear_range(law, lever)
+    known = is_known(lever)
+    name = f"shear dissipates: {law.name}, {lever.name} arm"
+    statement = f"F_t (r omega - 2 arm xi) has a sign; for this arm it is {readable(rate)}"
+    figure = (
+        f"negative for xi/omega between {readable(low)} and {readable(high)}, "
+        f"at the least {readable(least)} half-way between"
+    )
+    if known:
+        per_slip = filled(force_laws()[F_t], {"shear": law}).subs(SHEAR, 1).subs(xi, 0) / omega
+        left = [least + per_slip * x**2 * omega**2 / (16 * a), high - 1 - x / (4 * a)]
+        return vanishing(name, statement, left, f"{figure}: a known violation of the leading-order arm", holds=None)
+    return Check(name, statement, False, f"{figure}; dL/dt = {readable(torque(lever))}")
+
+
+def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
+    """For each arm its dL/dt, and for each tangential law with it the sign of the shear's power."""
+    checks = []
+    for lever in levers:
+        checks.append(angular_momentum(lever))
+        definite = conserves(lever)
+        checks += [shear_dissipates(law, lever) if definite else indefinite_shear(law, lever) for law in shears]
+    return tuple(checks)
+
+
+@cache
+def bridge_does_work() -> Check:
+    """The bridge's force depends on the gap alone, so that its work is a potential's, W_c(x), the same both ways."""
+    left = []
+    for structure in structures():
+        if structure.bridge:
+            model = derive(structure)
+            force = model.expanded(BRIDGE_FORCE)
+            power = dict(model["energy_rates"].outputs)["capillary"]
+            left += [force.diff(state) for state in (opening, orbit, spin, beta)]
+            left.append(model.expanded(power) - force * opening)
+    return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
+
+
+@cache
+def reversal_dissipates() -> tuple[Check, ...]:
+    """A reversal takes exactly the kinetic energy it is charged with, and never gives any for 0 <= e_dry <= 1."""
+    left, charged = [], sp.Integer(0)
+    for structure in structures():
+        model = derive(structure)
+        before = model.expanded(dict(model["energies"].outputs)["kinetic"])
+        jump = {state: dict(model["reversal"].outputs)[state.name] for state in model.states}
+        charged = model.expanded(dict(model["reversal_loss"].outputs)["dry_contact"])
+        left.append(before - before.subs(jump, simultaneous=True) - charged)
+    sign = nonnegative(charged, e_dry, sp.Integer(1))
+    return (
+        vanishing(
+            "reversal's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left
+        ),
+        Check("reversal dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
+    )

@@ -1,0 +1,96 @@
+"""How e_n can exceed 1: its exact decomposition by the ledger, and a ceiling in closed form from L and the energy."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..laws.start import initial_rate, start_values
+from ..mechanics import doublet_inertia, equations_of_motion
+from ..model import derive
+from ..quantities import a, aspect, gap, m, obliquity, omega, r, theta0, u, v0, x, x0, xi
+from ..scaling import nondimensional
+from ..structure import structures
+from .base import Check, vanishing
+
+_final = sp.Symbol("x_f", positive=True)  # gap at rupture
+_work = sp.Symbol("W_c", real=True)  # of the bridge, W_c(x_f) - W_c(x0)
+
+
+def ceiling() -> sp.Expr:
+    """Largest e_n^2 that L and the ledger allow a free doublet, W_c kept and every other loss dropped, in SI.
+
+    e_n^2 m v0^2/2 = T(0) - T_rot(t_f) - W_c - losses, and of all (omega_f, xi_f) with the L of the start the one of
+    least rotational energy is taken: stationary, and a minimum, for the energy is convex there.
+    """
+    motion, at_start = equations_of_motion(), start_values()
+    energy, momentum = motion.kinetic_energy, motion.angular_momentum
+    initial, fixed = energy.subs(at_start), momentum.subs(at_start)
+    turning = energy.subs(u, 0).subs(x, _final)
+    held = sp.solve(sp.Eq(momentum.subs(x, _final), fixed), xi)[0]
+    along = sp.expand(turning.subs(xi, held))
+    if not sp.factor(along.diff(omega, 2)).is_positive:
+        raise ArithmeticError("the rotational energy has no minimum at fixed angular momentum")
+    least = along.subs(omega, sp.solve(along.diff(omega), omega)[0])
+    return sp.factor(initial - least) * 2 / (m * v0**2) - 2 * _work / (m * v0**2)
+
+
+def ceiling_is_the_published() -> Check:
+    """The derived ceiling is 1 + (r0 tan/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), and what is emitted is it."""
+    found = ceiling()
+    start_distance, inertia = r.subs(x, x0), doublet_inertia().subs(x, _final)
+    oblique = (start_distance * sp.tan(theta0) / (4 * a)) ** 2
+    published = 1 + oblique * (1 - m * start_distance**2 / inertia) - 2 * _work / (m * v0**2)
+    left = [found - published]
+    scaled = nondimensional((found + 2 * _work / (m * v0**2)).subs({_final: x, sp.tan(theta0): obliquity}))
+    for structure in structures():
+        if structure.strings:
+            continue
+        model = derive(structure)
+        emitted = model.expanded(dict(model["restitution_ceiling"].outputs)["squared"])
+        left.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
+        if structure.oblique:  # it grows with the gap, from 1 upwards: I grows with x
+            left.append(emitted.subs({obliquity: 0}) - 1)
+    return vanishing(
+        "ceiling of e_n^2",
+        "e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), from L and the ledger",
+        left,
+        "minimum of T over (omega_f, xi_f) at the L of the start; equal to the published form",
+    )
+
+
+def decomposition() -> Check:
+    """e_n^2 - 1 is the rotational energy released less everything that is taken, over m v0^2/2: the ledger, exactly."""
+    taken = sp.symbols("D_n D_t W_c D_dry dU_s", real=True)
+    left = []
+    for structure in structures():
+        model = derive(structure)
+        kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"])
+        start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states}
+        at_start = kinetic.subs(start, simultaneous=True)
+        opening = model.states[1]
+        turning = sp.expand(kinetic - opening**2 / 2)
+        released = turning.subs(start, simultaneous=True) - turning
+        # the ledger, T(0) = T(t_f) + losses and works over m v0^2, is linear in e_n^2 = opening^2
+        ledger = at_start - (turning + opening**2 / 2) - sum(taken)
+        e_squared = opening**2 + 2 * ledger
+        left.append(e_squared - 1 - 2 * (released - sum(taken)))
+        left.append(turning.diff(opening))
+    return vanishing(
+        "decomposition of e_n^2 - 1",
+        "e_n^2 - 1 = 2 (rotational energy released - D_n - D_t - W_c - D_dry - dU_s)/(m v0^2)",
+        left,
+    )
+
+
+def rotation_can_be_released() -> Check:
+    """What a rigidly turning doublet can release grows with the gap: I(x) does, and L^2/(2 I) falls."""
+    momentum = equations_of_motion().angular_momentum.subs(start_values()).subs(initial_rate(), omega)
+    least = momentum**2 / (2 * doublet_inertia())
+    slope = sp.factor(least.diff(x))
+    growing = sp.factor(-slope / omega**2).is_positive
+    return Check(
+        "rotational energy released",
+        "d/dx L^2/(2 I(x)) < 0: a doublet that opens gives rotational energy to the opening",
+        bool(growing),
+        f"slope {sp.factor(slope.subs(x0, aspect * a).subs(x, gap * aspect * a) / (m * a * omega**2))} m a omega0^2",
+    )

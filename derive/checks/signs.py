@@ -1,0 +1,62 @@
+"""Proofs that an expression is not negative: products of squares and of factors whose sign is known on the region."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+_beyond = sp.Symbol("y", nonnegative=True)
+
+
+@dataclass(frozen=True)
+class Sign:
+    """What is known of the sign of an expression on a region.
+
+    Arguments:
+        proved: True if it is shown not to be negative, False if it is negative at `shown`, None if neither.
+        shown: the product that shows it, or the point that refutes it.
+    """
+
+    proved: bool | None
+    shown: str
+
+
+def nonnegative(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
+    """Whether `expression` is >= 0 for 0 < variable <= edge, other symbols by their own assumptions.
+
+    Shown as it stands, or with variable = edge/(1 + y) or edge exp(-y), y >= 0, which is the same region: a product
+    of even powers, exponentials and nonnegative symbols, or a quotient of sums of such. If that fails it is evaluated
+    on a grid, where a negative value refutes it.
+    """
+    ways = (("", variable), (f"{edge}/(1 + y)", edge / (1 + _beyond)), (f"{edge} exp(-y)", edge * sp.exp(-_beyond)))
+    for text, value in ways:
+        form = sp.factor(sp.expand_log(sp.simplify(expression.subs(variable, value))))
+        if _known(form):
+            where = f" with {variable} = {text}, y >= 0" if text else ""
+            return Sign(True, f"{form}{where}")
+    return _sampled(expression, variable, edge)
+
+
+def _known(form: sp.Expr) -> bool:
+    """Whether sympy knows each factor's sign, or each term's of its numerator and denominator multiplied out."""
+    if form.is_nonnegative:
+        return True
+    top, bottom = sp.fraction(sp.together(form))
+    return all(factor.is_nonnegative or sp.expand(factor).is_nonnegative for factor in (top, bottom))
+
+
+def _sampled(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
+    others = sorted(expression.free_symbols - {variable}, key=str)
+    for base in (sp.Rational(1, 3), sp.Rational(7, 5)):
+        fixed = {symbol: base + sp.Rational(index, 7) for index, symbol in enumerate(others)}
+        rim = sp.sympify(edge).subs(fixed)
+        for k in range(1, 40):
+            at = rim * sp.Rational(k, 40)
+            value = sp.N(expression.subs(fixed).subs(variable, at))
+            if not value.is_real or value < 0:
+                point = ", ".join(
+                    f"{symbol} = {number}" for symbol, number in ((variable, sp.N(at, 3)), *fixed.items())
+                )
+                return Sign(False, f"{sp.N(value, 3)} at {point}")
+    return Sign(None, "no proof found, and no negative value on a grid either")
