@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .errors import ComputationError
+from .model import choose
 from .result import Collision
 from .scene import Scene
 from .scenefile import PRESETS
@@ -90,17 +91,19 @@ class Report:
 def verify(scene: Scene | None = None) -> Report:
     """Check the laws, and the numbers of `scene` (all presets if None)."""
     scenes = [Scene.load(name) for name in PRESETS] if scene is None else [scene]
-    findings = [*symbolic()]
+    findings = [*symbolic(scene)]
     for each in scenes:
         findings += numeric(each)
     return Report(tuple(findings))
 
 
-def symbolic() -> Iterator[Finding]:
-    """The identities of the derivation."""
+def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
+    """The identities of the derivation, for the laws of `scene` (for all of the library's if None)."""
     from ..derive.checks import symbolic_checks  # imports sympy
+    from ..derive.laws import LAWS
 
-    for check in symbolic_checks():
+    chosen = choose(scene, oblique=True, full=True).laws if scene is not None else ()
+    for check in symbolic_checks({slot: LAWS[slot][name] for slot, name in chosen}):
         yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)
 
 

@@ -63,7 +63,8 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
         checks.append(bridge_does_work())
     if structure.strings:
         checks += strings_are_conservative([chosen["strings"]])
-    held, against = [], []
+    held: list[str] = []
+    against: list[str] = []
     if structure.oblique:
         _rotation(structure, chosen, checks, held, against)
     held += [f"{check.name} ({check.statement})" for check in checks if check.ok]

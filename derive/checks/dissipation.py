@@ -1,4 +1,4 @@
-"""Dissipation, term by term: what film, shear and solids take is shown not to be negative, what the bridge takes a work.
+"""Dissipation, term by term: what film, shear and solids take is shown not to be negative.
 
 The arm of the tangential force decides two things at once. Its torque on the doublet is F_t (2 arm - r), and the
 shear's power F_t (r omega - 2 arm xi) with F_t ~ omega - xi vanishes at xi = omega and at xi = omega r/(2 arm): it is

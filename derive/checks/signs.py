@@ -48,15 +48,15 @@ def _known(form: sp.Expr) -> bool:
 
 def _sampled(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
     others = sorted(expression.free_symbols - {variable}, key=str)
-    for base in (sp.Rational(1, 3), sp.Rational(7, 5)):
-        fixed = {symbol: base + sp.Rational(index, 7) for index, symbol in enumerate(others)}
+    for base in (sp.Rational(1, 3), sp.Rational(7, 5), sp.Rational(-2, 3)):
+        values = [base + sp.sign(base) * sp.Rational(index, 7) for index in range(len(others))]
+        fixed = {s: abs(value) if s.is_nonnegative else value for s, value in zip(others, values, strict=True)}
         rim = sp.sympify(edge).subs(fixed)
         for k in range(1, 40):
             at = rim * sp.Rational(k, 40)
             value = sp.N(expression.subs(fixed).subs(variable, at))
             if not value.is_real or value < 0:
-                point = ", ".join(
-                    f"{symbol} = {number}" for symbol, number in ((variable, sp.N(at, 3)), *fixed.items())
-                )
+                places = {variable: sp.N(at, 3), **fixed}
+                point = ", ".join(f"{symbol} = {number}" for symbol, number in places.items())
                 return Sign(False, f"{sp.N(value, 3)} at {point}")
     return Sign(None, "no proof found, and no negative value on a grid either")

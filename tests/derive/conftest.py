@@ -1,13 +1,58 @@
-"""Models of all structures, derived once a session."""
+"""Models of all structures, derived once a session; and derivations with one thing deliberately wrong."""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable, Iterator
+from types import ModuleType
+from typing import Any
+
 import pytest
+from wetdoublet.derive.checks import Check, symbolic_checks
 from wetdoublet.derive.model import Model, derive
 from wetdoublet.derive.structure import structures
+
+_ROOT = derive.__module__.rsplit(".", 1)[0]
+# What is remembered of forces and models; mechanics, laws and scaling are functions of their arguments alone.
+_DERIVED = ("forces", "rates", "model", "invariants", "checks")
 
 
 @pytest.fixture(scope="session")
 def models() -> dict[str, Model]:
     """The model of each structure by name."""
     return {structure.name: derive(structure) for structure in structures()}
+
+
+@pytest.fixture(scope="session")
+def healthy() -> dict[str, Check]:
+    """Every check of the library's derivation, by name."""
+    return {check.name: check for check in symbolic_checks()}
+
+
+def _modules() -> list[ModuleType]:
+    return [module for name, module in sys.modules.items() if name.startswith(_ROOT)]
+
+
+def _forget() -> None:
+    """Clear what is cached of forces and models."""
+    for module in _modules():
+        if module.__name__.removeprefix(f"{_ROOT}.").split(".")[0] in _DERIVED:
+            for value in list(vars(module).values()):
+                if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
+                    value.cache_clear()
+
+
+@pytest.fixture
+def mutate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Any, Any], None]]:
+    """Put a wrong function in place of a right one, in every module of the derivation that imported it."""
+
+    def replace(right: Any, wrong: Any) -> None:
+        places = [(module, name) for module in _modules() for name, value in vars(module).items() if value is right]
+        assert places
+        for module, name in places:
+            monkeypatch.setattr(module, name, wrong)
+
+    _forget()
+    yield replace
+    monkeypatch.undo()
+    _forget()

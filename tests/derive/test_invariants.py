@@ -1,0 +1,127 @@
+"""Invariants are found from the rates, what they eliminate is eliminated, and signs and certificates follow."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+from wetdoublet.derive import quantities as q
+from wetdoublet.derive.checks.admission import certificate
+from wetdoublet.derive.checks.dissipation import shear_range
+from wetdoublet.derive.checks.restitution import ceiling
+from wetdoublet.derive.checks.signs import nonnegative
+from wetdoublet.derive.invariants import NoInvariantError, conserved_momentum, invariants
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.structure import Structure
+
+MIDGAP, SURFACE = ({"arm": LAWS["arm"][name]} for name in ("midgap", "surface"))
+DEFAULT = {"film": "finite", "shear": "immersed", "bridge": "mikami", "strings": "exact"}
+FILLED = {slot: LAWS[slot][name] for slot, name in DEFAULT.items()}
+
+
+@pytest.mark.parametrize("others", [{}, FILLED], ids=["any laws", "laws filled in"])
+@pytest.mark.parametrize("name", ["oblique", "oblique_bridge"])
+def test_midgap_conserves_angular_momentum_and_nothing_else(models, name: str, others):
+    """The search finds L = m (r^2 omega + (32/5) a^2 xi) over m a^2 omega0, whatever the other laws are."""
+    (found,) = invariants(models[name], MIDGAP | others)
+    assert found.expression == q.orbit + sp.Rational(32, 5) * q.spin
+    assert found.describe() == "orbit + (32/5) spin: angular momentum L/(m a^2 omega0)"
+    assert found.is_angular_momentum
+
+
+@pytest.mark.parametrize("others", [{}, FILLED], ids=["any laws", "laws filled in"])
+@pytest.mark.parametrize("name", ["oblique", "oblique_bridge"])
+def test_surface_arm_conserves_nothing(models, name: str, others):
+    """With the arm 2a there is no invariant, nor with an arm left open; the reduced form says so."""
+    assert invariants(models[name], SURFACE | others) == ()
+    assert invariants(models[name], others) == ()
+    with pytest.raises(NoInvariantError, match=r"not conserved \(arm surface"):
+        conserved_momentum(models[name], SURFACE)
+
+
+@pytest.mark.parametrize("name", ["oblique_strings", "oblique_bridge_strings", "head_on", "head_on_bridge_strings"])
+def test_strings_and_head_on_conserve_nothing(models, name: str):
+    """Strings exert a torque, and head-on there is one momentum, which the film takes."""
+    assert invariants(models[name], MIDGAP | FILLED) == ()
+
+
+def test_without_shear_each_momentum_is_its_own():
+    """A user's model without tangential force conserves the orbit's and the spins' momentum separately."""
+    rates = {q.gap: q.opening, q.opening: -q.opening / q.gap, q.orbit: sp.Integer(0), q.spin: sp.Integer(0)}
+    assert [each.expression for each in invariants(rates)] == [q.orbit, q.spin]
+
+
+def test_a_coefficient_may_depend_on_the_gap():
+    """In angular velocities the same law reads (4 + eps s)^2 omega + (32/5) xi: the coefficient is found as well."""
+    omega, xi, torque = sp.symbols("omega xi torque", real=True)
+    distance = 4 + q.aspect * q.gap
+    rates = {
+        q.gap: q.opening,
+        q.opening: sp.Symbol("force", real=True),
+        omega: -torque / distance - 2 * q.aspect * q.opening * omega / distance,
+        xi: torque * distance * sp.Rational(5, 32),
+    }
+    (found,) = invariants(rates)
+    expected = distance**2 * omega + sp.Rational(32, 5) * xi
+    assert sp.simplify(found.expression * expected.subs({xi: 0, omega: 1, q.gap: 0}) - expected) == 0
+    assert not found.is_angular_momentum  # not in the states that L is written in
+
+
+def test_an_unknown_momentum_is_not_solved_for(models):
+    """Solving an invariant for a state that it does not contain is a named error."""
+    (found,) = invariants(models["oblique"], MIDGAP)
+    with pytest.raises(NoInvariantError, match="opening cannot be eliminated"):
+        found.solved(q.opening, sp.Integer(0))
+
+
+def test_signs_are_proved_refuted_or_left_open():
+    """Squares and logarithms inside their edge are proved, a change of sign is refuted, the rest says so."""
+    s, edge = q.gap, sp.Integer(1)
+    for true in ((1 - s) ** 2 / s, sp.log(1 / s), 1 - s, 1 - s**2, -sp.log(s) * q.opening**2):
+        assert nonnegative(true, s, edge).proved is True, true
+    for false in (s - 1, q.opening, sp.log(s), (s - sp.Rational(1, 2)) * (1 - s)):
+        assert nonnegative(false, s, edge).proved is False, false
+    assert nonnegative(2 + sp.sin(7 * s) + sp.cos(5 * s) * s, s, edge).proved is None
+
+
+def test_the_surface_arms_range_is_that_of_its_power():
+    """Numerically, F_t (r omega - 4 a xi) is negative strictly between the stated ends and nowhere below the least."""
+    rate, low, high, least = shear_range(LAWS["shear"]["immersed"], LAWS["arm"]["surface"])
+    values = {q.a: 50e-6, q.mu: 2.0, q.x: 8e-6, q.omega: 1300.0}
+    power = sp.lambdify(q.xi, rate.subs(values))
+    ends = [float(end.subs(values)) for end in (low, high)]
+    assert ends == pytest.approx([1.0, 1 + 8e-6 / (4 * 50e-6)])
+    ratios = np.linspace(ends[0] - 0.05, ends[1] + 0.05, 2001)
+    found = power(ratios * 1300.0)
+    inside = (ratios > ends[0]) & (ratios < ends[1])
+    assert (found[inside] < 0).all() and (found[~inside] >= 0).all()
+    assert found.min() == pytest.approx(float(least.subs(values)), rel=1e-4)  # a parabola on steps of 1/4000 of it
+
+
+def test_the_ceiling_is_the_least_energy_found_by_search():
+    """The closed-form ceiling agrees with a search over omega_f for the least rotational energy at this L."""
+    m, a, x0, xf, v0, theta = 5.2e-9, 50e-6, 8e-6, 46e-6, 0.5, math.radians(75)
+    rate = v0 * math.tan(theta) / (4 * a)
+    momentum = m * (4 * a + x0) ** 2 * rate
+    omega = np.linspace(0, 2 * rate, 200001)
+    xi = (momentum - m * (4 * a + xf) ** 2 * omega) / (6.4 * m * a**2)
+    turning = 0.5 * m * (4 * a + xf) ** 2 * omega**2 + 3.2 * m * a**2 * xi**2
+    start = 0.5 * m * (v0**2 + (4 * a + x0) ** 2 * rate**2)
+    values = {q.m: m, q.a: a, q.x0: x0, q.v0: v0, q.theta0: theta, "x_f": xf, "W_c": 0.0}
+    named = {symbol: values.get(symbol, values.get(symbol.name)) for symbol in ceiling().free_symbols}
+    assert float(ceiling().subs(named)) == pytest.approx((start - turning.min()) * 2 / (m * v0**2), rel=1e-8)
+
+
+def test_certificates_are_admitted_where_their_premises_hold():
+    """Bridge and midgap arm: admitted. Surface arm, film alone, strings: not, for the reason that is each one's own."""
+    bridge = Structure(oblique=True, bridge=True, strings=False)
+    proved = certificate(bridge)
+    assert proved.admitted and any("angular momentum" in text for text in proved.held)
+    surface = certificate(bridge, SURFACE)
+    assert not surface.admitted
+    assert "L not conserved" in surface.describe() and "D_t indefinite" in surface.describe()
+    assert "no barrier" in certificate(Structure(oblique=True, bridge=False, strings=False)).describe()
+    assert "torque" in certificate(Structure(oblique=True, bridge=True, strings=True)).describe()
+    assert certificate(Structure(oblique=False, bridge=False, strings=True)).admitted
