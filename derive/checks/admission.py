@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..invariants import invariants
 from ..laws import LAWS, Law
 from ..model import derive
 from ..quantities import gap
@@ -17,6 +16,7 @@ from .dissipation import (
     bridge_does_work,
     conserves,
     film_dissipates,
+    found,
     indefinite_shear,
     reversal_dissipates,
     shear_dissipates,
@@ -79,9 +79,9 @@ def _rotation(
 ) -> None:
     """Whether angular momentum is conserved, and whether the shear takes energy."""
     lever, shear = laws["arm"], laws["shear"]
-    found = [each.describe() for each in invariants(derive(structure), {"arm": lever}) if each.is_angular_momentum]
-    held += [f"conserved: {text}" for text in found]
-    if not found and structure.strings:
+    conserved = [each.describe() for each in found(lever, structure) if each.is_angular_momentum]
+    held += [f"conserved: {text}" for text in conserved]
+    if not conserved and structure.strings:
         against.append("strings exert a torque: dL/dt = -r S_t, so no least energy at fixed L")
     if conserves(lever):
         checks.append(shear_dissipates(shear, lever))
@@ -117,10 +117,10 @@ def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
         if structure.oblique and not structure.strings and structure.bridge:
             levers = [laws["arm"]] if laws and "arm" in laws else LAWS["arm"].values()
         for lever in levers:
-            found = certificate(structure, {**(laws or {}), "arm": lever})
+            proof = certificate(structure, {**(laws or {}), "arm": lever})
             suffix = f", {lever.name} arm" if structure.oblique and structure.bridge and not structure.strings else ""
-            statement = "; ".join(found.held) or "which proof of a stick the model admits"
+            statement = "; ".join(proof.held) or "which proof of a stick the model admits"
             checks.append(
-                Check(f"certificate: {structure.name}{suffix}", statement, found.admitted or None, found.describe())
+                Check(f"certificate: {structure.name}{suffix}", statement, proof.admitted or None, proof.describe())
             )
     return tuple(checks)

@@ -67,12 +67,13 @@ def torque(lever: Law) -> sp.Expr:
 @cache
 def conserves(lever: Law) -> bool:
     """Whether angular momentum is among the invariants found for the free doublet with this arm."""
-    return any(each.is_angular_momentum for each in _found(lever))
+    return any(each.is_angular_momentum for each in found(lever))
 
 
 @cache
-def _found(lever: Law) -> tuple[Invariant, ...]:
-    return invariants(derive(_OBLIQUE), {"arm": lever})
+def found(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
+    """The invariants of a structure with this arm, for any other laws."""
+    return invariants(derive(structure), {"arm": lever})
 
 
 def is_known(lever: Law) -> bool:
@@ -92,7 +93,7 @@ def angular_momentum(lever: Law) -> Check:
             rates = emitted_rates(model)
             left.append(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], {"arm": lever}) - model.expanded(lost))
     if conserves(lever):
-        found = "; ".join(each.describe() for each in _found(lever))
+        found = "; ".join(each.describe() for each in found(lever))
         return vanishing(
             name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {found}"
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 import sympy as sp
 
@@ -25,26 +26,25 @@ def inertia_is_rigid_rotation() -> Check:
 
 
 def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """The strings' forces are minus the gradient of their potential, and `stiffness` twice the slope of `rise`.
+    """The strings' forces are minus the gradient of their potential, and `stiffness` twice the slope of `rise`."""
+    return tuple(map(_conservative, laws))
 
-    The potential is that of `rise`, 4 m g a for either sphere; for the library's laws also the one they come from.
-    """
-    checks = []
-    forces = force_laws()
+
+@cache
+def _conservative(law: Law) -> Check:
+    """The potential is that of `rise`, 4 m g a for both spheres; for the library's laws also the one they come from."""
     swing = strings.swing_squared() / a**2
-    for law in laws:
-        rise, stiffness = law["rise"], law["stiffness"]
-        potentials = [4 * m * g * a * rise(l_s / a, swing)]
-        if LAWS["strings"].get(law.name) is law:
-            potentials.append(strings.potential(law.name == "small-angle"))
-        left = []
-        for potential in potentials:
-            normal, sideways = string_forces(potential, strings.r, beta)
-            left += [
-                sp.simplify(filled(forces[force], {"strings": law}) - expected.subs(strings.r, r))
-                for force, expected in ((S_n, normal), (S_t, sideways))
-            ]
-        arguments = rise.arguments
-        left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
-        checks.append(vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left))
-    return tuple(checks)
+    rise, stiffness = law["rise"], law["stiffness"]
+    potentials = [4 * m * g * a * rise(l_s / a, swing)]
+    if LAWS["strings"].get(law.name) is law:
+        potentials.append(strings.potential(law.name == "small-angle"))
+    left = []
+    for potential in potentials:
+        normal, sideways = string_forces(potential, strings.r, beta)
+        left += [
+            sp.simplify(filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, r))
+            for force, expected in ((S_n, normal), (S_t, sideways))
+        ]
+    arguments = rise.arguments
+    left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
+    return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left)
