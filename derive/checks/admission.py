@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
@@ -23,6 +24,7 @@ from .dissipation import (
     torque,
 )
 from .mechanics import strings_are_conservative
+from .tethered import tethered
 
 _DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}
 
@@ -81,13 +83,30 @@ def _rotation(
     lever, shear = laws["arm"], laws["shear"]
     conserved = [each.describe() for each in found(lever, structure) if each.is_angular_momentum]
     held += [f"conserved: {text}" for text in conserved]
-    if not conserved and structure.strings:
-        against.append("strings exert a torque: dL/dt = -r S_t, so no least energy at fixed L")
+    if structure.strings:
+        _on_strings(structure, laws, checks, against)
     if conserves(lever):
         checks.append(shear_dissipates(shear, lever))
     else:
         against.append(f"{lever.name} arm: L not conserved, dL/dt = {readable(torque(lever))}")
         against.append(f"D_t indefinite, {indefinite_shear(shear, lever).figure}")
+
+
+def _on_strings(structure: Structure, laws: Mapping[str, Law], checks: list[Check], against: list[str]) -> None:
+    """Strings exert a torque, so no argument from energy; without a bridge there is one from the momenta."""
+    if structure.bridge:
+        against.append(
+            "strings exert a torque, dL/dt = -r S_t: no least energy at fixed L, and beside a bridge no other"
+        )
+    elif laws["film"] is not LAWS["film"]["finite"]:
+        against.append("strings exert a torque, dL/dt = -r S_t, and the proof without energy is of the finite film")
+    else:
+        checks += _tethered()
+
+
+@cache
+def _tethered() -> tuple[Check, ...]:
+    return tethered()
 
 
 def _has_barrier(structure: Structure) -> bool:
@@ -103,6 +122,8 @@ def _has_barrier(structure: Structure) -> bool:
 def _argument(structure: Structure) -> str:
     if not (structure.oblique or structure.bridge or structure.strings):
         return "momentum: the film's integral up to its rim, u - Lf(s)/St < 0, stops the opening"
+    if structure.oblique and structure.strings:
+        return "momenta: the strings outweigh the rotation for good and the film stops every rebound (derive/tethered)"
     parts = ["L^2/(2 I(x))"] * structure.oblique + ["W_c(x)"] * structure.bridge + ["U_s(x)"] * structure.strings
     return f"energy below the barrier ahead of U_eff = {' + '.join(parts)}, which no loss can make up for"
 
@@ -113,12 +134,12 @@ def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
     for structure in structures():
         if structure.reduced:
             continue
-        levers: Iterable[Law] = [LAWS["arm"]["midgap"]]
-        if structure.oblique and not structure.strings and structure.bridge:
-            levers = [laws["arm"]] if laws and "arm" in laws else LAWS["arm"].values()
+        own = [laws["arm"]] if laws and "arm" in laws else []
+        decides = structure.oblique and structure.bridge != structure.strings  # elsewhere there is no proof for any arm
+        levers: Iterable[Law] = own or (LAWS["arm"].values() if decides else [LAWS["arm"]["midgap"]])
         for lever in levers:
             proof = certificate(structure, {**(laws or {}), "arm": lever})
-            suffix = f", {lever.name} arm" if structure.oblique and structure.bridge and not structure.strings else ""
+            suffix = f", {lever.name} arm" if decides else ""
             statement = "; ".join(proof.held) or "which proof of a stick the model admits"
             checks.append(
                 Check(f"certificate: {structure.name}{suffix}", statement, proof.admitted or None, proof.describe())

@@ -93,9 +93,9 @@ def angular_momentum(lever: Law) -> Check:
             rates = emitted_rates(model)
             left.append(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], {"arm": lever}) - model.expanded(lost))
     if conserves(lever):
-        found = "; ".join(each.describe() for each in found(lever))
+        words = "; ".join(each.describe() for each in found(lever))
         return vanishing(
-            name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {found}"
+            name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {words}"
         )
     rate = f"dL/dt = {readable(expected)}"
     if is_known(lever):

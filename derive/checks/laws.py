@@ -87,6 +87,7 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
         speed = -(1 - integral / stokes)
         rate = filled(model.expanded(dict(model["right_hand_side"].outputs)["opening"]), {"film": law})
         left = [speed * speed.diff(gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(gap, 1) + 1]
+        left += [integral - each(gap) for each in law.functions if each.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")
         if law.name == "finite" and integrated:
             left.append(sp.expand_log(integral - (sp.log(1 / gap) - sp.Rational(3, 2) + 2 * gap - gap**2 / 2)))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from wetdoublet.derive import quantities as q
+from wetdoublet.derive.checks import symbolic_checks
 from wetdoublet.derive.checks.admission import certificate
 from wetdoublet.derive.checks.dissipation import shear_range
 from wetdoublet.derive.checks.restitution import ceiling
@@ -19,6 +20,16 @@ from wetdoublet.derive.structure import Structure
 MIDGAP, SURFACE = ({"arm": LAWS["arm"][name]} for name in ("midgap", "surface"))
 DEFAULT = {"film": "finite", "shear": "immersed", "bridge": "mikami", "strings": "exact"}
 FILLED = {slot: LAWS[slot][name] for slot, name in DEFAULT.items()}
+
+
+def test_checks_of_a_scenes_laws_are_those_laws_alone(healthy):
+    """With laws chosen, each check of a law is of the one chosen; each name stands once, and none is new."""
+    found = symbolic_checks({"arm": LAWS["arm"]["surface"], "shear": LAWS["shear"]["film"]})
+    names = [check.name for check in found]
+    assert len(set(names)) == len(names)
+    assert set(names) < healthy.keys()
+    left_out = healthy.keys() - set(names)
+    assert left_out == {name for name in healthy if "midgap arm" in name or "immersed" in name}
 
 
 @pytest.mark.parametrize("others", [{}, FILLED], ids=["any laws", "laws filled in"])
@@ -125,3 +136,6 @@ def test_certificates_are_admitted_where_their_premises_hold():
     assert "no barrier" in certificate(Structure(oblique=True, bridge=False, strings=False)).describe()
     assert "torque" in certificate(Structure(oblique=True, bridge=True, strings=True)).describe()
     assert certificate(Structure(oblique=False, bridge=False, strings=True)).admitted
+    tethered = Structure(oblique=True, bridge=False, strings=True)
+    assert "momenta" in certificate(tethered).describe()
+    assert not certificate(tethered, SURFACE).admitted
