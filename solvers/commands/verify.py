@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import click
 
-from ..errors import CheckFailed
+from ..errors import CheckFailed, InputError
 from . import options
 
 
@@ -15,6 +15,7 @@ from . import options
 @options.impact
 @options.changes
 @click.option("-o", "output", metavar="FILE", help="Write the report as Markdown to FILE as well.")
+@click.option("--plot", metavar="FILE.png", help="Draw where e_n > 1, and what it is made of: .png, .pdf or .svg.")
 @options.debug
 def command(
     source: str | None,
@@ -23,11 +24,16 @@ def command(
     angle: str | None,
     changes: Sequence[str],
     output: str | None,
+    plot: str | None,
 ) -> None:
     """Check the laws on SCENE, or on all presets; the report goes to standard output."""
     file = options.check_file(output, "-o")
+    picture = options.check_file(plot, "--plot", options.PICTURES)
+    options.check_apart(file, "-o", picture, "--plot")
     asked = options.Asked.check(source, changes, stokes, speed, angle)
     scene = asked.optional_scene()
+    if scene is None and picture is not None:
+        raise InputError("--plot", plot, "a SCENE with --plot", "needs a SCENE")
 
     from ..verify import verify
 
@@ -35,5 +41,11 @@ def command(
     click.echo(str(report).rstrip("\n"))
     if file is not None:
         options.put(report.to_markdown().rstrip("\n"), file)
+    if picture is not None and report.budget is not None:
+        from ..verify.draw import draw_budget
+
+        draw_budget(report.budget, picture)
     if not report.ok:
-        raise CheckFailed("verify: a check failed, see the report")
+        failed = report.failed
+        more = f"; and {len(failed) - 1} more, see the report" if len(failed) > 1 else ""
+        raise CheckFailed(f"verify: {failed[0].line}{more}")

@@ -1,0 +1,11 @@
+"""`wetdoublet verify`: symbolic identities out of the derivation, and numbers held to their bounds."""
+
+from __future__ import annotations
+
+from .budget import restitution_budget
+from .laws import numeric
+from .report import Finding, Report
+from .run import verify
+from .identities import symbolic
+
+__all__ = ["Finding", "Report", "numeric", "restitution_budget", "symbolic", "verify"]

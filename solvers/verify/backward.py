@@ -1,0 +1,189 @@
+"""Forward, then backward: a smooth stretch of a flight, run back in time, must come back to where it started.
+
+Backward in time what relaxes grows: the spin of a wet sphere by many decades a microsecond. So stretches are short, and
+the bound is the engine's tolerance times the norm of the inverse of the stretch's own variational matrix.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from casadi import SX, Function, integrator, jacobian, reshape, vertcat
+
+from ..chain import Piece
+from ..errors import WetDoubletError
+from ..integrators import IntegrationFailed, Tolerance, plain, quiet
+from ..phases import Flow, expressions
+from .follow import Followed, follow
+from .report import Finding, bounded
+from .sample import PLUGINS, REFERENCE, RTOL, Sample, place
+
+_SAFETY = 1000.0  # of the tolerance given to the engine: its global error over a stretch, without amplification
+MOST = 1e4  # amplification of a stretch
+_AIM = 1e3  # amplification a stretch is first cut for, from the fastest rate at its ends
+_SHORTEST = 1e-12  # of a phase: stretches are halved no further
+_PLACES = (0.0, 0.3, 0.8)  # where in a phase stretches begin
+_FLIGHTS = 6  # of the sample
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A smooth part of a flight, from where, for how long (x0/v0), and how it amplifies backward."""
+
+    flow: Flow
+    start: np.ndarray
+    duration: float
+    amplification: float
+
+
+@dataclass(frozen=True)
+class _Return:
+    """How far from its start a stretch came back, and what it was allowed."""
+
+    error: float
+    bound: float
+    amplification: float
+    where: str
+
+
+def backward(group: str, sample: Sample) -> Iterator[Finding]:
+    """Every engine, over stretches of every phase of a few flights."""
+    returns: dict[str, list[_Return]] = {engine: [] for engine in PLUGINS}
+    for one in _chosen(sample):
+        for engine, found in returns.items():
+            try:
+                flight = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
+            except WetDoubletError:
+                continue  # the sample names what is not completed
+            for piece in flight.flown.pieces:
+                where = place(*one, event=piece.name)
+                found += [_returned(stretch, flight, engine, where) for stretch in stretches(piece, flight.p)]
+    for engine, found in returns.items():
+        if not found:
+            continue
+        worst = max(found, key=lambda entry: entry.error / entry.bound)
+        statement = (
+            f"a stretch flown forward and back returns to its start, within {_SAFETY:.0f} tolerances times the norm of "
+            f"the inverse of its variational matrix (at most {MOST:.0e})"
+        )
+        most = max(entry.amplification for entry in found)
+        told = (f"  {len(found)} stretches; amplification {worst.amplification:.1e} at the worst, at most {most:.1e}",)
+        yield bounded(
+            group, f"forward-back, {engine}", statement, worst.error, worst.bound, worst.where, told
+        )
+
+
+def _chosen(sample: Sample) -> list[tuple[float, float]]:
+    """Impacts of the sample, evenly taken."""
+    impacts = [next(iter(impact.values())) for impact in sample.impacts]
+    flying = [(one.stokes, one.angle) for one in impacts if (one.contact_time or one.until or 0) > 0]
+    picked = np.unique(np.linspace(0, len(flying) - 1, min(_FLIGHTS, len(flying))).round().astype(int))
+    return [flying[k] for k in picked]
+
+
+def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
+    """Stretches of a phase that amplify by no more than MOST."""
+    told = Tolerance(1e-10, 1e-13)
+    for part in _PLACES:
+        start = piece.start
+        if part:
+            start = plain(piece.flow, "rosenbrock", told)(piece.start, p, part * piece.duration)
+        rates = np.asarray(_jacobian(piece.flow)(start, p).full())
+        fastest = max(float(-np.linalg.eigvals(rates).real.min()), 1e-300)
+        duration = min((1 - part) * piece.duration, math.log(_AIM) / fastest)
+        while duration > _SHORTEST * piece.duration:
+            amplification = _amplification(piece.flow, start, p, duration)
+            if amplification <= MOST:
+                yield Stretch(piece.flow, start, duration, amplification)
+                break
+            duration /= 2
+
+
+def _returned(stretch: Stretch, flight: Followed, engine: str, where: str) -> _Return:
+    told = flight_tolerance(engine)
+    scale = _scale(stretch.flow, flight.p)
+    bound = _SAFETY * told.relative * stretch.amplification
+    try:
+        end = plain(stretch.flow, engine, told)(stretch.start, flight.p, stretch.duration)
+        back = returning(stretch.flow, engine, told)(end, flight.p, stretch.duration)
+        error = float(np.max(np.abs(back - stretch.start) / scale))
+    except IntegrationFailed:
+        error = math.inf
+    return _Return(error if math.isfinite(error) else math.inf, bound, stretch.amplification, where)
+
+
+def flight_tolerance(engine: str) -> Tolerance:
+    """What an engine is told here."""
+    share = 1 / 30 if engine == "cvodes" else 1.0  # as everywhere: rtol means about the same for both
+    return Tolerance(RTOL * share, 1e-3 * RTOL * share)
+
+
+class Returning:
+    """A flow backward in time. Call: (y at the end, groups, duration) -> y at the start."""
+
+    def __init__(self, function: Function) -> None:
+        self.function = function
+
+    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
+        try:
+            with quiet():
+                return np.asarray(self.function(x0=y, p=np.append(p, duration))["xf"].full()).ravel()
+        except RuntimeError as error:
+            raise IntegrationFailed(str(error).strip().splitlines()[-1]) from None
+
+
+@lru_cache(maxsize=64)
+def returning(flow: Flow, engine: str, told: Tolerance) -> Returning:
+    """The integrator of a flow's rates, negated."""
+    parts, duration = expressions(flow), SX.sym("duration")
+    dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": -duration * parts.rates}
+    with quiet():
+        return Returning(integrator("returning", engine, dae, 0, 1, told.options(engine)))
+
+
+def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float) -> float:
+    """Norm of the inverse of a stretch's variational matrix, in units of the states' scales; inf if it is too large."""
+    size = start.size
+    x0 = np.concatenate([start, np.eye(size).ravel()])
+    try:
+        with quiet():
+            end = _variational(flow)(x0=x0, p=np.append(p, duration))["xf"].full().ravel()
+    except RuntimeError:
+        return math.inf
+    inverse = end[size:].reshape(size, size)  # rows of its transpose are columns; the norm is of the scaled matrix
+    scale = _scale(flow, p)
+    scaled = inverse.T * scale[None, :] / scale[:, None]
+    return float(np.linalg.norm(scaled, np.inf)) if np.isfinite(scaled).all() else math.inf
+
+
+def _scale(flow: Flow, p: np.ndarray) -> np.ndarray:
+    """Typical sizes of the states: 1 but for the orbital momentum, which starts at (4 + aspect)^2."""
+    groups = dict(zip(flow.model.groups, p, strict=True))
+    sizes = {"orbit": (4 + groups.get("aspect", 0.0)) ** 2}
+    return np.array([sizes.get(name, 1.0) for name in flow.model.state])
+
+
+@lru_cache(maxsize=32)
+def _jacobian(flow: Flow) -> Function:
+    parts = expressions(flow)
+    return Function("jacobian", [parts.variables, flow.model.parameters], [jacobian(parts.rates, parts.variables)])
+
+
+@lru_cache(maxsize=32)
+def _variational(flow: Flow) -> Function:
+    """A flow with the inverse of its variational matrix: dW/dt = -W df/dy, W(0) = 1."""
+    parts, duration = expressions(flow), SX.sym("duration")
+    size = parts.variables.numel()
+    inverse = SX.sym("inverse", size, size)
+    growth = -inverse @ jacobian(parts.rates, parts.variables)
+    dae = {
+        "x": vertcat(parts.variables, reshape(inverse, -1, 1)),
+        "p": vertcat(flow.model.parameters, duration),
+        "ode": duration * vertcat(parts.rates, reshape(growth, -1, 1)),
+    }
+    with quiet():
+        return integrator("variational", "rosenbrock", dae, 0, 1, {"reltol": 1e-6, "abstol": 1e-8})

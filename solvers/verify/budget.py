@@ -1,0 +1,122 @@
+"""What makes up e_n^2 - 1: rotational energy released, less what film, shear, bridge, solids and strings take.
+
+Every term is 2 E/(m v0^2), so that e_n^2 - 1 is their sum and e_n > 1 where the rotation released more than was lost.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import WetDoubletError
+from ..result import Collision
+from ..scene import Scene
+from ..simulate import collide
+
+if TYPE_CHECKING:
+    import xarray
+
+LOSSES = {
+    "normal_lubrication": "normal lubrication",
+    "tangential_lubrication": "tangential lubrication",
+    "capillary": "capillary work",
+    "dry_contact": "dry contact",
+    "strings": "strings",
+}
+TERMS = ("rotation_released", *LOSSES)
+_CODES = {"stick": 0, "stick-rotate-separate": 1, "bounce": 2}
+
+
+def restitution_budget(
+    scene: Scene | str, *, stokes: Sequence[float], angle: Sequence[float], rtol: float = 1e-9
+) -> xarray.Dataset:
+    """What e_n^2 - 1 is made of, over impact angle and Stokes number.
+
+    Arguments:
+        stokes: Stokes numbers.
+        angle: impact angles, rad.
+
+    Returns:
+        Dataset over (angle, stokes): `outcome` (as in `collide_many`), `restitution`, `excess` = e_n^2 - 1, its terms
+        `rotation_released` (from the rates at separation), `normal_lubrication`, `tangential_lubrication`,
+        `capillary`, `dry_contact`, `strings` (losses, which are subtracted), `residual` (the ledger's, subtracted as
+        well), `gap` (excess less all of them: rounding), `ceiling` (of e_n^2, MODEL.md section 7; midgap arm without
+        strings). All are 2 E/(m v0^2); NaN for sticks and for what failed (`reason`).
+
+    Raises:
+        InputError: scene, angles or Stokes numbers are not acceptable.
+
+    >>> budget = restitution_budget("granulation", stokes=[0.02], angle=[1.3])
+    >>> bool(budget["excess"] > 0)
+    True
+    """
+    import xarray as xr
+
+    loaded = Scene.load(scene)
+    shape = (len(angle), len(stokes))
+    names = ("restitution", "excess", *TERMS, "residual", "gap", "ceiling")
+    values = {name: np.full(shape, np.nan) for name in names}
+    outcome, reason = np.full(shape, -1, dtype=np.int8), np.full(shape, "", dtype=object)
+    for j, theta in enumerate(angle):
+        for k, number in enumerate(stokes):
+            try:
+                one = collide(loaded, stokes=float(number), angle=float(theta), rtol=rtol)
+            except WetDoubletError as failure:
+                reason[j, k] = str(failure)
+                continue
+            outcome[j, k] = _CODES[one.outcome]
+            for name, value in terms(one).items():
+                values[name][j, k] = value
+    data = {name: (("angle", "stokes"), array) for name, array in values.items()}
+    coordinates = {"angle": ("angle", np.asarray(angle, float), {"units": "rad"}), "stokes": np.asarray(stokes, float)}
+    return xr.Dataset(
+        {"outcome": (("angle", "stokes"), outcome), **data, "reason": (("angle", "stokes"), reason)},
+        coords=coordinates,
+        attrs={"scene": loaded.to_toml(), "rtol": rtol, "unit": "m v0^2/2"},
+    )
+
+
+def terms(one: Collision) -> dict[str, float]:
+    """The terms of one collision that separated; only its restitution for a stick."""
+    if one.outcome == "stick" or one.energy is None:
+        return {"restitution": one.restitution}
+    unit = one.scene.particles.reduced_mass * one.speed**2 / 2
+    found = {
+        "restitution": one.restitution,
+        "excess": one.restitution**2 - 1,
+        "rotation_released": _released(one) / unit,
+        "residual": one.energy.residual / unit,
+        "ceiling": ceiling(one),
+    } | {name: getattr(one.energy, name) / unit for name in LOSSES}
+    lost = sum(found[name] for name in LOSSES) + found["residual"]
+    return found | {"gap": found["excess"] - found["rotation_released"] + lost}
+
+
+def _released(one: Collision) -> float:
+    """Energy of rotation at first touch less that at separation, J: from the rates, not from the ledger."""
+    particles, film = one.scene.particles, one.scene.liquid.film_thickness
+    a, m = particles.reduced_radius, particles.reduced_mass
+    first, last = 4 * a + film, 4 * a + _separation(one)
+    start = one.speed * math.tan(one.angle) / (4 * a)
+    rate, spin = one.final_rotation_rate or 0.0, one.final_spin or 0.0
+    return 0.5 * m * ((first * start) ** 2 - (last * rate) ** 2 - 6.4 * (a * spin) ** 2)
+
+
+def _separation(one: Collision) -> float:
+    """Gap at which the doublet parts, m."""
+    return one.scene.rupture_gap
+
+
+def ceiling(one: Collision) -> float:
+    """Most that e_n^2 can be if only the bridge takes energy; NaN for the surface arm and with strings."""
+    if one.energy is None or one.scene.pendulum is not None or one.scene.model.arm != "midgap":
+        return math.nan
+    particles = one.scene.particles
+    a, m = particles.reduced_radius, particles.reduced_mass
+    first, last = 4 * a + one.scene.liquid.film_thickness, 4 * a + _separation(one)
+    inertia = (last / a) ** 2 + 6.4  # I(x_f)/(m a^2)
+    released = (first * math.tan(one.angle) / (4 * a)) ** 2 * (1 - (first / a) ** 2 / inertia)
+    return 1 + released - 2 * one.energy.capillary / (m * one.speed**2)

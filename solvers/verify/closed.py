@@ -1,0 +1,223 @@
+"""Closed forms against integration: what the equations become when parts of a scene are taken away.
+
+Each is found without the equations of motion as they are emitted: a momentum integral, Newton's first law, a harmonic
+oscillator, an exponential. The scene's own numbers are kept.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ..errors import ComputationError
+from ..integrators import IntegrationFailed, plain, tolerance
+from ..model import choose, load
+from ..numbers import Numbers, numbers
+from ..phases import Flow, Region
+from ..scene import Scene
+from ..simulate import collide
+from .report import Finding, bounded
+from .sample import PLUGINS, RTOL, own_stokes, place
+
+_BOUND = 1000 * RTOL  # global error of either engine, as between the engines
+_ANGLE = math.radians(50)  # of the closed forms that turn, if the scene's own impact is head-on
+_INSTANTS = np.array([0.03, 0.1, 0.3, 1.0])
+_SMALLEST, _BOUNCES = 0.02, 4  # e_n of a bounce that is compared; how many
+
+
+def closed_forms(group: str, scene: Scene, head_on: bool = False) -> Iterator[Finding]:
+    """Every closed form that the scene has. `head_on`: only those without rotation."""
+    checks: list[Callable[[Scene, str], tuple[float, str]]] = [film_alone]
+    if not head_on:
+        checks += [straight_line, spin_relaxes]
+        checks += [swinging] if scene.pendulum is not None else []
+    for check in checks:
+        name, statement = _TOLD[check.__name__]
+        worst = (-1.0, "")
+        for engine in PLUGINS:
+            try:
+                figure, where = check(scene, engine)
+            except (ComputationError, IntegrationFailed) as failure:
+                figure, where = math.inf, f"{engine}: {failure}"
+            worst = max(worst, (figure if math.isfinite(figure) else math.inf, where))
+        yield bounded(group, name, statement, worst[0], _BOUND, worst[1])
+
+
+_TOLD = {
+    "film_alone": (
+        "film alone",
+        "head-on, bridge and strings taken away: reversal and e_n by -u/v0 = 1 - Lf(s)/St, Lf = ln(1/s) - 3/2 + 2s - s^2/2",
+    ),
+    "straight_line": (
+        "straight line",
+        "liquid, bridge and strings taken away: the centres move on a straight line, r(t)^2 and beta(t)",
+    ),
+    "spin_relaxes": (
+        "spin relaxes",
+        "gap held: omega - xi = omega0 exp(-k t), k = 8 pi mu a^2 ln(2a/x) [1/r + 5 r/(32 a^2)]/m; then one rigid body",
+    ),
+    "swinging": (
+        "swinging",
+        "liquid taken away, small angles: the centres' difference from the pivots' is a harmonic oscillator, sqrt(g/l)",
+    ),
+}
+
+
+def film_loss(s: float) -> float:
+    """Lf(s) of MODEL.md section 6: St times the loss of -u/v0 between x0 and s x0, the film alone."""
+    return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
+
+
+def _bare(scene: Scene) -> Scene:
+    """The scene without bridge and strings."""
+    tables = {name: value for name, value in scene.to_dict().items() if name not in ("bridge", "pendulum")}
+    return Scene.from_dict(tables)
+
+
+def film_alone(scene: Scene, engine: str) -> tuple[float, str]:
+    """Largest error of u(s) on the way in, of e_n and of the gap at reversal; and where."""
+    bare = _bare(scene)
+    worst = max(_approach(bare, factor * own_stokes(bare), engine) for factor in (0.3, 1.0, 4.0))
+    bounced = 0
+    for stokes in _stokes_range(bare):
+        n = numbers(bare, bare.speed_of(stokes), 0.0)
+        gap = _reversal(n, bare.model.glass)
+        loss = film_loss(gap) / stokes
+        expected = bare.particles.dry_restitution * (1 - loss) - loss
+        if gap == 1 or expected < _SMALLEST or bounced == _BOUNCES:
+            continue
+        bounced += 1
+        found = collide(bare, stokes=stokes, angle=0.0, rtol=RTOL, engine=engine)
+        error = abs(found.restitution - expected)
+        if found.smallest_gap is not None:
+            error = max(error, abs(found.smallest_gap / n.length / gap - 1))
+        worst = max(worst, (error, place(stokes, 0.0, engine, found.reversal or "")))
+    return worst
+
+
+def _approach(bare: Scene, stokes: float, engine: str) -> tuple[float, str]:
+    """Error of -u/v0 against the closed form on the way in, at several instants."""
+    n = numbers(bare, bare.speed_of(stokes), 0.0)
+    flow, start = Flow(choose(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
+    errors = []
+    for time in _INSTANTS.tolist():
+        gap, opening = _flown(flow, engine, n, start, time)
+        errors.append(abs(-opening - (1 - film_loss(gap) / stokes)))
+    return max(errors), place(stokes, 0.0, engine, "approach")
+
+
+def _stokes_range(bare: Scene) -> list[float]:
+    """Stokes numbers from where the film just stops what would reach the roughness, up and down."""
+    gap = bare.particles.roughness / bare.liquid.film_thickness
+    critical = film_loss(gap) * (1 + 1 / max(bare.particles.dry_restitution, 0.2))
+    return list(np.geomspace(1e-3 * critical, 30 * critical, 60).tolist())
+
+
+def _reversal(n: Numbers, glass: str) -> float:
+    """The first gap, from x0 inward, at which a criterion is met; by scanning and bisection of the closed form."""
+    stokes, limit = n.groups["stokes"], n.groups["glass_number"]
+    contact = max(n.groups["elastic_gap"], n.groups["rough_gap"])
+    if contact >= 1:
+        return 1.0
+
+    def clear(s: float) -> bool:
+        film = 1.0 if glass == "film-corrected" else 0.0
+        return (1 - film_loss(s) / stokes) * (1 / s**2 - film) < limit
+
+    outer = 1.0
+    if not clear(outer):
+        return outer
+    for inner in np.geomspace(1.0, contact, 4001)[1:].tolist():
+        if not clear(inner):
+            break
+        outer = inner
+    else:
+        return contact
+    for _ in range(80):
+        middle = 0.5 * (outer + inner)
+        outer, inner = (middle, inner) if clear(middle) else (outer, middle)
+    return outer
+
+
+def _oblique(scene: Scene) -> Numbers:
+    """Numbers of the scene's impact, or of a slanted one if it is head-on."""
+    return numbers(scene, scene.speed_of(own_stokes(scene)), scene.angle or _ANGLE)
+
+
+def straight_line(scene: Scene, engine: str) -> tuple[float, str]:
+    """Error of r and beta of free spheres, over r0 and 1 rad, at several instants."""
+    bare = _bare(scene)
+    n = _oblique(bare)
+    flow = Flow(choose(bare, oblique=True, full=True), Region(0, 0, False), ("rotation",))
+    start = np.array([1.0, 1.0, (4 + n.groups["aspect"]) ** 2, 0.0, 0.0])  # opening, or they would meet
+    aspect, tangent = n.groups["aspect"], n.groups["obliquity"]
+    distance = (4 + aspect) / aspect  # in x0; the tangential speed over v0 is tan(theta0) r0/(4a)
+    sideways = tangent * (4 + aspect) / 4
+    worst = (-1.0, "")
+    longest = 5 * distance / math.hypot(1.0, sideways)
+    for time in (longest * _INSTANTS).tolist():
+        y = _flown(flow, engine, n, start, time)
+        ahead, aside = distance + time, sideways * time
+        errors = (
+            abs((y[0] + 4 / aspect) / math.hypot(ahead, aside) - 1),
+            abs(y[4] - math.atan2(aside, ahead)),
+        )
+        worst = max(worst, (max(errors), place(n.stokes, n.angle, engine, f"{time:.3g} x0/v0")))
+    return worst
+
+
+def spin_relaxes(scene: Scene, engine: str) -> tuple[float, str]:
+    """Error of the slip, and of its end as one rigid body, with the gap held at some depths of the film."""
+    bare = _bare(scene).with_entries({"model.arm": "midgap"})
+    n = _oblique(bare)
+    choice = choose(bare, oblique=True, full=True)
+    flow, edge = Flow(choice, Region(1, 1, True)), float(load(choice).laws.shear.edge(n.groups["aspect"]))
+    a, m, mu = bare.particles.reduced_radius, bare.particles.reduced_mass, bare.liquid.viscosity
+    worst = (-1.0, "")
+    for gap in (0.5 * min(edge, 1.0), 0.05 * min(edge, 1.0)):
+        x = gap * n.length
+        reach = n.length if bare.model.tangential == "film" else 2 * a
+        r = 4 * a + x
+        # m r domega/dt = -F_t and (16/5) m a^2 dxi/dt = F_t r/2, with F_t = 8 pi mu a^2 (omega - xi) ln(reach/x)
+        decay = 8 * math.pi * mu * a**2 * math.log(reach / x) / m * (1 / r + 5 * r / (32 * a**2))
+        start = np.array([gap, 0.0, (4 + n.groups["aspect"] * gap) ** 2, 0.0])
+        for time in (3.0 / decay / n.time * np.array([0.1, 1.0, 10.0])).tolist():
+            y = _flown(flow, engine, n, start, time)
+            rate = y[2] / (r / a) ** 2
+            slip = math.exp(-decay * time * n.time)
+            rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # omega0 = 1: what L leaves of it
+            spin = rigid * (1 - slip)
+            error = max(abs(rate - y[3] - slip), abs(y[3] - spin))
+            worst = max(worst, (error, place(n.stokes, n.angle, engine, f"x = {gap:.3g} x0")))
+    return worst
+
+
+def swinging(scene: Scene, engine: str) -> tuple[float, str]:
+    """Error of r and beta of dry spheres on strings, small angles, over r0 and 1 rad, up to a third of a swing."""
+    assert scene.pendulum is not None
+    tables = {name: value for name, value in scene.to_dict().items() if name != "bridge"}
+    dry = Scene.from_dict(tables).with_entries({"pendulum.law": "small-angle"})
+    n = _oblique(dry)
+    flow = Flow(choose(dry, oblique=True, full=True), Region(0, 0, False))
+    a, aspect = dry.particles.reduced_radius, n.groups["aspect"]
+    start = np.array([1.0, 1.0, (4 + aspect) ** 2, 0.0, 0.0])
+    swing = math.sqrt(scene.pendulum.gravity / scene.pendulum.length)  # rad/s
+    sideways = n.speed * n.groups["obliquity"] * (4 + aspect) / 4
+    worst = (-1.0, "")
+    for part in _INSTANTS.tolist():
+        phase = part * min(2.0, 2 * a * swing / math.hypot(n.speed, sideways))  # radians; stays in front of the pivots
+        across = 4 * a + n.length * math.cos(phase) + n.speed / swing * math.sin(phase)
+        aside = sideways / swing * math.sin(phase)
+        y = _flown(flow, engine, n, start, phase / swing / n.time)
+        r = 4 * a + y[0] * n.length
+        names = list(flow.model.state)
+        error = max(abs(r / math.hypot(across, aside) - 1), abs(y[names.index("rotation")] - math.atan2(aside, across)))
+        worst = max(worst, (error, place(n.stokes, n.angle, engine, f"phase {phase:.3g}")))
+    return worst
+
+
+def _flown(flow: Flow, engine: str, n: Numbers, start: np.ndarray, time: float) -> np.ndarray:
+    p = flow.model.group_values(n.groups)
+    return plain(flow, engine, tolerance(RTOL, engine, n.groups))(start, p, time)

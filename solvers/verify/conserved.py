@@ -1,0 +1,89 @@
+"""What every flight must keep: the energy ledger, angular momentum; and what the engines must agree on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..errors import WetDoubletError
+from ..result import Collision
+from ..simulate import collide
+from .report import Finding, bounded
+from .sample import REFERENCE, RTOL, Sample, where
+
+# Per rtol of the sample. A linear invariant is kept by every step to rounding and to what Newton's method leaves;
+# the ledger is a sum of quadratures with the integrator's own error; between engines the errors of both add up.
+DRIFT, RESIDUAL, AGREEMENT = 10 * RTOL, 100 * RTOL, 1000 * RTOL
+_NUDGE, _WORST_CONDITION = 1e-5, 1e4
+
+
+def conserved(group: str, sample: Sample) -> Iterator[Finding]:
+    """Completed flights, ledger, drift and agreement of the engines, each at its worst place."""
+    statement = "every collision of the sample is completed"
+    figure = f"{len(sample.all)} of {len(sample.failures) + len(sample.all)} collisions"
+    yield Finding(group, "completed", statement, figure, "", not sample.failures, about=tuple(f"  {text}" for text in sample.failures[:5]))
+    if not sample.all:
+        return
+    worst = max(sample.all, key=_residual)
+    yield bounded(
+        group, "energy ledger", "T(0) = T(end) + losses + works: residual over T(0)",
+        _residual(worst), RESIDUAL, where(worst),
+    )  # fmt: skip
+    drifting = [one for one in sample.all if one.angular_momentum_drift is not None]
+    if drifting and sample.scene.model.arm != "surface":
+        worst = max(drifting, key=_drift)
+        statement = "L is conserved: |L/L(0) - 1| where the spin is integrated, not eliminated"
+        yield bounded(group, "angular momentum", statement, _drift(worst), DRIFT, where(worst))
+    yield from _agreement(group, sample)
+
+
+def _agreement(group: str, sample: Sample) -> Iterator[Finding]:
+    """Every engine against the reference, in outcome and e_n."""
+    pairs = [
+        (one, impact[REFERENCE])
+        for impact in sample.impacts
+        if REFERENCE in impact
+        for engine, one in impact.items()
+        if engine != REFERENCE
+    ]
+    for engine in dict.fromkeys(one.engine for one, _ in pairs):
+        judged = [(_apart(one, other), _allowed(one, other), one) for one, other in pairs if one.engine == engine]
+        figure, bound, one = max(judged, key=lambda found: found[0] / found[1])
+        statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
+        yield bounded(group, f"{engine} = {REFERENCE}", statement, figure, bound, where(one))
+
+
+def _residual(one: Collision) -> float:
+    """Residual over the initial energy; not a number counts as without bound."""
+    if one.energy is None:
+        return math.inf
+    figure = abs(one.energy.residual) / one.energy.initial
+    return figure if math.isfinite(figure) else math.inf
+
+
+def _drift(one: Collision) -> float:
+    assert one.angular_momentum_drift is not None
+    return one.angular_momentum_drift if math.isfinite(one.angular_momentum_drift) else math.inf
+
+
+def _apart(one: Collision, other: Collision) -> float:
+    if one.outcome != other.outcome:
+        return math.inf
+    return abs(one.restitution - other.restitution) / (abs(other.restitution) or 1.0)
+
+
+def _allowed(one: Collision, other: Collision) -> float:
+    """AGREEMENT; where it is exceeded, times the condition of e_n, which grows without bounds towards a boundary."""
+    if not AGREEMENT < _apart(one, other) < math.inf:
+        return AGREEMENT
+    try:
+        near = [
+            collide(
+                other.scene, stokes=other.stokes * (1 + side * _NUDGE), angle=other.angle, rtol=RTOL, engine=REFERENCE
+            ).restitution
+            for side in (-1, 1)
+        ]
+    except WetDoubletError:
+        return AGREEMENT
+    condition = abs(near[1] - near[0]) / (2 * _NUDGE * other.restitution)
+    return AGREEMENT * min(max(condition, 1.0), _WORST_CONDITION)

@@ -1,0 +1,45 @@
+"""A located flight with its pieces, for checks that look inside one: what `collide` computes, kept open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..chain import Flown, Stopped, fly
+from ..errors import ComputationError
+from ..integrators import Tolerance, tolerance
+from ..locate import Path, locate
+from ..model import Model, choose, load
+from ..numbers import Numbers, numbers
+from ..phases import Flow, Region
+from ..scene import Scene
+
+
+@dataclass(frozen=True)
+class Followed:
+    """A flight: its path, as one engine flew it, with spin as a state."""
+
+    numbers: Numbers
+    path: Path
+    flown: Flown
+    model: Model
+    p: np.ndarray
+    tolerance: Tolerance
+
+
+def follow(scene: Scene, stokes: float, angle: float, engine: str, rtol: float) -> Followed:
+    """Locate a collision and fly it.
+
+    Raises:
+        ComputationError: the outcome cannot be decided, or the engine stopped.
+    """
+    n = numbers(scene, scene.speed_of(stokes), angle)
+    path = locate(load(choose(scene, n.oblique)), n.groups, rtol)
+    flow = Flow(choose(scene, n.oblique, full=True), Region(1, 1, False))
+    p, told = flow.model.group_values(n.groups), tolerance(rtol, engine, n.groups)
+    try:
+        flown = fly(path, engine, told, flow, flow.model.start(p))
+    except Stopped as failure:
+        raise ComputationError(f"{engine} {failure.why}", phase=str(failure.step.phase)) from None
+    return Followed(n, path, flown, flow.model, p, told)

@@ -1,0 +1,47 @@
+"""All numeric checks of a scene, in the order of the report; one that breaks does not silence the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from ..errors import WetDoubletError
+from ..scene import Scene
+from .audit import stick_audit
+from .backward import backward
+from .closed import closed_forms
+from .conserved import conserved
+from .order import convergence
+from .region import argument, grid
+from .report import Finding
+from .sample import flights
+from .surface import surface_arm
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def numeric(scene: Scene, head_on: bool = False, budget: xarray.Dataset | None = None) -> Iterator[Finding]:
+    """Every law of a scene, measured.
+
+    Arguments:
+        head_on: its head-on variant: without what turns.
+        budget: of the scene, if it is known already.
+    """
+    group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
+    sample = flights(scene, (0.0,) if head_on else None)
+    laws: list[tuple[str, Callable[[], Iterator[Finding]]]] = [
+        ("conservation", lambda: conserved(group, sample)),
+        ("surface arm", lambda: surface_arm(group, sample)),
+        ("forward-back", lambda: backward(group, sample)),
+        ("closed forms", lambda: closed_forms(group, scene, head_on)),
+        ("convergence", lambda: convergence(group, sample)),
+        ("stick certificate", lambda: stick_audit(group, scene, (0.0,) if head_on else None)),
+    ]
+    if not head_on:
+        laws.append(("e_n > 1", lambda: argument(group, grid(scene) if budget is None else budget)))
+    for name, law in laws:
+        try:
+            yield from law()
+        except WetDoubletError as failure:
+            yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)

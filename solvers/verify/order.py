@@ -1,0 +1,79 @@
+"""Convergence: the error of e_n must fall with the tolerance that is asked for, about in proportion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..errors import WetDoubletError
+from ..result import Collision
+from ..settings import ENGINES
+from ..simulate import collide
+from .report import Finding
+from .sample import REFERENCE, Sample, place
+
+TOLERANCES = tuple(10.0**-k for k in range(5, 12))
+_TRUTH = 1e-13
+SLOPES = (0.6, 1.4)  # d log error / d log rtol: p/(p + 1) to 1 for error per step, and some scatter
+RISE = 10.0  # the error may not grow by more than this from one decade of rtol to the next
+_FLOOR = 3e-13  # relative: rounding, and the truth's own error
+_SMALLEST = 0.05  # e_n of a flight that is asked
+
+
+def convergence(group: str, sample: Sample) -> Iterator[Finding]:
+    """The slope of every engine, the worse of two flights of the sample."""
+    chosen = _chosen(sample)
+    if not chosen:
+        yield Finding(group, "convergence", "error of e_n over rtol", "no flight that separates", "", None)
+        return
+    statement = (
+        f"error of e_n against rtol {_TRUTH:.0e}, over rtol {TOLERANCES[0]:.0e} to {TOLERANCES[-1]:.0e}: its slope"
+        f" is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way"
+    )
+    flown = {engine for impact in sample.impacts for engine in impact}
+    for engine in (engine for engine in ENGINES if engine in flown):
+        yield max((_judged(group, statement, one, engine) for one in chosen), key=lambda found: found[0])[1]
+
+
+def _judged(group: str, statement: str, one: Collision, engine: str) -> tuple[float, Finding]:
+    """The finding of one flight, and how bad it is."""
+    name, at = f"convergence, {engine}", place(one.stokes, one.angle)
+    try:
+        errors = measured(one, engine)
+    except WetDoubletError as failure:
+        return math.inf, Finding(group, name, statement, f"not completed: {failure}", "", False, at)
+    slope, rise = fit(errors)
+    held = SLOPES[0] <= slope <= SLOPES[1] and rise <= RISE
+    table = f"  error {' '.join(f'{error:.0e}' for error in errors)} at rtol 1e-5 ... 1e-11"
+    if rise > 1:
+        table += f"; rises {rise:.1f}x, bound {RISE:.0f}x"
+    figure, bound = f"slope {slope:.2f}", f"{SLOPES[0]}..{SLOPES[1]}"
+    finding = Finding(group, name, statement, figure, bound, held, at, (table,))
+    return abs(slope - 1) if math.isfinite(slope) and held else math.inf, finding
+
+
+def measured(one: Collision, engine: str) -> list[float]:
+    """Relative errors of e_n over TOLERANCES."""
+    known = {"scene": one.scene, "stokes": one.stokes, "angle": one.angle, "ledger": False}
+    truth = collide(**known, rtol=_TRUTH, engine=REFERENCE).restitution  # type: ignore[arg-type]  # by keyword
+    found = [collide(**known, rtol=rtol, engine=engine).restitution for rtol in TOLERANCES]  # type: ignore[arg-type]
+    return [abs(value / truth - 1) for value in found]
+
+
+def fit(errors: list[float]) -> tuple[float, float]:
+    """Slope of log error over log rtol by least squares, above rounding, and the largest rise between neighbours."""
+    kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(TOLERANCES, errors) if error > _FLOOR]
+    if not all(map(math.isfinite, errors)) or len(kept) < 3:
+        return math.nan, math.inf
+    x, y = np.array(kept).T
+    slope = float(np.polyfit(x, y, 1)[0])
+    raised = [max(after, _FLOOR) / max(before, _FLOOR) for before, after in zip(errors, errors[1:])]
+    return slope, max(raised)
+
+
+def _chosen(sample: Sample) -> list[Collision]:
+    """Of the sample's flights that separate, the least and the most oblique."""
+    asked = [one for one in sample.separated if one.restitution > _SMALLEST and (one.contact_time or 0) > 0]
+    return [asked[0], asked[-1]] if len(asked) > 1 else asked

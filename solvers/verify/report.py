@@ -1,0 +1,140 @@
+"""What `wetdoublet verify` has found: findings, and the report they make up, on a terminal and as Markdown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import xarray
+
+WIDTH = 100
+_MARKS = {True: "ok", False: "FAIL", None: "note"}
+_MARK = 6  # columns of the mark on the left
+_ABOUT = 4  # ... of what is said about a finding
+_BESIDE = 26  # columns of figure and bound, where places stand in line
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One check: what it says, its figure, the bound it is held to ("" for an identity), and whether it holds.
+
+    Arguments:
+        ok: None for what is reported and not held to anything.
+        where: the place of the worst case (Stokes number, angle, engine, event).
+        about: further lines on it (a table, intervals), shown as they are.
+    """
+
+    group: str
+    name: str
+    statement: str
+    figure: str
+    bound: str
+    ok: bool | None
+    where: str = ""
+    about: tuple[str, ...] = ()
+
+    @property
+    def line(self) -> str:
+        """The whole of it in one line: which law, by how much, where."""
+        held = f", bound {self.bound}" if self.bound else ""
+        place = f", at {self.where}" if self.where else ""
+        return f"{self.name} ({self.group}): {self.figure}{held}{place}"
+
+
+def bounded(
+    group: str, name: str, statement: str, figure: float, bound: float, where: str, about: tuple[str, ...] = ()
+) -> Finding:
+    """A finding whose figure is held to a bound; one that is not a number fails."""
+    return Finding(group, name, statement, f"{figure:.1e}", f"{bound:.1e}", bool(figure <= bound), where, about)
+
+
+@dataclass(frozen=True)
+class Report:
+    """All findings. `str` for a terminal, `to_markdown` for a page.
+
+    Arguments:
+        budget: what e_n^2 - 1 is made of (`restitution_budget`), of the one scene that was asked for.
+    """
+
+    findings: tuple[Finding, ...]
+    budget: xarray.Dataset | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def ok(self) -> bool:
+        return not self.failed
+
+    @property
+    def failed(self) -> tuple[Finding, ...]:
+        return tuple(finding for finding in self.findings if finding.ok is False)
+
+    def __str__(self) -> str:
+        lines: list[str] = []
+        if self.failed:
+            lines += _section("Failed", list(self.failed), told=True)
+        for group, members in self._groups().items():
+            lines += _section(group, members)
+        return "\n".join([*lines, *wrap(self.summary, WIDTH)])
+
+    def to_markdown(self) -> str:
+        """The report as a Markdown page, failures first."""
+        lines = ["# wetdoublet verify", "", self.summary, ""]
+        sections = {"Failed": list(self.failed)} if self.failed else {}
+        for group, members in (sections | self._groups()).items():
+            lines += [f"## {group}", "", "| | check | statement | figure | bound | where |", "|---|---|---|---|---|---|"]
+            for finding in members:
+                cells = (
+                    _MARKS[finding.ok], finding.name, finding.statement, finding.figure, finding.bound, finding.where,
+                )  # fmt: skip
+                lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+            lines.append("")
+            for finding in members:
+                if finding.about and group != "Failed":
+                    lines += [f"{finding.name}:", "", "```text", *finding.about, "```", ""]
+        return "\n".join(lines).rstrip("\n")
+
+    @property
+    def summary(self) -> str:
+        """The last line: how many checks hold, and which do not."""
+        held = sum(finding.ok is not None for finding in self.findings)
+        notes = len(self.findings) - held
+        told = f", {notes} note{'s' * (notes != 1)}" if notes else ""
+        if self.ok:
+            return f"{held} checks hold{told}"
+        names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
+        return f"{len(self.failed)} of {held} checks FAIL{told}: {names}"
+
+    def _groups(self) -> dict[str, list[Finding]]:
+        groups: dict[str, list[Finding]] = {}
+        for finding in self.findings:
+            groups.setdefault(finding.group, []).append(finding)
+        return groups
+
+
+def _section(title: str, members: list[Finding], told: bool = False) -> list[str]:
+    """A group's lines: name, figure beside its bound, place; `told` adds what the check says and where it stands."""
+    lines = [title, "-" * len(title)]
+    name = max(len(finding.name) for finding in members)
+    figures = [f"{f.figure}  <= {f.bound}" if f.bound else f.figure for f in members]
+    beside = [text for text, f in zip(figures, members) if f.where and len(text) <= _BESIDE]
+    column = max(map(len, beside), default=0)
+    indent = " " * (_MARK + name + 2)
+    for finding, figure in zip(members, figures):
+        text = figure
+        if finding.where:
+            text = f"{figure:<{column}}  at {finding.where}"
+        first = f"{_MARKS[finding.ok]:<{_MARK}}{finding.name:<{name}}  "
+        lines += _wrapped(first, text, indent)
+        if told:
+            lines += _wrapped(indent, f"{finding.group}: {finding.statement}", indent)
+        else:
+            lines += [f"{' ' * _ABOUT}{line}".rstrip() for line in finding.about]
+    return [*lines, ""]
+
+
+def _wrapped(first: str, text: str, indent: str) -> list[str]:
+    """Text behind `first`, its spaces kept where it fits on one line."""
+    if len(first) + len(text) <= WIDTH:
+        return [(first + text).rstrip()]
+    return wrap(text, WIDTH, initial_indent=first, subsequent_indent=indent, break_long_words=False)

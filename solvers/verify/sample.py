@@ -1,0 +1,79 @@
+"""The collisions that the laws are measured on: impacts around the scene's own, flown by every engine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from ..errors import InputError, WetDoubletError
+from ..result import Collision
+from ..scene import Scene
+from ..settings import ENGINES
+from ..simulate import collide
+
+RTOL = 1e-10
+ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))
+FACTORS = (0.3, 1.0, 4.0)  # of the scene's own Stokes number
+PLUGINS = ("cvodes", "rosenbrock")  # engines that fly any equations, not only whole collisions
+REFERENCE = "rosenbrock"  # the engine that also locates
+
+
+@dataclass
+class Sample:
+    """Collisions by impact and engine, and what could not be computed."""
+
+    scene: Scene
+    impacts: list[dict[str, Collision]] = field(default_factory=list)
+    failures: list[str] = field(default_factory=list)
+
+    @property
+    def all(self) -> list[Collision]:
+        return [one for impact in self.impacts for one in impact.values()]
+
+    @property
+    def separated(self) -> Iterator[Collision]:
+        """The reference engine's collisions that part."""
+        for impact in self.impacts:
+            if REFERENCE in impact and impact[REFERENCE].outcome != "stick":
+                yield impact[REFERENCE]
+
+
+def own_stokes(scene: Scene) -> float:
+    """The Stokes number that the sample is centred on."""
+    return scene.stokes or 1.0
+
+
+def place(stokes: float, angle: float, engine: str = "", event: str = "") -> str:
+    """A place in words."""
+    parts = [f"St {stokes:.4g}", f"{math.degrees(angle):.4g} deg", engine, event]
+    return ", ".join(part for part in parts if part)
+
+
+def where(one: Collision) -> str:
+    """The place of a collision."""
+    return place(one.stokes, one.angle, one.engine)
+
+
+def flights(scene: Scene, angles: Sequence[float] | None = None) -> Sample:
+    """Fly the sample of a scene; one that fails is noted, the others go on.
+
+    Arguments:
+        angles: rad; None for ANGLES and the scene's own.
+    """
+    own = own_stokes(scene)
+    sample = Sample(scene)
+    for angle in dict.fromkeys((*ANGLES, scene.angle or 0.0) if angles is None else angles):
+        for factor in FACTORS:
+            found: dict[str, Collision] = {}
+            for engine in ENGINES:
+                try:
+                    found[engine] = collide(scene, stokes=own * factor, angle=angle, rtol=RTOL, engine=engine)
+                except InputError as error:
+                    if error.field != "engine":  # an engine may not take every scene
+                        sample.failures.append(f"{place(own * factor, angle, engine)}: {error}")
+                except WetDoubletError as error:
+                    sample.failures.append(f"{place(own * factor, angle, engine)}: {error}")
+            if found:
+                sample.impacts.append(found)
+    return sample
