@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from .budget import restitution_budget
+from .identities import symbolic
 from .laws import numeric
 from .report import Finding, Report
 from .run import verify
-from .identities import symbolic
 
 __all__ = ["Finding", "Report", "numeric", "restitution_budget", "symbolic", "verify"]

@@ -72,9 +72,7 @@ def backward(group: str, sample: Sample) -> Iterator[Finding]:
         )
         most = max(entry.amplification for entry in found)
         told = (f"  {len(found)} stretches; amplification {worst.amplification:.1e} at the worst, at most {most:.1e}",)
-        yield bounded(
-            group, f"forward-back, {engine}", statement, worst.error, worst.bound, worst.where, told
-        )
+        yield bounded(group, f"forward-back, {engine}", statement, worst.error, worst.bound, worst.where, told)
 
 
 def _chosen(sample: Sample) -> list[tuple[float, float]]:

@@ -48,7 +48,7 @@ def closed_forms(group: str, scene: Scene, head_on: bool = False) -> Iterator[Fi
 _TOLD = {
     "film_alone": (
         "film alone",
-        "head-on, bridge and strings taken away: reversal and e_n by -u/v0 = 1 - Lf(s)/St, Lf = ln(1/s) - 3/2 + 2s - s^2/2",
+        "head-on, no bridge, no strings: approach, reversal and e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
     ),
     "straight_line": (
         "straight line",

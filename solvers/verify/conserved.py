@@ -21,7 +21,8 @@ def conserved(group: str, sample: Sample) -> Iterator[Finding]:
     """Completed flights, ledger, drift and agreement of the engines, each at its worst place."""
     statement = "every collision of the sample is completed"
     figure = f"{len(sample.all)} of {len(sample.failures) + len(sample.all)} collisions"
-    yield Finding(group, "completed", statement, figure, "", not sample.failures, about=tuple(f"  {text}" for text in sample.failures[:5]))
+    told = tuple(f"  {text}" for text in sample.failures[:5])
+    yield Finding(group, "completed", statement, figure, "", not sample.failures, about=told)
     if not sample.all:
         return
     worst = max(sample.all, key=_residual)

@@ -40,7 +40,7 @@ def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
     """
     scene = Scene.from_toml(data.attrs["scene"])
     figure = Figure(figsize=(10.5, 5.4), layout="constrained")
-    grid = figure.add_gridspec(3, 2, width_ratios=[1, 1.15], height_ratios=[1, 1, 0.16])
+    grid = figure.add_gridspec(2, 2, width_ratios=[1, 1.15])
     shown = _rows(data, scene)
     _map(figure, figure.add_subplot(grid[:, 0]), data, shown)
     panels = [figure.add_subplot(grid[k, 1]) for k in range(len(shown))]
@@ -48,9 +48,11 @@ def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
         _terms(panel, data, row, letter)
     panels[0].tick_params(labelbottom=len(panels) == 1)
     panels[-1].set_xlabel("Stokes number St", fontsize=9)
-    _legend(figure.add_subplot(grid[2, 1]), data)
+    _legend(figure, data)
     title = name_of(scene).replace("$", r"\$")
-    figure.suptitle(f"{title}: where the released energy of rotation exceeds the losses, $e_n > 1$", fontsize=11)
+    figure.suptitle(
+        f"{title}: energy of rotation released against losses, and the restitution that they leave", fontsize=11
+    )
     if path is not None:
         figure.savefig(path, dpi=130)
     return figure
@@ -79,7 +81,7 @@ def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> 
     if np.ma.count(e_n) and float(e_n.max()) > 1 > float(e_n.min()):
         # a stick has e_n = 0: the contour goes between it and its neighbours
         filled = np.where(np.isfinite(data["restitution"].values), data["restitution"].values, 0.0)
-        contour = axes.contour(angles, stokes, filled.T, levels=[1.0], colors=_INK, linewidths=1.4)
+        contour = axes.contour(angles, stokes, filled.T, levels=[1.0], colors=_INK, linewidths=1.2)
         axes.clabel(contour, fmt={1.0: "$e_n = 1$"}, fontsize=8)
     else:
         axes.text(0.03, 0.03, "$e_n < 1$ everywhere", transform=axes.transAxes, fontsize=9, ha="left")
@@ -124,7 +126,7 @@ def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
     axes.set_title(f"({letter})", loc="left", fontsize=10, fontweight="bold")
     axes.set_title(f"{angle:.0f}°: terms of $e_n^2 - 1$", fontsize=9)
     axes.set_ylabel("energy / $\\frac{1}{2} m v_0^2$", fontsize=9)
-    axes.yaxis.set_major_locator(MaxNLocator(5))
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     axes.tick_params(labelsize=8)
     axes.spines[["top", "right"]].set_visible(False)
 
@@ -141,14 +143,13 @@ def _between(values: np.ndarray, low: int, high: int) -> float:
     return float(math.sqrt(values[low] * values[high]))
 
 
-def _legend(axes: Axes, data: xarray.Dataset) -> None:
-    axes.axis("off")
+def _legend(figure: Figure, data: xarray.Dataset) -> None:
     there = [name for name in LOSSES if np.nanmax(np.abs(data[name].values), initial=0.0) > 0]
     handles: list[Patch | Line2D] = [Patch(color=RELEASED, label="rotation released")]
     handles += [Patch(color=COLOURS[name], label=LOSSES[name]) for name in there]
     handles += [Line2D([], [], color=_INK, linewidth=1.8, marker="o", markersize=3.5, markerfacecolor="white",
                        label="$e_n^2 - 1$ (circles: > 0)"), Patch(color=_NOTHING, label="stick")]  # fmt: skip
-    axes.legend(handles=handles, loc="center", ncols=4, fontsize=8, frameon=False, columnspacing=1.2)
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8, frameon=False)
 
 
 def _logarithmic(axis: object) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -69,7 +70,7 @@ def fit(errors: list[float]) -> tuple[float, float]:
         return math.nan, math.inf
     x, y = np.array(kept).T
     slope = float(np.polyfit(x, y, 1)[0])
-    raised = [max(after, _FLOOR) / max(before, _FLOOR) for before, after in zip(errors, errors[1:])]
+    raised = [max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)]
     return slope, max(raised)
 
 

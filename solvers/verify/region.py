@@ -103,7 +103,7 @@ def intervals(data: xarray.Dataset, row: int) -> list[tuple[float, float]]:
 
 
 def _end(e_n: np.ndarray, logs: np.ndarray, inside: int, outside: int) -> float:
-    """ln St where e_n = 1 between two neighbours; half-way if the outer one does not separate, its own at the rim."""
+    """Ln St where e_n = 1 between two neighbours; half-way if the outer one does not separate, its own at the rim."""
     if not 0 <= outside < logs.size:
         return float(logs[inside])
     if not e_n[outside] > 0:
@@ -128,13 +128,12 @@ def table(data: xarray.Dataset, best: tuple[int, int]) -> list[str]:
         picked |= {(j, int(parted[k])) for k in np.linspace(0, parted.size - 1, min(3, parted.size)).astype(int)}
     names = [name for name in TERMS if name != "strings" or np.nanmax(np.abs(data["strings"].values)) > 0]
     heads = [head for head, name in zip(_HEADS, TERMS) if name in names]
-    lines = [
-        "  in m v0^2/2" + " " * 4 + "".join(f"{head:>8}" for head in heads) + f"{'e_n^2 - 1':>10}{'e_n':>8}{'residual':>9}"
-    ]
+    columns = "".join(f"{head:>8}" for head in heads)
+    lines = [f"  {'in m v0^2/2':<15}{columns}{'e_n^2 - 1':>10}{'e_n':>8}{'residual':>9}"]
     for j, k in sorted(picked | {best}):
         row = [float(data[name][j, k]) * (-1 if name in LOSSES else 1) + 0.0 for name in names]
         head = f"{math.degrees(float(data['angle'][j])):.0f} deg, {float(data['stokes'][k]):.3g}"
         excess, e_n = float(data["excess"][j, k]), float(data["restitution"][j, k])
-        cells = "".join(f"{value:>8.4f}" for value in row)
+        cells = "".join(f"{value:>8.4f}" if abs(value) < 10 else f"{value:>8.3f}" for value in row)
         lines.append(f"  {head:<15}{cells}{excess:>10.4f}{e_n:>8.4f}{float(data['residual'][j, k]):>9.0e}")
     return lines

@@ -82,7 +82,12 @@ class Report:
         lines = ["# wetdoublet verify", "", self.summary, ""]
         sections = {"Failed": list(self.failed)} if self.failed else {}
         for group, members in (sections | self._groups()).items():
-            lines += [f"## {group}", "", "| | check | statement | figure | bound | where |", "|---|---|---|---|---|---|"]
+            lines += [
+                f"## {group}",
+                "",
+                "| | check | statement | figure | bound | where |",
+                "|---|---|---|---|---|---|",
+            ]
             for finding in members:
                 cells = (
                     _MARKS[finding.ok], finding.name, finding.statement, finding.figure, finding.bound, finding.where,
@@ -116,7 +121,7 @@ def _section(title: str, members: list[Finding], told: bool = False) -> list[str
     """A group's lines: name, figure beside its bound, place; `told` adds what the check says and where it stands."""
     lines = [title, "-" * len(title)]
     name = max(len(finding.name) for finding in members)
-    figures = [f"{f.figure}  <= {f.bound}" if f.bound else f.figure for f in members]
+    figures = [_held(finding) for finding in members]
     beside = [text for text, f in zip(figures, members) if f.where and len(text) <= _BESIDE]
     column = max(map(len, beside), default=0)
     indent = " " * (_MARK + name + 2)
@@ -131,6 +136,13 @@ def _section(title: str, members: list[Finding], told: bool = False) -> list[str
         else:
             lines += [f"{' ' * _ABOUT}{line}".rstrip() for line in finding.about]
     return [*lines, ""]
+
+
+def _held(finding: Finding) -> str:
+    """Figure and bound; a bound with two dots in it is a range."""
+    if not finding.bound:
+        return finding.figure
+    return f"{finding.figure} {'in' if '..' in finding.bound else '<='} {finding.bound}"
 
 
 def _wrapped(first: str, text: str, indent: str) -> list[str]:

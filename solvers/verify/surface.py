@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from casadi import SX, integrator, vertcat
+from casadi import SX, Function, integrator, vertcat
 
 from ..errors import WetDoubletError
 from ..integrators import quiet
@@ -55,16 +55,16 @@ def torque(flight: Followed) -> float:
         run = _torque(piece.flow, flight.tolerance.relative, flight.tolerance.absolute)
         start = vertcat(*piece.start, 0.0)
         total += float(run(x0=start, p=vertcat(flight.p, piece.duration))["xf"][-1])
-    return total / (4 + groups["aspect"]) ** 2
+    return total / (4 + float(groups["aspect"])) ** 2
 
 
 @lru_cache(maxsize=32)
-def _torque(flow: Flow, relative: float, absolute: float) -> object:
+def _torque(flow: Flow, relative: float, absolute: float) -> Function:
     """Integrator of a flow and of -x F_t: F_t = 8 pi mu a^2 (omega - xi) times the law's logarithm, in the groups."""
     parts, model = expressions(flow), flow.model
     gap, aspect = model.state["gap"], model.groups["aspect"]
     slip = model.state["orbit"] / (4 + aspect * gap) ** 2 - model.state["spin"]
-    # over m a omega0 v0/x0: 8 pi mu a^2 = (4/3) m v0/(St a) ... a^2/a; here in units of the orbital momentum a^2 omega0
+    # 8 pi mu a^2 = (4/3) m v0/St, and rates of L are over m a^2 omega0 v0/x0
     force = flow.region.shear * 4 * aspect / (3 * model.groups["stokes"]) * slip
     force *= model.laws.shear.log_factor(gap, aspect)
     duration = SX.sym("duration")

@@ -117,6 +117,7 @@ BAD = [
     ("", "COMMAND", "issing", "scenes, collide"),
     ("scenes granulaton", "scene", "did you mean granulation?", "granulation, pendulum"),
     ("verify nowhere.toml", "scene", '"nowhere.toml"', "a scene file"),
+    ("verify --plot where.png", "--plot", '"where.png" needs a SCENE', "a SCENE with --plot"),
     ("verify --stokes 1", "--stokes", '"1" needs a SCENE', "a SCENE with --stokes"),
     ("generate --out /dev/null/x", "--out", "/dev/null", "a folder"),
     ("generate --check --out x", "--out", '"x"', "--check alone"),
@@ -238,6 +239,8 @@ def test_generate_and_verify(module, tmp_path):
 
     class Report:
         ok = False
+        budget = None
+        failed = (SimpleNamespace(line="angular momentum (granulation): 1e-3, bound 1e-9, at St 1"),)
 
         def __str__(self):
             return "L is not conserved"
@@ -248,6 +251,7 @@ def test_generate_and_verify(module, tmp_path):
     module("wetdoublet.solvers.verify", verify=lambda scene: Report())
     result = run("verify", "-o", str(tmp_path / "report.md"))
     assert (result.exit_code, result.stdout) == (1, "L is not conserved\n") and len(result.stderr.splitlines()) == 1
+    assert "angular momentum (granulation): 1e-3, bound 1e-9, at St 1" in result.stderr
     assert (tmp_path / "report.md").read_text() == "# L\n"
 
 

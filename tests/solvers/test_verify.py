@@ -1,0 +1,181 @@
+"""The laws hold on the presets; the budget of e_n^2 - 1; the report and its command."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from wetdoublet.solvers import Scene, cli
+from wetdoublet.solvers.verify import (
+    Finding,
+    Report,
+    audit,
+    backward,
+    conserved,
+    numeric,
+    order,
+    region,
+    restitution_budget,
+    sample,
+    surface,
+)
+from wetdoublet.solvers.verify.draw import draw_budget
+
+LAWS = [
+    "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
+    "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
+    "convergence, rosenbrock", "stick certificate", "e_n^2 - 1: identity", "e_n^2: ceiling", "e_n > 1",
+]  # fmt: skip
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """Fewer impacts than a user gets, of every kind."""
+    monkeypatch.setattr(audit, "IMPACTS", 30)
+    monkeypatch.setattr(region, "ANGLES", (30, 60, 75))
+    monkeypatch.setattr(region, "_POINTS", 8)
+    monkeypatch.setattr(order, "TOLERANCES", tuple(10.0**-k for k in (5, 7, 9, 11)))
+
+
+@pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
+def test_every_law_holds_on_the_presets(name: str, small: None) -> None:
+    """Every law has a finding on every preset that has its subject, and none fails."""
+    found = {finding.name: finding for finding in numeric(Scene.load(name))}
+    strings = name == "pendulum"
+    expected = [law for law in LAWS if law != "angular momentum" or not strings] + ["swinging"] * strings
+    assert sorted(found) == sorted(expected)
+    assert [law for law, finding in found.items() if finding.ok is False] == []
+    held = [law for law, finding in found.items() if finding.ok is not None]
+    assert len(held) >= len(expected) - 3
+
+
+def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
+    """Surface arm: the drift of L is reported, not held; it equals the integral of -x F_t to integration error."""
+    scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
+    flown = sample.flights(scene, (0.0, 0.5, 1.3))
+    findings = [*conserved.conserved("g", flown), *surface.surface_arm("g", flown)]
+    found = {finding.name: finding for finding in findings}
+    assert found["angular momentum"].ok is None
+    drift = float(found["angular momentum"].figure.split()[1].rstrip(":"))
+    assert 1e-3 < drift < 2e-2  # MODEL.md section 6: 0.2 to 1 %
+    assert found["dL = -int x F_t dt"].ok is True
+    assert not [law for law, finding in found.items() if finding.ok is False]
+
+
+def test_the_budget_adds_up() -> None:
+    """Granulation, 75 deg, St 0.02: e_n about 1.4, and e_n^2 - 1 is what is released less all losses."""
+    budget = restitution_budget("granulation", stokes=[0.002, 0.02], angle=[math.radians(75)])
+    assert budget["outcome"].values.tolist() == [[0, 1]]
+    assert math.isnan(budget["excess"][0, 0])
+    at = budget.isel(angle=0, stokes=1)
+    assert float(at["restitution"]) == pytest.approx(1.4, abs=0.1)  # MODEL.md section 8
+    losses = ("normal_lubrication", "tangential_lubrication", "capillary", "dry_contact", "strings", "residual")
+    lost = sum(float(at[name]) for name in losses)
+    # rounding of sums of terms of about 7
+    assert float(at["rotation_released"]) - lost == pytest.approx(float(at["restitution"]) ** 2 - 1, abs=1e-12)
+    assert 1 < float(at["restitution"]) ** 2 < float(at["ceiling"])
+
+
+def test_intervals_end_where_the_restitution_is_one() -> None:
+    """Between two points ln e_n is taken as straight in ln St; next to a stick the interval ends half-way."""
+    budget = restitution_budget("granulation", stokes=[0.01, 0.02, 0.04], angle=[math.radians(75)])
+    budget["restitution"].values[:] = [[0.0, 2.0, 0.5]]
+    ((low, high),) = region.intervals(budget, 0)
+    assert low == pytest.approx(math.sqrt(0.01 * 0.02), rel=1e-12)
+    assert high == pytest.approx(math.sqrt(0.02 * 0.04), rel=1e-12)
+
+
+def test_the_picture_shows_the_terms(tmp_path) -> None:
+    """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number."""
+    angles = np.radians([45, 60, 75]).tolist()
+    budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
+    figure = draw_budget(budget, tmp_path / "budget.png")
+    assert (tmp_path / "budget.png").stat().st_size > 10_000
+    lines = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == 4]
+    drawn = [line.get_ydata() for line in lines]
+    for row in (1, 2):
+        assert any(np.array_equal(line, budget["excess"].values[row], equal_nan=True) for line in drawn)
+
+
+def test_amplification_of_a_relaxing_spin() -> None:
+    """Gap held: the slip falls as exp(-k t), so backward the variational matrix grows by about exp(k t)."""
+    from wetdoublet.solvers.model import choose, load
+    from wetdoublet.solvers.numbers import numbers
+    from wetdoublet.solvers.phases import Flow, Region
+
+    scene = Scene.load("granulation-dry-bridge")
+    n = numbers(scene, scene.speed_of(0.03), math.radians(60))
+    flow = Flow(choose(scene, oblique=True, full=True), Region(1, 1, True))
+    p = load(flow.choice).group_values(n.groups)
+    start = np.array([0.5, 0.0, (4 + n.groups["aspect"] * 0.5) ** 2, 0.0])
+    a, m, mu, x = 50e-6, 5.2e-9, 2.0, 4e-6
+    r = 4 * a + x
+    decay = 8 * math.pi * mu * a**2 * math.log(2 * a / x) / m * (1 / r + 5 * r / (32 * a**2)) * n.time
+    for exponent in (2.0, 6.0):
+        found = backward._amplification(flow, start, p, exponent / decay)
+        # the norm is at least the spectral radius, and at most a few times it for so mild a non-normality
+        assert math.exp(exponent) * 0.5 < found < 4 * math.exp(exponent)
+    assert all(backward._amplification(flow, start, p, t) > backward.MOST for t in (12 / decay, 1e3 / decay))
+
+
+def test_the_slope_of_known_errors() -> None:
+    """Errors in proportion to rtol have slope 1; errors that stay have slope 0; what rises is seen."""
+    falling = [3 * rtol for rtol in order.TOLERANCES]
+    assert order.fit(falling) == (pytest.approx(1.0, abs=1e-12), pytest.approx(0.1))
+    assert order.fit([1e-6] * len(falling))[0] == pytest.approx(0.0, abs=1e-12)
+    assert order.fit([*falling[:3], 100 * falling[2], *falling[4:]])[1] == pytest.approx(100.0)
+    assert math.isnan(order.fit([math.inf] * len(falling))[0])
+
+
+def report() -> Report:
+    """Two groups, one failure, a note, a long text, a bar in a statement."""
+    return Report(
+        (
+            Finding("Symbolic", "inertia", "I(x) = |rigid|", "2 identities", "", True),
+            Finding("Numeric: s", "energy ledger", "closes", "3.0e-06", "1.0e-08", False, "St 1, 30 deg, cvodes"),
+            Finding("Numeric: s", "e_n > 1", "where", "word " * 40, "", None, about=("  a table",)),
+        )
+    )
+
+
+def test_the_report_on_a_terminal() -> None:
+    """Failures first with what they say, at most 100 columns, a summary that names them at the end."""
+    text = str(report())
+    lines = text.splitlines()
+    assert lines[0] == "Failed"
+    assert lines[2].startswith("FAIL") and "3.0e-06 <= 1.0e-08" in lines[2] and "at St 1, 30 deg, cvodes" in lines[2]
+    assert max(map(len, lines)) <= 100
+    assert lines[-1] == "1 of 2 checks FAIL, 1 note: energy ledger (Numeric: s)"
+    good = Report(report().findings[:1])
+    assert "Failed" not in str(good) and str(good).splitlines()[-1] == "1 checks hold"
+
+
+def test_the_report_as_markdown() -> None:
+    """A table a group with as many cells in each row, bars escaped, tables of a finding as text."""
+    text = report().to_markdown()
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert {row.replace("\\|", "").count("|") for row in rows} == {7}
+    assert "```text\n  a table\n```" in text
+    assert text.index("## Failed") < text.index("## Symbolic")
+
+
+def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
+    """Exit 1; one line on standard error: which law, by how much, where."""
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: report())
+    result = CliRunner().invoke(cli.cli, ["verify", "granulation"])
+    assert result.exit_code == 1
+    line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
+    assert result.stderr == f"verify: {line}\n"
+
+
+def test_the_command_draws(monkeypatch, tmp_path) -> None:
+    """`--plot` draws the budget of the report; the report goes to standard output all the same."""
+    budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
+    good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: good)
+    result = CliRunner().invoke(cli.cli, ["verify", "pendulum", "--plot", str(tmp_path / "p.png")])
+    assert result.exit_code == 0
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")

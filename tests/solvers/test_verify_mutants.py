@@ -1,0 +1,212 @@
+"""Each law's check fails, by name and at the right place, when its subject is broken."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from casadi import SX, integrator, vertcat
+from wetdoublet.solvers import Collision, ComputationError, Scene, collide, locate
+from wetdoublet.solvers.phases import OPENING, expressions
+from wetdoublet.solvers.verify import audit, backward, budget, closed, conserved, order, region, sample, surface
+from wetdoublet.solvers.verify.report import Finding
+
+SCENE = Scene.load("granulation")
+BAD = {"stokes": 0.12, "angle": math.radians(60)}  # one impact of the sample; it separates
+
+
+def doctored(change: Callable[[Collision], Collision], engine: str | None = None) -> Callable[..., Collision]:
+    """`collide` with one impact changed (of one engine, or of all)."""
+
+    def run(scene: Scene, **options: Any) -> Collision:
+        one = collide(scene, **options)
+        hit = math.isclose(one.stokes, BAD["stokes"], rel_tol=1e-3) and math.isclose(one.angle, BAD["angle"])
+        return change(one) if hit and engine in (None, one.engine) else one
+
+    return run
+
+
+def by_name(findings: Iterable[Finding]) -> dict[str, Finding]:
+    return {finding.name: finding for finding in findings}
+
+
+def failures(findings: Iterable[Finding]) -> list[str]:
+    return [finding.name for finding in findings if finding.ok is False]
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Two angles of the sample."""
+    monkeypatch.setattr(sample, "ANGLES", (0.0, BAD["angle"]))
+
+
+def open_ledger(one: Collision) -> Collision:
+    assert one.energy is not None
+    return replace(one, energy=replace(one.energy, normal_lubrication=one.energy.normal_lubrication * (1 + 1e-6)))
+
+
+@pytest.mark.parametrize(
+    ("law", "change", "engine"),
+    [
+        ("energy ledger", open_ledger, None),
+        ("energy ledger", lambda one: replace(one, energy=replace(one.energy, capillary=math.nan)), None),
+        ("angular momentum", lambda one: replace(one, angular_momentum_drift=1e-7), None),
+        ("cvodes = rosenbrock", lambda one: replace(one, restitution=one.restitution * (1 + 1e-6)), "cvodes"),
+        ("cvodes = rosenbrock", lambda one: replace(one, outcome="stick", restitution=0.0), "cvodes"),
+    ],
+)
+def test_one_bad_collision_is_found_and_named(law, change, engine, few, monkeypatch) -> None:
+    """An open ledger, one that is no number, a drift, an engine off by 1e-6, another outcome: that law, that place."""
+    monkeypatch.setattr(sample, "collide", doctored(change, engine))
+    found = by_name(conserved.conserved("g", sample.flights(SCENE)))
+    assert failures(found.values()) == [law]
+    assert found[law].where.startswith("St 0.12, 60 deg")
+
+
+def test_a_collision_that_fails_does_not_lose_the_others(few, monkeypatch) -> None:
+    """One that cannot be computed fails `completed`, with its place and reason; every other law is still judged."""
+
+    def fail(one: Collision) -> Collision:
+        raise ComputationError("no event within 1e9 x0/v0", phase="closing")
+
+    monkeypatch.setattr(sample, "collide", doctored(fail, "cvodes"))
+    found = by_name(conserved.conserved("g", sample.flights(SCENE)))
+    assert failures(found.values()) == ["completed"]
+    assert "St 0.12, 60 deg, cvodes" in found["completed"].about[0] and "no event" in found["completed"].about[0]
+    assert found["energy ledger"].ok and found["cvodes = rosenbrock"].ok
+
+
+def test_a_wrong_sign_on_the_way_back_is_found(few, monkeypatch) -> None:
+    """Backward with the opening rate's sign kept: the stretch does not come back, in any engine."""
+
+    def wrong(flow, engine, told):
+        parts, duration = expressions(flow), SX.sym("duration")
+        rates = [-rate for rate in SX.elements(parts.rates)]
+        rates[1] = -rates[1]
+        dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * vertcat(*rates)}
+        return backward.Returning(integrator("wrong", engine, dae, 0, 1, told.options(engine)))
+
+    flown = sample.flights(SCENE)
+    assert failures(backward.backward("g", flown)) == []
+    monkeypatch.setattr(backward, "returning", wrong)
+    found = by_name(backward.backward("g", flown))
+    assert failures(found.values()) == ["forward-back, cvodes", "forward-back, rosenbrock"]
+    assert "St " in found["forward-back, cvodes"].where
+
+
+@pytest.mark.parametrize("name", ["granulation", "pendulum"])
+def test_equations_that_are_off_miss_their_closed_forms(name, monkeypatch) -> None:
+    """Every group of the equations off by 1e-5: film, straight line, spin and swing all miss, bound 1e-7."""
+    honest = closed.plain
+
+    def off(flow, engine, told):
+        fly = honest(flow, engine, told)
+        return lambda y, p, duration: fly(y, p * (1 + 1e-5), duration)
+
+    monkeypatch.setattr(closed, "plain", off)
+    swing = ["swinging"] if name == "pendulum" else []
+    laws = ["film alone", "straight line", "spin relaxes", *swing]
+    assert failures(closed.closed_forms("g", Scene.load(name))) == laws
+
+
+def test_a_bounce_that_is_off_misses_the_film_alone(monkeypatch) -> None:
+    """e_n of the head-on bounce off by 1e-6: the closed form names the Stokes number and the criterion met."""
+    monkeypatch.setattr(
+        closed, "collide", lambda scene, **o: replace(one := collide(scene, **o), restitution=one.restitution + 1e-6)
+    )
+    (found,) = [finding for finding in closed.closed_forms("g", SCENE) if finding.ok is False]
+    assert found.name == "film alone"
+    assert float(found.figure) == pytest.approx(1e-6, rel=0.1)
+    assert found.where.endswith("glass")
+
+
+def test_an_engine_that_does_not_converge_is_found(few, monkeypatch) -> None:
+    """e_n off by 1e-6 whatever the tolerance: the slope of the error breaks down, for that engine only."""
+    flown = sample.flights(SCENE)
+
+    def off(scene, **options):
+        one = collide(scene, **options)
+        return replace(one, restitution=one.restitution * (1 + 1e-6 * (one.engine == "cvodes")))
+
+    monkeypatch.setattr(order, "collide", off)
+    assert failures(order.convergence("g", flown)) == ["convergence, cvodes"]
+
+
+class Overeager:
+    """A proof that calls every doublet stuck once it opens: too much."""
+
+    theorem, by_energy = True, False
+
+    def level(self, y, phase):
+        return None
+
+    def decided(self, y, phase):
+        return phase.motion == OPENING
+
+
+def test_a_certificate_that_proves_too_much_is_caught(monkeypatch) -> None:
+    """Impacts that a false proof certifies escape when flown on; the audit counts them and names one."""
+    monkeypatch.setattr(audit, "IMPACTS", 12)
+    (honest,) = audit.stick_audit("g", SCENE)
+    assert honest.ok and not honest.figure.startswith("0 of 0")
+    monkeypatch.setattr(locate, "proof_for", lambda *_: Overeager())
+    (found,) = audit.stick_audit("g", SCENE)
+    assert (found.name, found.ok) == ("stick certificate", False)
+    assert int(found.figure.split()[0]) > 0
+    assert found.where.startswith("St ") and "apart at" in found.where
+
+
+def test_a_flight_without_proof_is_the_same_flight() -> None:
+    """What separates is not changed by flying without a certificate."""
+    from wetdoublet.solvers.model import choose, load
+    from wetdoublet.solvers.numbers import numbers
+
+    n = numbers(SCENE, SCENE.speed_of(0.05), math.radians(70))
+    model = load(choose(SCENE, oblique=True))
+    free, kept = audit.WithoutProof(model, n.groups, 1e-9).on(1e5), locate.locate(model, n.groups, 1e-9)
+    assert free.separated and kept.separated
+    assert free.y[1] == pytest.approx(float(kept.y[1]), rel=1e-7)  # 100 rtol: the energy is watched in one only
+
+
+@pytest.mark.parametrize(
+    ("law", "change"),
+    [
+        ("e_n^2 - 1: identity", open_ledger),
+        ("e_n^2 - 1: identity", lambda one: replace(one, final_spin=one.final_spin * (1 + 1e-5))),
+        ("e_n^2 - 1: identity", lambda one: replace(one, restitution=one.restitution * (1 + 1e-5))),
+        ("e_n^2: ceiling", lambda one: replace(one, restitution=4 * one.restitution)),
+    ],
+)
+def test_a_budget_that_does_not_add_up_is_found(law, change, monkeypatch) -> None:
+    """An open ledger, a spin or an e_n off by 1e-5 break the identity; an e_n four times too large its ceiling."""
+    monkeypatch.setattr(budget, "collide", doctored(change))
+    data = budget.restitution_budget(SCENE, stokes=[0.05, BAD["stokes"]], angle=[0.5, BAD["angle"]], rtol=1e-10)
+    found = by_name(region.argument("g", data))
+    assert law in failures(found.values())
+    assert found[law].where == "St 0.12, 60 deg"
+
+
+def test_a_budget_with_a_failed_point_still_has_its_findings(monkeypatch) -> None:
+    """A point that cannot be computed is named; the identity is judged on the others."""
+
+    def fail(one: Collision) -> Collision:
+        raise ComputationError("the integrator gave up")
+
+    monkeypatch.setattr(budget, "collide", doctored(fail))
+    data = budget.restitution_budget(SCENE, stokes=[0.05, BAD["stokes"]], angle=[BAD["angle"]], rtol=1e-10)
+    found = by_name(region.argument("g", data))
+    assert failures(found.values()) == ["e_n^2 - 1: completed"]
+    assert found["e_n^2 - 1: identity"].ok
+    assert np.isnan(data["excess"].values[0, 1])
+
+
+def test_a_torque_that_is_off_is_found(few, monkeypatch) -> None:
+    """Surface arm: a drift of L that is not the integral of -x F_t fails by name."""
+    flown = sample.flights(SCENE.with_entries({"model.arm": "surface"}))
+    honest = surface.torque
+    monkeypatch.setattr(surface, "torque", lambda flight: honest(flight) * (1 + 1e-4))
+    assert failures(surface.surface_arm("g", flown)) == ["dL = -int x F_t dt"]
