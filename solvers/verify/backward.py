@@ -1,7 +1,7 @@
 """Forward, then backward: a smooth stretch of a flight, run back in time, must come back to where it started.
 
 Backward in time what relaxes grows: the spin of a wet sphere by many decades a microsecond. So stretches are short, and
-the bound is the engine's tolerance times the norm of the inverse of the stretch's own variational matrix.
+the bound is the tolerance times the norm of the inverse of the stretch's own variational matrix.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .follow import Followed, follow
 from .report import Finding, bounded
 from .sample import PLUGINS, REFERENCE, RTOL, Sample, place
 
-_SAFETY = 1000.0  # of the tolerance given to the engine: its global error over a stretch, without amplification
+_SAFETY = 30.0  # of rtol: what either engine may add up to over a stretch, before it is amplified
 MOST = 1e4  # amplification of a stretch
 _AIM = 1e3  # amplification a stretch is first cut for, from the fastest rate at its ends
 _SHORTEST = 1e-12  # of a phase: stretches are halved no further
@@ -67,7 +67,7 @@ def backward(group: str, sample: Sample) -> Iterator[Finding]:
             continue
         worst = max(found, key=lambda entry: entry.error / entry.bound)
         statement = (
-            f"a stretch flown forward and back returns to its start, within {_SAFETY:.0f} tolerances times the norm of "
+            f"a stretch flown forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
             f"the inverse of its variational matrix (at most {MOST:.0e})"
         )
         most = max(entry.amplification for entry in found)
@@ -104,7 +104,7 @@ def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
 def _returned(stretch: Stretch, flight: Followed, engine: str, where: str) -> _Return:
     told = flight_tolerance(engine)
     scale = _scale(stretch.flow, flight.p)
-    bound = _SAFETY * told.relative * stretch.amplification
+    bound = _SAFETY * RTOL * stretch.amplification
     try:
         end = plain(stretch.flow, engine, told)(stretch.start, flight.p, stretch.duration)
         back = returning(stretch.flow, engine, told)(end, flight.p, stretch.duration)

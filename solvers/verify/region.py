@@ -92,29 +92,30 @@ def _region(group: str, data: xarray.Dataset) -> Finding:
 
 def intervals(data: xarray.Dataset, row: int) -> list[tuple[float, float]]:
     """Stokes intervals of one angle with e_n > 1; ends between points of the grid by interpolation of ln e_n."""
-    e_n, logs = data["restitution"].values[row], np.log(data["stokes"].values)
+    e_n, stokes = data["restitution"].values[row], data["stokes"].values
     inside = e_n > 1
     found = []
     edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
     for first, after in zip(edges[::2], edges[1::2]):
-        ends = (_end(e_n, logs, first, first - 1), _end(e_n, logs, after - 1, after))
-        found.append((math.exp(ends[0]), math.exp(ends[1])))
+        found.append((_end(e_n, stokes, first, first - 1), _end(e_n, stokes, after - 1, after)))
     return found
 
 
-def _end(e_n: np.ndarray, logs: np.ndarray, inside: int, outside: int) -> float:
-    """Ln St where e_n = 1 between two neighbours; half-way if the outer one does not separate, its own at the rim."""
-    if not 0 <= outside < logs.size:
-        return float(logs[inside])
-    if not e_n[outside] > 0:
-        return float((logs[inside] + logs[outside]) / 2)
-    part = math.log(e_n[inside]) / (math.log(e_n[inside]) - math.log(e_n[outside]))
-    return float(logs[inside] + part * (logs[outside] - logs[inside]))
+def _end(e_n: np.ndarray, stokes: np.ndarray, inside: int, outside: int) -> float:
+    """St where e_n = 1 between two neighbours; half-way if the outer one does not separate, its own at the rim."""
+    if not 0 <= outside < stokes.size:
+        return float(stokes[inside])
+    part = 0.5
+    if e_n[outside] > 0:
+        part = math.log(e_n[inside]) / (math.log(e_n[inside]) - math.log(e_n[outside]))
+    return float(stokes[inside] * (stokes[outside] / stokes[inside]) ** part)
 
 
 def _name(data: xarray.Dataset, row: int) -> str:
     """The intervals of an angle in words."""
-    spans = ", ".join(f"{low:.3g} to {high:.3g}" for low, high in intervals(data, row))
+    last = float(data["stokes"][-1])
+    ends = [(low, "on" if high == last else f"to {high:.3g}") for low, high in intervals(data, row)]
+    spans = ", ".join(f"from {low:.3g} {high}" for low, high in ends)
     most = float(np.nanmax(data["restitution"].values[row]))
     return f"{math.degrees(float(data['angle'][row])):4.0f} deg: e_n > 1 for St {spans} (up to {most:.3f})"
 
