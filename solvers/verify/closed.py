@@ -101,10 +101,11 @@ def _approach(bare: Scene, stokes: float, engine: str) -> tuple[float, str]:
     """Error of -u/v0 against the closed form on the way in, at several instants."""
     n = numbers(bare, bare.speed_of(stokes), 0.0)
     flow, start = Flow(choose(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
-    errors = []
+    contact, errors = max(n.groups["elastic_gap"], n.groups["rough_gap"]), [0.0]
     for time in _INSTANTS.tolist():
         gap, opening = _flown(flow, engine, n, start, time)
-        errors.append(abs(-opening - (1 - film_loss(gap) / stokes)))
+        if gap > contact:  # no flight goes further
+            errors.append(abs(-opening - (1 - film_loss(gap) / stokes)))
     return max(errors), place(stokes, 0.0, engine, "approach")
 
 
@@ -176,7 +177,8 @@ def spin_relaxes(scene: Scene, engine: str) -> tuple[float, str]:
     flow, edge = Flow(choice, Region(1, 1, True)), float(load(choice).laws.shear.edge(n.groups["aspect"]))
     a, m, mu = bare.particles.reduced_radius, bare.particles.reduced_mass, bare.liquid.viscosity
     worst = (-1.0, "")
-    for gap in (0.5 * min(edge, 1.0), 0.05 * min(edge, 1.0)):
+    outer, contact = min(edge, 1.0), max(n.groups["elastic_gap"], n.groups["rough_gap"])
+    for gap in (min(max(part * outer, contact), 0.9 * outer) for part in (0.5, 0.05)):  # as deep as the solids allow
         x = gap * n.length
         reach = n.length if bare.model.tangential == "film" else 2 * a
         r = 4 * a + x

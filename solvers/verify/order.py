@@ -46,9 +46,11 @@ def _judged(group: str, statement: str, one: Collision, engine: str) -> tuple[fl
     except WetDoubletError as failure:
         return math.inf, Finding(group, name, statement, f"not completed: {failure}", "", False, at)
     slope, rise = fit(errors)
+    if math.isnan(slope) and all(error <= max(rtol, _FLOOR) for error, rtol in zip(errors, TOLERANCES)):
+        return 0.0, Finding(group, name, statement, "all errors at rounding", "", True, at)
     held = SLOPES[0] <= slope <= SLOPES[1] and rise <= RISE
     table = f"  error {' '.join(f'{error:.0e}' for error in errors)} at rtol 1e-5 ... 1e-11"
-    if rise > 1:
+    if math.isfinite(rise) and rise > 1:
         table += f"; rises {rise:.1f}x, bound {RISE:.0f}x"
     figure, bound = f"slope {slope:.2f}", f"{SLOPES[0]}..{SLOPES[1]}"
     finding = Finding(group, name, statement, figure, bound, held, at, (table,))
@@ -67,7 +69,7 @@ def fit(errors: list[float]) -> tuple[float, float]:
     """Slope of log error over log rtol by least squares, above rounding, and the largest rise between neighbours."""
     kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(TOLERANCES, errors) if error > _FLOOR]
     if not all(map(math.isfinite, errors)) or len(kept) < 3:
-        return math.nan, math.inf
+        return math.nan, math.inf  # nothing to fit
     x, y = np.array(kept).T
     slope = float(np.polyfit(x, y, 1)[0])
     raised = [max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)]

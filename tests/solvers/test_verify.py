@@ -8,12 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from wetdoublet.solvers import Scene, cli
+from wetdoublet.solvers import Scene, cli, collide
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
     audit,
     backward,
+    closed,
     conserved,
     numeric,
     order,
@@ -179,3 +180,22 @@ def test_the_command_draws(monkeypatch, tmp_path) -> None:
     result = CliRunner().invoke(cli.cli, ["verify", "pendulum", "--plot", str(tmp_path / "p.png")])
     assert result.exit_code == 0
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
+def test_closed_forms_stay_where_flights_go(engine: str) -> None:
+    """So fast an impact that elasticity stops it at a third of the film: no closed form is asked for beneath that."""
+    scene = Scene.load("granulation").with_impact(stokes=20.0, angle=0.0)
+    assert (scene.elastic_length(scene.speed_of(20.0)) or 0) > 0.2 * scene.liquid.film_thickness
+    for check in (closed.film_alone, closed.straight_line, closed.spin_relaxes):
+        figure, _ = check(scene, engine)
+        assert 0 <= figure < 1e-8  # 100 rtol
+
+
+def test_a_flight_that_is_exact_at_any_tolerance_needs_no_slope(monkeypatch) -> None:
+    """Errors at rounding for every rtol have no slope; the check holds and says why."""
+    one = collide("granulation", stokes=0.12, angle=1.0)
+    flown = sample.Sample(one.scene, [{"rosenbrock": one}])
+    monkeypatch.setattr(order, "measured", lambda one, engine: [1e-15] * len(order.TOLERANCES))
+    (found,) = order.convergence("g", flown)
+    assert (found.ok, found.figure) == (True, "all errors at rounding")
