@@ -159,8 +159,9 @@ def _rational(expression: sp.Expr, states: set[sp.Symbol], values: dict[sp.Expr,
         return expression.func(*(_rational(part, states, values) for part in expression.args))
     if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
         return _rational(expression.base, states, values) ** expression.exp
-    if expression.is_Symbol or expression.is_number:
-        return expression
+    constants = {quantity.symbol for quantity in VOCABULARY.values()} - states
+    if expression.is_Symbol or expression.free_symbols <= constants:
+        return expression  # a group, or a number made of groups
     return values.setdefault(expression, sp.Dummy(f"value{len(values)}"))
 
 
