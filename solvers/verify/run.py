@@ -25,7 +25,7 @@ def verify(scene: Scene | str | None = None) -> Report:
         return Report((*symbolic(), *_presets()))
     loaded = Scene.load(scene)
     budget = grid(loaded)
-    return Report((*symbolic(), *numeric(loaded, budget=budget)), budget)
+    return Report((*symbolic(loaded), *numeric(loaded, budget=budget)), budget)
 
 
 def _presets() -> Iterator[Finding]:
