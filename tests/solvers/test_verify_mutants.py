@@ -139,7 +139,8 @@ def test_an_engine_that_does_not_converge_is_found(few, monkeypatch) -> None:
 class Overeager:
     """A proof that calls every doublet stuck once it opens: too much."""
 
-    theorem, by_energy = True, False
+    theorem = True
+    watches: str | None = None
 
     def level(self, y, phase):
         return None
