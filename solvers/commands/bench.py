@@ -1,24 +1,43 @@
-"""`wetdoublet bench`: run time against achieved error."""
+"""`wetdoublet bench`: run time against achieved error, or all engines against each other."""
 
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import click
 
+from ..errors import CheckFailed, InputError
 from . import options
+from .bar import bar
+
+_SCENES = 20_000
 
 
 @click.command("bench", short_help="Run time against error, beside the peers that are installed.")
-@click.option("--out", metavar="DIR", default="bench", help="Folder for bench.json, bench.md and plots [bench].")
+@click.option("--out", metavar="DIR", help="Folder for records, tables and plots [bench, or stress].")
+@click.option(
+    "--stress",
+    metavar="N",
+    is_flag=False,
+    flag_value=str(_SCENES),
+    help=f"Hold all engines against each other on N scenes [{_SCENES}].",
+)
+@click.option("--quick", is_flag=True, help="A smaller measurement: fewer tolerances, collisions and repeats.")
 @options.debug
-def command(out: str) -> None:
-    """Measure our engines and scipy's LSODA and Radau on the same collisions, with the same stop rule.
+def command(out: str | None, stress: str | None, quick: bool) -> None:
+    """Measure our engines and the peers that are installed on the same collisions, with the same stop rule.
 
-    Takes a minute or two, the first time longer: integrators are compiled. How busy the machine was is in the record.
+    Takes some minutes, the first time longer: integrators are compiled. How busy the machine was is in the record.
     """
-    folder = options.check_folder(out)
-    assert folder is not None  # --out has a default
+    count = None if stress is None else _count(stress)
+    if count is not None and quick:
+        raise InputError("--quick", None, "only one of --stress, --quick", "is given together with --stress")
+    folder = options.check_folder(out or ("bench" if count is None else "stress"))
+    assert folder is not None  # one of them is a name
+    if count is not None:
+        _stress(count, folder)
+        return
 
     from ..benchmarks.record import write
     from ..benchmarks.run import bench
@@ -29,6 +48,33 @@ def command(out: str) -> None:
     text, files = write(record, folder)
     click.echo(text)
     click.echo("written: " + ", ".join(map(str, files)))
+
+
+def _count(text: str) -> int:
+    """Return the number of scenes; InputError unless it is one."""
+    try:
+        count = int(text)
+    except ValueError:
+        raise InputError("--stress", text, "a whole number of scenes, such as 500", "is not a whole number") from None
+    if not 0 < count <= 10_000_000:
+        raise InputError("--stress", text, "a whole number of scenes, 1 to 10000000", "is out of range")
+    return count
+
+
+def _stress(count: int, folder: Path) -> None:
+    """Run, report, and say in one last line what came of it; CheckFailed if engines disagree without a reason."""
+    from ..benchmarks.stress import stress
+    from ..benchmarks.stress_report import write
+
+    with bar("scenes") as tell:
+        found = stress(count, tell=tell)
+    files = write(found, folder)
+    for one, issue in found.unexplained:
+        click.echo(f"unexplained ({issue.kind}): {one.case.name}: {issue.said}")
+    click.echo(f"written: {', '.join(map(str, files[:4]))}" + (f" and {len(files) - 4} scenes" if files[4:] else ""))
+    click.echo(found.summary())
+    if found.unexplained:
+        raise CheckFailed(f"{len(found.unexplained)} unexplained disagreements; see {folder / 'stress.md'}")
 
 
 def _tell(what: str) -> None:

@@ -1,0 +1,267 @@
+"""Collisions by heyoka's Taylor integrator, in SIMD batches with a queue, from the same emitted equations.
+
+What a practised user of heyoka would do: one adaptive batch integrator whose lanes run on their own (film and freezing
+are runtime parameters), groups that are the same for all collisions written in as numbers, terminal events with
+callbacks that reverse, refill a finished lane from the queue, and go on; one call of `propagate_until` for all of it.
+The level that proves a stick is an event of the energy; it is computed beforehand, at no cost to heyoka.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.util import find_spec, module_from_spec
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from ..errors import ComputationError
+from ..locate import Locate
+from ..model import Choice, choose, load
+from ..numbers import Numbers
+from ..scene import Scene
+from .tasks import Impact
+
+_GENERATED = f"{__package__.rpartition('.')[0].rpartition('.')[0]}.generated"
+_HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
+_FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan")
+_STEPS = 2000  # of a collision, on average, after which all are given up
+_NEVER = -1e4  # a level of energy that is not reached
+BATCH = 8
+
+
+def missing() -> str:
+    """Why it cannot be used here; empty if it can."""
+    return "" if find_spec("heyoka") else "heyoka is not installed (pip install wetdoublet[bench])"
+
+
+def _function(name: str) -> Callable[[Any], Any]:
+    """An elementary function of numbers and of heyoka's expressions."""
+    import heyoka
+
+    of_expression, of_number = getattr(heyoka, name), getattr(math, name)
+    return lambda x: of_expression(x) if isinstance(x, heyoka.expression) else of_number(x)
+
+
+def _own(name: str) -> ModuleType:
+    """A copy of an emitted module whose elementary functions are heyoka's."""
+    spec = find_spec(f"{_GENERATED}.{name}")
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    for word in _FUNCTIONS:
+        if hasattr(module, word):
+            setattr(module, word, _function(word))
+    return module
+
+
+@dataclass(frozen=True)
+class System:
+    """A structure in heyoka's expressions.
+
+    Arguments:
+        rates: of the states, then of the capillary work where it is needed for the energy.
+        events: by name; `opening` and `film_edge` may cross either way, the others fall through zero.
+        varying: groups that are runtime parameters, in their order; then film, active and level.
+    """
+
+    rates: list[tuple[Any, Any]]
+    events: dict[str, Any]
+    varying: tuple[str, ...]
+
+
+def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: bool) -> System:
+    """The equations of these collisions; what is the same for all of them is written in."""
+    import heyoka
+
+    structure = _own(choice.structure)
+    laws = SimpleNamespace(**{slot: _own(f"laws.{slot}_{law.replace('-', '_')}") for slot, law in choice.laws})
+    varying = tuple(name for name in structure.GROUPS if len({each[name] for each in groups}) > 1)
+    known = {name: float(groups[0][name]) for name in structure.GROUPS if name not in varying}
+    p = known | {name: heyoka.par[k] for k, name in enumerate(varying)}
+    film, active, level = (heyoka.par[len(varying) + k] for k in range(3))
+    y = {name: heyoka.make_vars(name) for name in structure.STATES}
+    rates = [(y[name], active * rate) for name, rate in structure.right_hand_side(y, p, laws, film, 1).items()]
+    found = structure.events(y, p, laws)
+    bridge = choice.law("bridge") is not None
+    events = {name: found[name] for name in ("glass", "half_turn", "unwinding") if name in found}
+    contact = p["rough_gap"] if "elastic_gap" in p and p["elastic_gap"] == 0.0 else None
+    if contact is None:
+        events |= {"elastic": found["elastic"], "rough": found["rough"]}
+    else:
+        events["rough"] = found["rough"]
+    events |= {"opening": y["opening"], "rupture": found["rupture"]}
+    if bridge:
+        events["film_edge"] = found["film_edge"]
+    if proved:
+        energy = sum(structure.energies(y, p, laws).values())
+        if bridge:
+            work = heyoka.make_vars("capillary")
+            rate = structure.energy_rates(y, p, laws, film, 1)["capillary"]
+            rates.append((work, active * rate))
+            energy = energy + work
+        events["certified"] = energy - level
+    return System(rates, events, varying)
+
+
+@dataclass
+class Lane:
+    """Which collision a lane is on, and whether a criterion has been met."""
+
+    collision: int = -1
+    reversed: bool = False
+
+
+@dataclass
+class Start:
+    """Where a collision starts, decided by rule, and its parameters."""
+
+    state: np.ndarray
+    parameters: np.ndarray
+    reversed: bool
+    flight: Locate
+
+
+@dataclass
+class Batch:
+    """An integrator with its queue. `run` returns outcome, e_n for each collision; NaN where it failed.
+
+    Arguments:
+        dry: restitution of the dry contact.
+    """
+
+    integrator: Any = None
+    starts: list[Start] = field(default_factory=list)
+    dry: float = 1.0
+    film: int = 0
+    lanes: list[Lane] = field(default_factory=list)
+    queue: Any = None
+    left: int = 0
+    outcomes: list[str] = field(default_factory=list)
+    restitutions: list[float] = field(default_factory=list)
+
+    def run(self) -> None:
+        """All collisions, once."""
+        ta, count = self.integrator, len(self.starts)
+        size = len(self.lanes)
+        self.outcomes, self.restitutions = [""] * count, [math.nan] * count
+        self.queue, self.left = iter(range(count)), count
+        ta.set_time(0.0)
+        for lane in range(size):
+            ta.reset_cooldowns(lane)
+            ta.state[:, lane], ta.pars[:, lane] = self.starts[0].state, self.starts[0].parameters
+            self._next(lane)
+        ta.propagate_until(np.full(size, _HORIZON), max_steps=_STEPS * (1 + count // size))
+
+    def _next(self, lane: int) -> bool:
+        """Give a lane its next collision; freeze it if there is none. True while any lane is at work."""
+        ta = self.integrator
+        k = next(self.queue, None)
+        if k is None:
+            ta.pars[self.film + 1, lane] = 0.0
+            return self.left > 0
+        start = self.starts[k]
+        ta.state[:, lane] = start.state
+        ta.pars[:, lane] = start.parameters
+        self.lanes[lane] = Lane(k, start.reversed)
+        return True
+
+    def _proved(self, lane: int) -> bool:
+        flight = self.starts[self.lanes[lane].collision].flight
+        if not flight.watch.certificate:
+            return False
+        return flight.proof.decided(self.integrator.state[:, lane].copy(), flight.phase)
+
+    def ended(self, lane: int, separated: bool) -> bool:
+        """Record how a collision ended and take the next."""
+        now = self.lanes[lane]
+        self.left -= 1
+        if separated:
+            self.outcomes[now.collision] = "bounce" if now.reversed else "stick-rotate-separate"
+            self.restitutions[now.collision] = float(self.integrator.state[1, lane])
+        else:
+            self.outcomes[now.collision], self.restitutions[now.collision] = "stick", 0.0
+        return self._next(lane)
+
+    def callback(self, event: str) -> Callable[[Any, int, int], bool]:
+        """What heyoka calls when an event happens in a lane; False ends the whole batch."""
+
+        def reverses(ta: Any, _: int, lane: int) -> bool:
+            ta.state[1, lane] *= -self.dry
+            self.lanes[lane].reversed = True
+            # the loss may jump over the level, which then is no crossing
+            return self.ended(lane, False) if self._proved(lane) else True
+
+        def edge(ta: Any, _: int, lane: int) -> bool:
+            ta.pars[self.film, lane] = 1.0 if ta.state[1, lane] < 0 else 0.0
+            return True
+
+        if event in ("glass", "elastic", "rough"):
+            return reverses
+        if event == "film_edge":
+            return edge
+        separated = event == "rupture"
+        return lambda _ta, _sign, lane: self.ended(lane, separated)
+
+
+def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = BATCH, **options: Any) -> Batch:
+    """An integrator for these collisions, compiled, with its queue.
+
+    ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
+    """
+    import heyoka
+
+    choice = choose(scene, numbers[0].oblique)
+    if any(choose(scene, each.oblique) != choice for each in numbers):
+        raise ComputationError("head-on and oblique collisions are different structures")
+    model = load(choice)
+    flights = [Locate(model, each.groups, min(rtol, 1e-6)) for each in numbers]
+    if any(flight.watch.tangential_edge for flight in flights):
+        raise ComputationError("the tangential edge lies within reach")
+    proved = flights[0].proof.by_energy
+    equations = system(choice, [each.groups for each in numbers], proved)
+    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
+    batch.starts = [_start(flight, each, equations) for flight, each in zip(flights, numbers)]
+    batch.lanes = [Lane() for _ in range(size)]
+    either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
+    events = [
+        heyoka.t_event_batch(
+            expression, callback=batch.callback(name), direction=either if name == "film_edge" else falling
+        )
+        for name, expression in equations.events.items()
+        if name != "opening"  # whether it turned or fell back decides nothing here
+    ]
+    first = batch.starts[0]
+    batch.integrator = heyoka.taylor_adaptive_batch(
+        equations.rates,
+        state=np.repeat(first.state[:, None], size, axis=1),
+        pars=np.repeat(first.parameters[:, None], size, axis=1),
+        t_events=events,
+        tol=rtol,
+        **({"compact_mode": False, "force_avx512": True} | options),
+    )
+    return batch
+
+
+def _start(flight: Locate, numbers: Numbers, equations: System) -> Start:
+    """State and parameters at first touch; a criterion that is met there reverses there."""
+    y, film, reversed_ = flight.y, 1.0, False
+    values = flight.model.values("events", y, flight.p)
+    if min(values[name] for name in ("glass", "elastic", "rough")) <= 0:
+        after = flight.model.values("reversal", y, flight.p)
+        y, film, reversed_ = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
+    level = flight.proof.level(y, flight.phase) if flight.proof.by_energy else None
+    parameters = [numbers.groups[name] for name in equations.varying]
+    if "certified" in equations.events:
+        return Start(y, np.array([*parameters, film, 1.0, _NEVER if level is None else level]), reversed_, flight)
+    return Start(y, np.array([*parameters, film, 1.0]), reversed_, flight)
+
+
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Batch:
+    """The batch of a scene's impacts."""
+    from .engines import dimensionless
+
+    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol)

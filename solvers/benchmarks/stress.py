@@ -1,0 +1,144 @@
+"""The stress test: every engine on a quasi-random sample of all that may be asked, over all cores."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..many import OUTCOMES
+from .environment import environment
+from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, judge, runs
+from .stress_sample import SEED, Case, sample
+
+DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate")
+_BLOCK = 8  # cases a worker takes at a time
+_ALONE = 40  # fewer are not worth starting workers for
+WORST = 20  # cases that are kept as scene files, of each sort
+
+Tell = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Stress:
+    """What a stress test found.
+
+    Arguments:
+        verdicts: in the order of the sample.
+        wall: s.
+    """
+
+    verdicts: tuple[Verdict, ...]
+    wall: float
+    where: dict[str, Any]
+
+    def issues(self, *kinds: str) -> list[tuple[Verdict, Issue]]:
+        """All issues of these kinds, with their cases."""
+        return [(one, issue) for one in self.verdicts for issue in one.issues if issue.kind in kinds]
+
+    @property
+    def unexplained(self) -> list[tuple[Verdict, Issue]]:
+        """Disagreements without an explanation: what makes a stress test fail."""
+        return [(one, issue) for one, issue in self.issues(*DISAGREEMENTS) if not issue.explained]
+
+    def summary(self) -> str:
+        """One line."""
+        failed = self.issues("failure")
+        strange = sum(not issue.explained for _, issue in failed)
+        explained = len(self.issues(*DISAGREEMENTS)) - len(self.unexplained)
+        return (
+            f"stress: {len(self.verdicts)} scenes, {len(self.unexplained)} unexplained disagreements, "
+            f"{explained} within the stated error of a boundary, {len(failed)} failures "
+            f"({strange} without a physical reason), {self.wall:.0f} s"
+        )
+
+
+def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None) -> Stress:
+    """Judge `count` cases on all cores.
+
+    Arguments:
+        tell: is told of (done, total).
+
+    Raises:
+        InputError: scipy, whose quasi-random sequence this is, is not installed.
+    """
+    start, where = time.perf_counter(), environment()
+    cases = sample(count, seed)
+    verdicts: list[Verdict | None] = [None] * count
+    done = 0
+    for first, block in _judged(cases):
+        verdicts[first : first + len(block)] = block
+        done += len(block)
+        tell(done, count)
+    return Stress(tuple(one for one in verdicts if one is not None), time.perf_counter() - start, where)
+
+
+def _judged(cases: Sequence[Case]) -> Iterator[tuple[int, list[Verdict]]]:
+    """Blocks of verdicts, as they are finished."""
+    firsts = range(0, len(cases), _BLOCK)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if len(cases) < _ALONE or cores == 1:
+        for first in firsts:
+            yield first, _block(cases[first : first + _BLOCK])
+        return
+    from concurrent.futures import as_completed
+
+    from loky import ProcessPoolExecutor
+
+    pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
+    try:
+        waiting = {pool.submit(_block, cases[first : first + _BLOCK]): first for first in firsts}
+        for future in as_completed(waiting):
+            yield waiting[future], future.result()
+    finally:
+        pool.shutdown(wait=True, kill_workers=True)
+
+
+def _deaf() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _block(cases: Sequence[Case]) -> list[Verdict]:
+    return [judge(case) for case in cases]
+
+
+def record(found: Stress) -> dict[str, Any]:
+    """What `stress.json` holds."""
+    return {
+        "environment": found.where,
+        "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
+        "summary": found.summary(),
+        "outcomes": {name: sum(_outcome(one) == name for one in found.verdicts) for name in OUTCOMES},
+        "cases": [_case(one) for one in found.verdicts],
+        "wall": found.wall,
+    }
+
+
+def _outcome(one: Verdict) -> str:
+    return next((each.outcome for each in one.found.values() if each.outcome), "")
+
+
+def _case(one: Verdict) -> dict[str, Any]:
+    return {
+        "name": one.case.name,
+        "kind": one.case.kind,
+        "distance": one.case.distance,
+        "scene": one.case.scene.to_dict(),
+        "stokes": one.case.scene.stokes,
+        "angle": one.case.scene.angle,
+        "outcome": _outcome(one),
+        "error": one.error,
+        "conditioning": one.conditioning if one.conditioning != float("inf") else None,
+        "found": {
+            name: {"outcome": each.outcome, "restitution": each.restitution, "certified": each.certified,
+                   "failure": each.failure, "cpu": each.cpu, **each.more}
+            for name, each in one.found.items()
+        },
+        "issues": [
+            {"kind": issue.kind, "between": list(issue.between), "said": issue.said, "explained": issue.explained}
+            for issue in one.issues
+        ],
+    }  # fmt: skip
