@@ -1,4 +1,4 @@
-"""What is measured: our engines, and the peers that are installed, behind one call a collision."""
+"""What is measured: our engines, and the peers that are installed, behind one call a collision or one for all."""
 
 from __future__ import annotations
 
@@ -10,13 +10,12 @@ from importlib.util import find_spec
 import numpy as np
 
 from ..compiled import compiler
-from ..errors import ComputationError
 from ..locate import Path
-from ..many import FAILED, OUTCOMES, run
+from ..many import OUTCOMES, collide_many
 from ..model import choose, load
 from ..numbers import Numbers, numbers
-from ..requests import requested
 from ..scene import Scene
+from ..settings import ENGINES
 from ..simulate import collide
 from .peers import fly
 from .tasks import Impact
@@ -31,34 +30,54 @@ class Answer:
 
 
 Collide = Callable[[int], Answer]
+Answers = Callable[[], list[Answer | str]]  # of all collisions at once; text says why one has failed
 
 
 @dataclass(frozen=True)
 class Engine:
-    """An engine under test.
+    """An engine under test: it has `one` or `many`.
 
     Arguments:
-        prepare: from scene, impacts and tolerance, the function that computes collision k; it raises ComputationError.
+        one: from scene, impacts and tolerance, the function that computes collision k; it raises ComputationError.
+        many: the same for a function that computes all of them in one call.
         builds: it builds integrators for every tolerance, so that a first pass has to be thrown away for each.
         missing: why it cannot be used here; empty if it can.
     """
 
     name: str
-    prepare: Callable[[Scene, Sequence[Impact], float], Collide]
+    one: Callable[[Scene, Sequence[Impact], float], Collide] | None = None
+    many: Callable[[Scene, Sequence[Impact], float], Answers] | None = None
     builds: bool = True
     missing: str = ""
 
 
 def engines() -> tuple[Engine, ...]:
     """All engines, those that are missing here included."""
-    scipy = "" if find_spec("scipy") else "scipy is not installed (pip install wetdoublet[bench])"
+    scipy = _absent("scipy")
+    chained = [Engine(name, one=partial(_chained, name)) for name in ENGINES if name in ("cvodes", "rosenbrock")]
+    bulk = [
+        Engine(in_bulk(name), many=partial(_many, name), missing="" if compiler() else "no C compiler (cc, gcc, clang)")
+        for name in ENGINES
+        if name != "cvodes"
+    ]
     return (
-        Engine("cvodes", partial(_chained, "cvodes")),
-        Engine("rosenbrock", partial(_chained, "rosenbrock")),
-        Engine("rosenbrock, compiled", _compiled, missing="" if compiler() else "no C compiler (cc, gcc, clang)"),
-        Engine("scipy LSODA", partial(_peer, "LSODA"), builds=False, missing=scipy),
-        Engine("scipy Radau", partial(_peer, "Radau"), builds=False, missing=scipy),
+        *chained,
+        *bulk,
+        Engine("heyoka, batch of 8", many=_heyoka, missing=_absent("heyoka")),
+        Engine("sundae CVODE, numba", one=_sundae, missing=_absent("sksundae", "scikit-sundae") or _absent("numba")),
+        Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
+        Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
+        Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
     )
+
+
+def in_bulk(engine: str) -> str:
+    """What an engine is called where `collide_many` is measured."""
+    return "rosenbrock, compiled" if engine == "rosenbrock" else engine
+
+
+def _absent(module: str, package: str = "") -> str:
+    return "" if find_spec(module) else f"{package or module} is not installed (pip install wetdoublet[bench])"
 
 
 def dimensionless(scene: Scene, impact: Impact) -> Numbers:
@@ -83,18 +102,48 @@ def _chained(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) 
     return one
 
 
-def _compiled(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
-    """What `collide_many` does with a block, one collision at a time."""
+def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
+    """`collide_many`, as a user calls it."""
     stokes, angle = (np.array([getattr(impact, name) for impact in impacts]) for name in ("stokes", "angle"))
-    request = requested(scene, stokes, None, angle, {}, rtol, "rosenbrock", ("outcome", "restitution"))
-    parts = [request.part(np.array([k])) for k in range(len(impacts))]
+
+    def every() -> list[Answer | str]:
+        data = collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine)
+        found = zip(data["outcome"].values.tolist(), data["restitution"].values.tolist(), data["reason"].values)
+        return [str(why) if outcome < 0 else Answer(OUTCOMES[outcome], e_n) for outcome, e_n, why in found]
+
+    return every
+
+
+def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
+    """All collisions through one queue."""
+    from .peer_heyoka import collisions
+
+    batch = collisions(scene, impacts, rtol)
+
+    def every() -> list[Answer | str]:
+        batch.run()
+        return [
+            Answer(outcome, e_n) if outcome else "not decided"
+            for outcome, e_n in zip(batch.outcomes, batch.restitutions)
+        ]
+
+    return every
+
+
+def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
+    """All collisions side by side."""
+    from .peer_diffrax import collisions
+
+    return collisions(scene, impacts, rtol)
+
+
+def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
+    """One collision after another by CVODE."""
+    from .peer_sundae import fly as flown
 
     def one(k: int) -> Answer:
-        block = run(parts[k], True)
-        outcome = int(block["outcome"][0])
-        if outcome == FAILED:
-            raise ComputationError(str(block["reason"][0]))
-        return Answer(OUTCOMES[outcome], float(block["restitution"][0]))
+        n = dimensionless(scene, impacts[k])
+        return answer(flown(load(choose(scene, n.oblique)), n.groups, rtol))
 
     return one
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -11,7 +13,21 @@ from typing import Any
 
 from ..compiled import FLAGS, compiler
 
-_PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy")
+_PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "scikit-sundae", "numba", "diffrax", "jax")
+
+
+@contextmanager
+def one_core() -> Iterator[None]:
+    """Keep this process on one core, so that CPU times are of one; where the system can."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    usual = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(usual)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, usual)
 
 
 def environment() -> dict[str, Any]:

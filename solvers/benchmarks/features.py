@@ -23,6 +23,7 @@ from .reference import Reference
 from .tasks import Impact, Task
 
 FEATURES = ("certificate", "ledger", "trajectory")
+_FEW = 100  # collisions in one call that are not compiled for
 _CUT = 3  # stretches of a phase without an event
 HORIZON = sum(locating.FIRST_STRETCH * locating.GROWTH**k for k in range(_CUT))  # x0/v0
 
@@ -95,8 +96,10 @@ def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], rep
     setups: tuple[Setup, ...] = ((), ("certificate",)) if compiled else _SETUPS
     provable = task.scene.pendulum is None
     setups = tuple(each for each in setups if provable or "certificate" not in each or len(each) > 1)
+    copies = 1 + _FEW // len(impacts) if compiled else 1
     runs = {
-        on: _compiled(task.scene, impacts) if compiled else _chained(task.scene, impacts, engine, on) for on in setups
+        on: _compiled(task.scene, impacts * copies) if compiled else _chained(task.scene, impacts, engine, on)
+        for on in setups
     }
     best = dict.fromkeys(setups, float("inf"))
     changed = dict.fromkeys(setups, 0)
@@ -107,9 +110,10 @@ def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], rep
                 outcomes = run()
                 taken = time.process_time() - start
             best[on] = min(best[on], taken) if turn else best[on]
-            changed[on] = sum((each == "stick") != (outcome == "stick") for each in outcomes)
+            changed[on] = sum((each == "stick") != (outcome == "stick") for each in outcomes) // copies
+    count = len(impacts)
     return [
-        Cost(task.preset, engine, outcome, len(impacts), on, best[on] / len(impacts), best[on] / best[()], changed[on])
+        Cost(task.preset, engine, outcome, count, on, best[on] / (count * copies), best[on] / best[()], changed[on])
         for on in setups
     ]
 
@@ -134,9 +138,10 @@ def _chained(scene: Scene, impacts: list[Impact], plugin: str, on: Setup) -> Cal
 
 def _compiled(scene: Scene, impacts: list[Impact]) -> Callable[[], list[str]]:
     engine = next(each for each in engines() if each.name == "rosenbrock, compiled")
-    one = engine.prepare(scene, impacts, RTOL)
+    assert engine.many is not None
+    every = engine.many(scene, impacts, RTOL)
 
     def run() -> list[str]:
-        return [one(k).outcome for k in range(len(impacts))]
+        return ["" if isinstance(each, str) else each.outcome for each in every()]
 
     return run

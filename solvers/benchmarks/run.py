@@ -10,13 +10,17 @@ from typing import Any
 
 from .cold import cold_start
 from .engines import Engine, engines
-from .environment import environment
+from .environment import environment, one_core
 from .features import HORIZON, Cost, costs
+from .growth import growth
+from .lines import lines
+from .needs import gradients, structures
 from .reference import Reference, references
 from .tasks import SEED, TASKS, Task
-from .work import REPEATS, TOLERANCES, Point, Tell, work
+from .work import REPEATS, SETS, TOLERANCES, Point, Tell, work
 
 Record = dict[str, Any]
+MORE = ("structures", "gradients", "lines", "growth")
 
 
 def bench(
@@ -24,12 +28,16 @@ def bench(
     tolerances: Sequence[float] = TOLERANCES,
     repeats: int = REPEATS,
     cold: Callable[[], dict[str, list[float]]] = cold_start,
+    which: Sequence[Engine] | None = None,
+    more: Sequence[str] = MORE,
     tell: Tell = lambda _: None,
 ) -> Record:
     """Run the benchmark.
 
     Arguments:
         cold: measures the cold start.
+        which: engines; by default all that are there.
+        more: what else is measured, of MORE.
         tell: is told what goes on.
 
     Returns:
@@ -37,15 +45,28 @@ def bench(
     """
     start = time.perf_counter()
     where = environment()  # the load before we add to it
-    all_engines = engines()
+    all_engines = engines() if which is None else which
     tell("cold start")
     started = cold()
-    found = [_task(task, all_engines, tolerances, repeats, tell) for task in tasks]
+    with one_core():
+        found = [_task(task, all_engines, tolerances, repeats, tell) for task in tasks]
+        others = {}
+        for name, measure in (("structures", structures), ("gradients", gradients), ("lines", lines)):
+            tell(name)
+            others[name] = measure() if name in more else []
+    others["growth"] = growth(tell) if "growth" in more else []
     return {
         "environment": where,
-        "settings": {"seed": SEED, "tolerances": list(tolerances), "repeats": repeats, "horizon": HORIZON},
+        "settings": {
+            "seed": SEED,
+            "tolerances": list(tolerances),
+            "repeats": repeats,
+            "sets": SETS,
+            "horizon": HORIZON,
+        },
         "engines": [{"name": each.name, "missing": each.missing} for each in all_engines],
         "tasks": found,
+        **others,
         "cold_start": started,
         "wall": time.perf_counter() - start,
     }

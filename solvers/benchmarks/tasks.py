@@ -52,6 +52,6 @@ class Task:
 
 
 TASKS = (
-    Task("granulation", 24, (0.005, 0.5), 85.0),
-    Task("pendulum", 10, (0.3, 3.0), 80.0),
+    Task("granulation", 60, (0.005, 0.5), 85.0),
+    Task("pendulum", 20, (0.3, 3.0), 80.0),
 )

@@ -23,16 +23,13 @@ _SCENES = 20_000
     flag_value=str(_SCENES),
     help=f"Hold all engines against each other on N scenes [{_SCENES}].",
 )
-@click.option("--quick", is_flag=True, help="A smaller measurement: fewer tolerances, collisions and repeats.")
 @options.debug
-def command(out: str | None, stress: str | None, quick: bool) -> None:
+def command(out: str | None, stress: str | None) -> None:
     """Measure our engines and the peers that are installed on the same collisions, with the same stop rule.
 
     Takes some minutes, the first time longer: integrators are compiled. How busy the machine was is in the record.
     """
     count = None if stress is None else _count(stress)
-    if count is not None and quick:
-        raise InputError("--quick", None, "only one of --stress, --quick", "is given together with --stress")
     folder = options.check_folder(out or ("bench" if count is None else "stress"))
     assert folder is not None  # one of them is a name
     if count is not None:
