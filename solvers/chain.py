@@ -20,6 +20,7 @@ _LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed wi
 _MISSES = 1e-13  # of its scale: what an event's function may be off after the step
 _RISES = 1e-9  # of its scale over the phase: an event's function falls where it is met, but for rounding at a graze
 _TRIES = 8
+_ROUNDING = 1e-15  # of a gap or speed of order 1: times and event functions below it are noise
 
 
 class Stopped(Exception):
@@ -93,7 +94,8 @@ def fly(path: Path, plugin: str, tolerance: Tolerance, kind: Flow, start: np.nda
             flown.dry_loss += model.values("reversal_loss", flown.y, p)["dry_contact"]
             after = model.values("reversal", flown.y, p)
             flown.y = np.concatenate([list(after.values()), flown.y[size:]])
-        if step.holds:
+        if step.holds:  # chatter takes what is left of the rebound
+            flown.dry_loss += float(flown.y[1]) ** 2 / 2
             flown.y[1] = 0.0
     return flown
 
@@ -125,7 +127,8 @@ def _flight(
         shift = float(dt[0])
         if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > step.duration:
             break
-        if abs(shift) <= _LANDED * duration and abs(float(miss[0])) <= _MISSES * scale:
+        landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
+        if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
             if float(_slope(flow, watched, step.event)(landed, parameters)) > _RISES * scale / duration:
                 break  # met on the way back: the engine's own event was earlier
             return duration + shift, landed

@@ -15,7 +15,7 @@ from ..scene import Scene
 Record = dict[str, Any]
 
 PRESETS = {"granulation": (30.0, 80.0), "pendulum": (45.0, 80.0)}
-ANGLES = 11
+ANGLES = 6
 STOKES = (0.003, 10.0)
 _RTOL, _CLOSE = 1e-9, 1e-9  # tolerance of the integrations; relative width at which bisection stops
 _PER_DECADE = 4  # of the scan that bisection starts from

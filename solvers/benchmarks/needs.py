@@ -67,7 +67,7 @@ def structures() -> list[Record]:
 
 
 def gradients() -> list[Record]:
-    """CPU time of the gradient of e_n in 1, 4 and 12 parameters, over the collision's; empty without `sensitivities`."""
+    """CPU time of a gradient of e_n by number of parameters, over the collision's; empty without `sensitivities`."""
     from .. import __dict__ as public
 
     sensitivities: Callable[..., Any] | None = public.get("sensitivities")
@@ -92,7 +92,7 @@ def gradients() -> list[Record]:
 
 
 def differences(names: Sequence[str], stokes: float, angle: float, step: float = 1e-4) -> dict[str, float]:
-    """d e_n/d parameter of granulation by central differences, at fixed speed; what has no derivative there is 0."""
+    """D e_n/d parameter of granulation by central differences, at fixed speed; what has no derivative there is 0."""
     scene = Scene.load("granulation").with_impact(stokes=stokes, angle=angle)
     speed, theta = scene.need_impact()
     fixed = scene.with_impact(speed=speed)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
 import casadi
+import numpy as np
 from casadi import Function
 
 from ..integrators import Stop
@@ -24,7 +24,8 @@ _WORDS = {
     "ADD": "{0} + {1}", "SUB": "{0} - {1}", "MUL": "{0} * {1}", "DIV": "{0} / {1}", "NEG": "-{0}", "EXP": "exp({0})",
     "LOG": "log({0})", "POW": "{0} ** {1}", "CONSTPOW": "{0} ** {1}", "SQRT": "sqrt({0})", "SQ": "{0} * {0}",
     "TWICE": "2.0 * {0}", "SIN": "sin({0})", "COS": "cos({0})", "TAN": "tan({0})", "INV": "1.0 / {0}",
-    "FMIN": "min({0}, {1})", "FMAX": "max({0}, {1})", "LT": "(1.0 if {0} < {1} else 0.0)", "LE": "(1.0 if {0} <= {1} else 0.0)",
+    "FMIN": "min({0}, {1})", "FMAX": "max({0}, {1})", "LT": "(1.0 if {0} < {1} else 0.0)",
+    "LE": "(1.0 if {0} <= {1} else 0.0)",
     "NOT": "(1.0 if {0} == 0.0 else 0.0)", "IF_ELSE_ZERO": "{1} if {0} != 0.0 else 0.0", "FABS": "abs({0})",
 }  # fmt: skip
 _OPERATIONS = {getattr(casadi, f"OP_{name}"): text for name, text in _WORDS.items()}
@@ -71,7 +72,7 @@ def compiled(found: Equations) -> Compiled:
     space: dict[str, Any] = {name: getattr(math, name) for name in ("exp", "log", "sqrt", "sin", "cos", "tan")}
     parts = {"rates": found.rates, "jacobian": found.jacobian, "table": found.table}
     for name, function in parts.items():
-        exec(source(function, name, matrix=name == "jacobian"), space)  # noqa: S102 # the text is our own
+        exec(source(function, name, matrix=name == "jacobian"), space)  # the text is our own
     return Compiled(*(numba.njit(space[name]) for name in parts))
 
 

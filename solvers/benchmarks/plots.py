@@ -20,6 +20,10 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "cvodes": ("#0072B2", "o", "-"),
     "rosenbrock": ("#D55E00", "s", "-"),
     "rosenbrock, compiled": ("#009E73", "D", "-"),
+    "taylor": ("#E69F00", "*", "-"),
+    "heyoka, batch of 8": ("#56B4E9", "P", "--"),
+    "sundae CVODE, numba": ("#8C6D31", "X", "--"),
+    "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
 }
@@ -31,7 +35,10 @@ def draw(record: Record, folder: Path) -> list[Path]:
     """Draw both pictures; returns their files."""
     files = []
     with rc_context(_RC):
-        for name, make in (("work.png", work_error), ("cost.png", cost_bars)):
+        pictures = [("work.png", work_error), ("cost.png", cost_bars)]
+        if record["growth"]:
+            pictures.append(("growth.png", growth_curves))
+        for name, make in pictures:
             files.append(folder / name)
             make(record).savefig(files[-1], dpi=200)
     return files
@@ -40,13 +47,13 @@ def draw(record: Record, folder: Path) -> list[Path]:
 def work_error(record: Record) -> Figure:
     """Mean CPU time of a collision against the largest error in e_n; a point a tolerance."""
     tasks = [task for task in record["tasks"] if task["points"]]
-    figure = Figure(figsize=(8.2, 4.3), layout="constrained")
+    figure = Figure(figsize=(9.2, 4.9), layout="constrained")
     panels: Sequence[Axes] = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
     known: dict[str, float] = {}
     for axes, task in zip(panels, tasks):
         for name in dict.fromkeys(point["engine"] for point in task["points"]):
             good, bad = _curve(task, name)
-            colour, marker, line = _STYLES[name]
+            colour, marker, line = _STYLES.get(name, ("#AA3377", ".", ":"))
             style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
             axes.loglog(*good, linestyle=line, linewidth=1.3, label=name, **style)
             if bad[0]:
@@ -54,14 +61,14 @@ def work_error(record: Record) -> Figure:
         known[task["preset"]] = _estimate(task)
         _frame(axes, task)
     _limits(panels, list(known.values()))
-    panels[0].set_ylabel("mean CPU time a collision (ms)")
+    panels[0].set_ylabel("CPU time a collision (us)")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
     return figure
 
 
 def _curve(task: Record, name: str) -> tuple[tuple[list[float], list[float]], tuple[list[float], list[float]]]:
-    """Errors and ms of an engine: all points, and those with a wrong or missing outcome."""
+    """Errors and us of an engine: all points, and those with a wrong or missing outcome."""
     every: tuple[list[float], list[float]] = ([], [])
     bad: tuple[list[float], list[float]] = ([], [])
     for point in task["points"]:
@@ -70,7 +77,7 @@ def _curve(task: Record, name: str) -> tuple[tuple[list[float], list[float]], tu
             continue
         for xs, ys in (every, bad) if s["wrong"] or s["failed"] else (every,):
             xs.append(s["error_largest"])
-            ys.append(s["cpu_mean"] * 1e3)
+            ys.append(s["cpu_mean"] * 1e6)
     return every, bad
 
 
@@ -159,3 +166,22 @@ def _rows(record: Record) -> list[tuple[str, dict[str, float]]]:
         (f"{preset}, {outcome}\n{engine} ({bare[preset, outcome, engine] * 1e3:.3g} ms bare)", ratios)
         for (preset, outcome, engine), ratios in rows.items()
     ]
+
+
+def growth_curves(record: Record) -> Figure:
+    """Wall time of a call, and of a collision in it, against their number."""
+    figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+    panels = figure.subplots(1, 2, sharex=True)
+    for engine in dict.fromkeys(each["engine"] for each in record["growth"]):
+        colour, marker, _ = _STYLES.get(engine, ("#AA3377", ".", ":"))
+        for cores, line in ((1, "-"), (2, "--")):
+            here = [each for each in record["growth"] if (each["engine"], each["cores"]) == (engine, cores)]
+            counts = [each["collisions"] for each in here]
+            style: Any = {"color": colour, "marker": marker, "linestyle": line, "markersize": 5, "linewidth": 1.3}
+            panels[0].loglog(counts, [each["wall"] for each in here], label=f"{engine}, {cores} core(s)", **style)
+            panels[1].loglog(counts, [1e6 * each["wall"] / each["collisions"] for each in here], **style)
+    for axes, label in zip(panels, ("wall time of the call (s)", "wall time a collision (us)")):
+        axes.set(xlabel="collisions in one call", ylabel=label)
+        axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
+    figure.legend(loc="outside upper center", ncols=2, frameon=False)
+    return figure

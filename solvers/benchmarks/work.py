@@ -83,6 +83,7 @@ class Point:
             "cpu_total": sum(cpu),
             "cpu_mean": sum(cpu) / len(cpu),
             "wall_median": float(np.median(wall)),
+            "wall_mean": sum(wall) / len(wall),
             "wall_total": sum(wall),
             "error_largest": max(errors, default=None),
             "error_median": float(np.median(errors)) if errors else None,

@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers import locate as locating
+from wetdoublet.solvers.benchmarks import features
 from wetdoublet.solvers.benchmarks import reference as references
 from wetdoublet.solvers.benchmarks import run as running
+from wetdoublet.solvers.benchmarks import work as working
 from wetdoublet.solvers.benchmarks.cold import COMMANDS
 from wetdoublet.solvers.benchmarks.engines import Answer, Engine, answer, engines
 from wetdoublet.solvers.benchmarks.features import HORIZON, certificate
@@ -24,6 +26,7 @@ from wetdoublet.solvers.benchmarks.work import work
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 
+OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor")
 TINY = (Task("granulation", 3, (0.02, 0.5), 85.0), Task("pendulum", 2, (1.0, 3.0), 80.0))
 
 
@@ -31,7 +34,14 @@ TINY = (Task("granulation", 3, (0.02, 0.5), 85.0), Task("pendulum", 2, (1.0, 3.0
 def record() -> dict[str, Any]:
     """A benchmark of six collisions at two tolerances."""
     pytest.importorskip("scipy")
-    return running.bench(TINY, (1e-5, 1e-7), 1, lambda: {name: [0.2, 0.1] for name in COMMANDS})
+    which = [each for each in engines() if each.name in (*OURS, "scipy LSODA")]
+    absent = Engine("gone", missing="gone is not installed")
+    with pytest.MonkeyPatch.context() as patch:  # fewer copies: nothing is timed, and nothing compiled
+        patch.setattr(working, "SETS", 2)
+        patch.setattr(features, "_FEW", 2)
+        return running.bench(
+            TINY, (1e-5, 1e-7), 1, lambda: {name: [0.2, 0.1] for name in COMMANDS}, [*which, absent], ()
+        )
 
 
 def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
@@ -99,10 +109,10 @@ def test_impacts_are_the_same_in_every_run() -> None:
 
 def test_record_is_complete(record: dict[str, Any]) -> None:
     """Every engine that is there, at every tolerance, on every collision that counts, without a wrong outcome."""
-    assert {"environment", "settings", "engines", "tasks", "cold_start", "wall"} == set(record)
+    assert {"environment", "settings", "engines", "tasks", "cold_start", "wall", *running.MORE} == set(record)
     assert {"date", "cpu", "cores", "system", "python", "casadi", "numpy", "scipy"} <= set(record["environment"])
     there = [each["name"] for each in record["engines"] if not each["missing"]]
-    assert {"cvodes", "rosenbrock", "scipy LSODA", "scipy Radau"} <= set(there)
+    assert {"cvodes", "rosenbrock", "scipy LSODA"} <= set(there)
     for task in record["tasks"]:
         counted = [each for each in task["collisions"] if not each["decided_at_first_touch"]]
         assert counted
@@ -125,7 +135,7 @@ def test_files_are_written(record: dict[str, Any], tmp_path: Path) -> None:
     assert json.loads(files[0].read_text()) == json.loads(json.dumps(record))
     assert files[1].read_text() == text == report(record)
     assert all(file.read_bytes()[:4] == b"\x89PNG" for file in files[2:])
-    for word in ("scipy Radau", "certificate", "import casadi", "No failures"):
+    for word in ("scipy LSODA", "gone is not installed", "certificate", "import casadi", "No failures"):
         assert word in text
 
 
@@ -142,7 +152,9 @@ def test_failures_and_wrong_outcomes_are_counted_and_told() -> None:
 
         return one
 
-    (point,) = work(task, truth, [Engine("odd", prepare), Engine("gone", prepare, missing="not here")], [1e-6], 2)
+    (point,) = work(
+        task, truth, [Engine("odd", one=prepare), Engine("gone", one=prepare, missing="not here")], [1e-6], 2
+    )
     assert point.summary()["failed"] == point.summary()["wrong"] == 1
     assert point.errors() == [None, None]
     entry = {"collisions": [running._truth(each) for each in truth], "points": [running._point(point)]}
@@ -151,14 +163,14 @@ def test_failures_and_wrong_outcomes_are_counted_and_told() -> None:
     assert "odd" in equal_error(entry)
 
 
-def test_without_scipy_the_peers_are_listed_as_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No scipy: its methods say so, ours stay, and the reference is Rosenbrock's beside CVODES'."""
+def test_peers_that_are_absent_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing of the extra installed: every peer says so, ours stay, and the reference is Rosenbrock's beside CVODES'."""
     from wetdoublet.solvers.benchmarks import engines as listing
 
     monkeypatch.setattr(listing, "find_spec", lambda _: None)
     monkeypatch.setattr(references, "find_spec", lambda _: None)
     missing = [each.name for each in engines() if "not installed" in each.missing]
-    assert missing == ["scipy LSODA", "scipy Radau"]
+    assert missing == ["heyoka, batch of 8", "sundae CVODE, numba", "scipy LSODA", "scipy Radau"]
     found = reference(Scene.load("granulation"), Impact(0.05, 1.0))
     assert list(found.computed) == ["rosenbrock", "cvodes"]
 

@@ -1,0 +1,198 @@
+"""The stress test finds what is wrong with an engine, and explains what is not: small samples, no time is asserted."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers.benchmarks import stress_check as checking
+from wetdoublet.solvers.benchmarks.stress_check import FAST, RTOL, Found, judge
+from wetdoublet.solvers.benchmarks.stress_sample import DISTANCES, SEED, Case, sample
+from wetdoublet.solvers.cli import main
+from wetdoublet.solvers.errors import ComputationError, InputError
+
+pytest.importorskip("scipy")
+
+
+def run(*arguments: str) -> int:
+    """Exit status of the command, in this process."""
+    with pytest.raises(SystemExit) as exited:
+        main(list(arguments))
+    return int(exited.value.code or 0)
+
+
+def test_a_small_sample_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """`bench --stress 12` exits 0, its last line is the summary, and its record, tables, maps and scenes are there."""
+    assert run("bench", "--stress", "12", "--out", str(tmp_path / "new")) == 0
+    out, err = capsys.readouterr()
+    last = out.strip().splitlines()[-1]
+    assert last.startswith("stress: 12 scenes, 0 unexplained disagreements")
+    assert not err
+    record = json.loads((tmp_path / "new" / "stress.json").read_text())
+    assert record["summary"] == last
+    assert len(record["cases"]) == 12
+    assert {"stick", "stick-rotate-separate", "bounce"} == set(record["outcomes"])
+    assert last in (tmp_path / "new" / "stress.md").read_text()
+    for name in ("stress-map.png", "stress-near.png"):
+        assert (tmp_path / "new" / name).read_bytes()[:4] == b"\x89PNG"
+    scenes = list((tmp_path / "new" / "worst").glob("*.toml"))
+    assert scenes
+    for file in scenes:
+        Scene.load(file).need_impact()
+
+
+def off_by(shift: float) -> Any:
+    """The fast engine with an error in every e_n of a doublet that separates."""
+    usual = checking.fast
+
+    def broken(scene: Scene, rtol: float) -> Found:
+        found = usual(scene, rtol)
+        if found.outcome != "stick":
+            found.restitution += shift
+        return found
+
+    return broken
+
+
+def upside_down(scene: Scene, rtol: float) -> Found:
+    """An engine to which nothing ever sticks."""
+    found = checking.chained(scene, rtol)
+    return Found("bounce", 0.5) if found.outcome == "stick" else found
+
+
+@pytest.mark.parametrize(("broken", "kind"), [(off_by(1e-4), "restitution"), (upside_down, "outcome")])
+def test_a_broken_engine_is_caught(
+    broken: Any, kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An error of 1e-4 in e_n, or a wrong outcome, is an unexplained disagreement: named, kept as a scene, exit 1."""
+    monkeypatch.setattr(checking, "fast", broken)
+    assert run("bench", "--stress", "8", "--out", str(tmp_path)) == 1
+    out, err = capsys.readouterr()
+    assert f"unexplained ({kind}): " in out
+    assert " 0 unexplained" not in out.strip().splitlines()[-1]
+    assert "unexplained disagreements; see" in err
+    assert len(err.strip().splitlines()) == 1
+    assert list((tmp_path / "worst").glob("disagreement-*.toml"))
+
+
+def test_a_disagreement_at_a_graze_is_explained() -> None:
+    """Engines that differ within their error of a graze are said to lie beside a change, not to be wrong."""
+    scene = Scene.load("granulation").with_impact(angle="45 deg")
+    low, high = 0.05, 0.5  # stick-rotate-separate and bounce
+
+    def outcome(stokes: float) -> int:
+        return int(collide_many(scene, stokes=stokes, rtol=1e-12).outcome.values[0])
+
+    while high / low > 1 + 1e-11:
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if outcome(middle) < 2 else (low, middle)
+    engines = {"first": checking.fast, "second": checking.chained}
+    assert "a change of outcome lies within" in checking._beside(_case(scene, low), engines, "first", "second")
+    assert not checking._beside(_case(scene, low * 0.99), engines, "first", "second")
+
+
+def _case(scene: Scene, stokes: float) -> Case:
+    return Case("one", scene.with_impact(stokes=stokes))
+
+
+def test_a_wrong_certificate_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stick that is said to be proved is flown on without its proof, and found to separate."""
+    scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
+    monkeypatch.setattr(checking, "fast", lambda *_: Found("stick", 0.0, certified=True))
+    kinds = {issue.kind for issue in judge(Case("one", scene)).issues if not issue.explained}
+    assert kinds == {"certificate", "outcome"}
+
+
+def test_failures_are_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Chatter has a physical reason, a defect has none, and what a peer cannot do is no failure of ours."""
+    scene = Scene.load("granulation")
+
+    def failing(words: str) -> Any:
+        def run(*_: Any) -> Found:
+            raise ComputationError(words)
+
+        return run
+
+    monkeypatch.setattr(checking, "fast", failing("20 phases: this is chatter without end"))
+    (chatter,) = judge(Case("one", scene)).issues
+    assert chatter.kind == "failure"
+    assert chatter.explained
+    monkeypatch.setattr(checking, "fast", failing("gave up"))
+    monkeypatch.setattr(checking, "by_scipy", failing("no idea"))
+    kinds = [(issue.kind, issue.explained) for issue in judge(Case("one", scene)).issues]
+    assert kinds == [("failure", ""), ("peer", "")]
+
+
+def test_the_sample_is_the_same_again_and_covers_its_ranges() -> None:
+    """Fixed by its seed; every law, e_dry from 0 to 1, and both sides of a boundary at all its distances."""
+    cases = sample(240, SEED)
+    assert [case.scene for case in cases[::20]] == [case.scene for case in sample(240, SEED)[::20]]
+    drawn = [case.scene for case in cases if case.kind == "sampled"]
+    stokes = np.array([scene.stokes for scene in drawn], dtype=float)
+    assert stokes.min() < 1e-5
+    assert stokes.max() > 1e3
+    assert {scene.bridge.law if scene.bridge else None for scene in drawn} >= {None, "mikami", "lambert", "constant"}
+    assert {scene.pendulum is None for scene in drawn} == {True, False}
+    assert {scene.particles.dry_restitution for scene in drawn} >= {0.0, 1.0}
+    assert any(scene.angle == 0 for scene in drawn)
+    beside = [case for case in cases if case.kind == "beside"]
+    assert {case.distance for case in beside} == set(DISTANCES)
+    assert len({case.expected for case in beside}) > 1
+
+
+@pytest.mark.parametrize("count", ["0", "-3", "many", "1.5"])
+def test_a_count_that_cannot_be(count: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """`--stress` takes a whole number above 0; anything else is bad input that names the option."""
+    assert run("bench", "--stress", count) == 2
+    assert "--stress" in capsys.readouterr().err
+
+
+def test_a_weak_glass_just_after_first_touch() -> None:
+    """The film-corrected pressure starts at 0 and meets a tiny p_gt within rounding of x0: no engine loses it.
+
+    There 1/x^2 - 1/x0^2 is what rounding leaves of it, so that it can be met no closer than that.
+    """
+    for glass in ("1 Pa", "1e-8 Pa"):
+        scene = Scene.load("granulation").with_entries(
+            {"model.glass": "film-corrected", "liquid.glass_transition_pressure": glass}
+        )
+        impact: Any = {"stokes": 3.0, "angle": "50 deg"}
+        located = collide_many(scene, stokes=3.0, angle=math.radians(50)).restitution.values[0]
+        for engine in ("rosenbrock", "cvodes"):
+            found = collide(scene, **impact, engine=engine)
+            assert found.reversal == "glass"
+            assert found.restitution == pytest.approx(located, rel=1e3 * RTOL)
+
+
+def test_what_chatter_takes_is_booked() -> None:
+    """A rebound that rests at first touch leaves no energy behind: the ledger closes, in the dry contact's entry."""
+    scene = Scene.from_dict(
+        {
+            "particles": {"reduced_radius": 8e-6, "density": 900.0, "roughness": 3e-12, "dry_restitution": 0.7},
+            "liquid": {"viscosity": 5e-3, "film_thickness": 5e-10, "glass_transition_pressure": 5e4},
+            "bridge": {"surface_tension": 0.37, "volume": 1.5e-4, "contact_angle": 0.94},
+            "pendulum": {"length": 1e-3},
+        }
+    )
+    found = collide(scene, stokes=1.7e-6, angle="14 deg")
+    assert "rests" in [event.kind for event in found.events]
+    assert found.energy is not None
+    assert abs(found.energy.residual) < 1e3 * RTOL * found.energy.initial
+    assert found.energy.dry_contact > 0.9 * 0.5 * scene.particles.reduced_mass * found.speed**2
+
+
+def test_scipy_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without scipy there is no quasi-random sequence: bad input that says what to install."""
+    monkeypatch.setitem(__import__("sys").modules, "scipy.stats", None)
+    with pytest.raises(InputError, match="scipy"):
+        sample(12)
+
+
+def test_fast_is_the_engine_of_many() -> None:
+    """The engine under test is the compiled Taylor kernel where there is one."""
+    assert ("taylor" if "taylor" in checking.ENGINES else "rosenbrock") == FAST
