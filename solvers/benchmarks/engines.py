@@ -65,6 +65,7 @@ def engines() -> tuple[Engine, ...]:
         *bulk,
         Engine("heyoka, batch of 8", many=_heyoka, missing=_absent("heyoka")),
         Engine("sundae CVODE, numba", one=_sundae, missing=_absent("sksundae", "scikit-sundae") or _absent("numba")),
+        Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
         Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
         Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
     )
@@ -127,6 +128,13 @@ def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
         ]
 
     return every
+
+
+def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
+    """All collisions side by side."""
+    from .peer_diffrax import collisions
+
+    return collisions(scene, impacts, rtol)
 
 
 def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:

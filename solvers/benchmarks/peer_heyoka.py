@@ -11,30 +11,22 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.util import find_spec, module_from_spec
-from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 from ..errors import ComputationError
-from ..locate import Locate
+from ..locate import CRITERIA, Locate
 from ..model import Choice, choose, load
 from ..numbers import Numbers
 from ..scene import Scene
 from .tasks import Impact
+from .translated import translated
 
-_GENERATED = f"{__package__.rpartition('.')[0].rpartition('.')[0]}.generated"
 _HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
-_FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan")
 _STEPS = 2000  # of a collision, on average, after which all are given up
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
-
-
-def missing() -> str:
-    """Why it cannot be used here; empty if it can."""
-    return "" if find_spec("heyoka") else "heyoka is not installed (pip install wetdoublet[bench])"
 
 
 def _function(name: str) -> Callable[[Any], Any]:
@@ -45,26 +37,14 @@ def _function(name: str) -> Callable[[Any], Any]:
     return lambda x: of_expression(x) if isinstance(x, heyoka.expression) else of_number(x)
 
 
-def _own(name: str) -> ModuleType:
-    """A copy of an emitted module whose elementary functions are heyoka's."""
-    spec = find_spec(f"{_GENERATED}.{name}")
-    assert spec is not None
-    assert spec.loader is not None
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    for word in _FUNCTIONS:
-        if hasattr(module, word):
-            setattr(module, word, _function(word))
-    return module
-
-
 @dataclass(frozen=True)
 class System:
     """A structure in heyoka's expressions.
 
     Arguments:
         rates: of the states, then of the capillary work where it is needed for the energy.
-        events: by name; `opening` and `film_edge` may cross either way, the others fall through zero.
+        events: by name; `film_edge` may cross either way, the others fall through zero. Whether a doublet turned or
+            fell back decides nothing here.
         varying: groups that are runtime parameters, in their order; then film, active and level.
     """
 
@@ -77,8 +57,7 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: bool) 
     """The equations of these collisions; what is the same for all of them is written in."""
     import heyoka
 
-    structure = _own(choice.structure)
-    laws = SimpleNamespace(**{slot: _own(f"laws.{slot}_{law.replace('-', '_')}") for slot, law in choice.laws})
+    structure, laws = translated(choice, _function)
     varying = tuple(name for name in structure.GROUPS if len({each[name] for each in groups}) > 1)
     known = {name: float(groups[0][name]) for name in structure.GROUPS if name not in varying}
     p = known | {name: heyoka.par[k] for k, name in enumerate(varying)}
@@ -88,12 +67,10 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: bool) 
     found = structure.events(y, p, laws)
     bridge = choice.law("bridge") is not None
     events = {name: found[name] for name in ("glass", "half_turn", "unwinding") if name in found}
-    contact = p["rough_gap"] if "elastic_gap" in p and p["elastic_gap"] == 0.0 else None
-    if contact is None:
-        events |= {"elastic": found["elastic"], "rough": found["rough"]}
-    else:
-        events["rough"] = found["rough"]
-    events |= {"opening": y["opening"], "rupture": found["rupture"]}
+    if p.get("elastic_gap") != 0.0:
+        events["elastic"] = found["elastic"]
+    events["rough"] = found["rough"]
+    events["rupture"] = found["rupture"]
     if bridge:
         events["film_edge"] = found["film_edge"]
     if proved:
@@ -224,7 +201,10 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
     proved = flights[0].proof.by_energy
     equations = system(choice, [each.groups for each in numbers], proved)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
-    batch.starts = [_start(flight, each, equations) for flight, each in zip(flights, numbers)]
+    batch.starts = starts(flights, numbers, equations.varying)
+    if not proved:  # heyoka wants no parameter that is not used
+        for start in batch.starts:
+            start.parameters = start.parameters[:-1]
     batch.lanes = [Lane() for _ in range(size)]
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     events = [
@@ -232,7 +212,6 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
             expression, callback=batch.callback(name), direction=either if name == "film_edge" else falling
         )
         for name, expression in equations.events.items()
-        if name != "opening"  # whether it turned or fell back decides nothing here
     ]
     first = batch.starts[0]
     batch.integrator = heyoka.taylor_adaptive_batch(
@@ -246,18 +225,22 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
     return batch
 
 
-def _start(flight: Locate, numbers: Numbers, equations: System) -> Start:
-    """State and parameters at first touch; a criterion that is met there reverses there."""
-    y, film, reversed_ = flight.y, 1.0, False
-    values = flight.model.values("events", y, flight.p)
-    if min(values[name] for name in ("glass", "elastic", "rough")) <= 0:
-        after = flight.model.values("reversal", y, flight.p)
-        y, film, reversed_ = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
-    level = flight.proof.level(y, flight.phase) if flight.proof.by_energy else None
-    parameters = [numbers.groups[name] for name in equations.varying]
-    if "certified" in equations.events:
-        return Start(y, np.array([*parameters, film, 1.0, _NEVER if level is None else level]), reversed_, flight)
-    return Start(y, np.array([*parameters, film, 1.0]), reversed_, flight)
+def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Sequence[str]) -> list[Start]:
+    """State and parameters at first touch; a criterion that is met there reverses there.
+
+    Parameters are the groups named, then film, active and level.
+    """
+    found = []
+    for flight, each in zip(flights, numbers):
+        y, film, reversed_ = flight.y, 1.0, False
+        values = flight.model.values("events", y, flight.p)
+        if min(values[name] for name in CRITERIA) <= 0:
+            after = flight.model.values("reversal", y, flight.p)
+            y, film, reversed_ = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
+        level = flight.proof.level(y, flight.phase) if flight.watch.certificate else None
+        parameters = [*(each.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
+        found.append(Start(y, np.array(parameters), reversed_, flight))
+    return found
 
 
 def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Batch:

@@ -126,6 +126,7 @@ def _case(one: Verdict) -> dict[str, Any]:
         "name": one.case.name,
         "kind": one.case.kind,
         "distance": one.case.distance,
+        "change": one.case.change,
         "scene": one.case.scene.to_dict(),
         "stokes": one.case.scene.stokes,
         "angle": one.case.scene.angle,

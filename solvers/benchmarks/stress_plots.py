@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from ..changes import GRAZE
 from .stress import Stress
 from .stress_check import FAST
 
@@ -82,10 +83,10 @@ def _marked(axes: Axes, found: Stress) -> None:
 
 
 def near(found: Stress) -> Figure:
-    """CPU time of every engine against the relative distance from a boundary: medians, and all points faint."""
+    """CPU time of every engine against the relative distance from an escape: medians, and all points faint."""
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
     axes = figure.add_subplot()
-    beside = [one for one in found.verdicts if one.case.distance]
+    beside = [one for one in found.verdicts if one.case.distance and one.case.change != GRAZE]
     for name in dict.fromkeys(name for one in beside for name in one.found):
         points = [(one.case.distance, 1e3 * one.found[name].cpu) for one in beside if name in one.found]
         at: Any = sorted({distance for distance, _ in points}, reverse=True)
@@ -93,7 +94,12 @@ def near(found: Stress) -> Figure:
         colour = _COLOURS.get(name, "#202020")
         axes.plot(*np.array(points).T, ".", color=colour, alpha=0.25, markersize=4)
         axes.plot(at, middle, "-o", color=colour, markersize=4, linewidth=1.3, label=name)
-    axes.set(xscale="log", yscale="log", xlabel="relative distance from the boundary, in St", ylabel="CPU time (ms)")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="relative distance from where a doublet begins to escape, in St",
+        ylabel="CPU time (ms)",
+    )
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     if beside:
         axes.invert_xaxis()

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..changes import GRAZE
 from .stress import DISAGREEMENTS, WORST, Stress, record
 from .stress_check import Issue, Verdict
 from .tables import ms, table
@@ -127,7 +128,7 @@ def _ledgers(found: Stress) -> str:
 
 
 def _near(found: Stress) -> str:
-    beside = [one for one in found.verdicts if one.case.distance is not None]
+    beside = [one for one in found.verdicts if one.case.distance is not None and one.case.change != GRAZE]
     distances = sorted({one.case.distance for one in beside if one.case.distance}, reverse=True)
     engines = list(dict.fromkeys(name for one in beside for name in one.found))
     rows = []

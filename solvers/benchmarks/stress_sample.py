@@ -29,6 +29,7 @@ class Case:
         kind: "sampled", or "beside" a boundary.
         distance: relative distance in St from the boundary; None where none is known.
         expected: outcome on this side of it, as the tracing of the boundary has it.
+        change: what happens at the boundary, as `changes.Change.kind`.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Case:
     kind: str = "sampled"
     distance: float | None = None
     expected: str | None = None
+    change: str = ""
 
 
 def sample(count: int, seed: int = SEED) -> list[Case]:
@@ -136,7 +138,7 @@ def _limited(count: int) -> Iterator[Case]:
     """Points beside boundaries, for a fifth of the sample."""
     wanted = max(1, int(_BESIDE * count))
     made = 0
-    for name, scene, stokes, before, after in _changes(max(1, wanted // PER_CHANGE)):
+    for name, scene, stokes, before, after, change in _changes(max(1, wanted // PER_CHANGE)):
         for distance in DISTANCES:
             for side, expected in ((-1, before), (1, after)):
                 st = stokes * (1 + side * distance)
@@ -146,7 +148,7 @@ def _limited(count: int) -> Iterator[Case]:
                     return
 
 
-def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str]]:
+def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str, str]]:
     """Changes of outcome of the presets and some of their variants, traced at angles that spread with their number."""
     variants = (
         ("granulation", {}),
@@ -168,4 +170,4 @@ def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str]]:
         for change in boundary(scene, angle=np.array([angle]), stokes=(1e-3, 20.0), rtol=1e-12).changes[0]:
             found += 1
             label = f"{preset} at {math.degrees(angle):.4g} deg, {change.before} to {change.after}"
-            yield label, scene.with_impact(angle=angle), change.stokes, change.before, change.after
+            yield label, scene.with_impact(angle=angle), change.stokes, change.before, change.after, change.kind

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -117,17 +117,15 @@ def work(
             tell(f"{task.preset}: {engine.name} {rtol:.0e}")
             point = Point(task.preset, engine.name, rtol, [Timed() for _ in impacts], counted)
             one = _prepared(engine, task.scene, impacts, rtol, point)
-            start = time.process_time()
-            if engine.builds or rtol == max(tolerances):
-                one()  # builds and caches whatever is needed
+            if engine.builds:
+                one()  # builds and caches whatever is needed; what it takes does not count
+                point.timed[:] = [Timed() for _ in impacts]
             start = time.process_time()
             one()
             if time.process_time() - start > _DEAR:
                 dear.add(engine.name)
             ready.append((engine, point, one))
-    for _, point, _ in ready:  # what the first passes took does not count
-        point.timed[:] = [replace(each, cpu=math.inf, wall=math.inf, runs=0) for each in point.timed]
-    for turn in range(repeats):
+    for turn in range(1, repeats):
         for _, point, one in ready:
             tell(f"{task.preset}: {turn + 1}/{repeats} {point.engine} {point.rtol:.0e}")
             one()

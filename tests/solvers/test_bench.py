@@ -164,7 +164,7 @@ def test_failures_and_wrong_outcomes_are_counted_and_told() -> None:
 
 
 def test_peers_that_are_absent_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing of the extra installed: every peer says so, ours stay, and the reference is Rosenbrock's beside CVODES'."""
+    """Nothing of the extra installed: every peer says so, and the reference is Rosenbrock's beside CVODES'."""
     from wetdoublet.solvers.benchmarks import engines as listing
 
     monkeypatch.setattr(listing, "find_spec", lambda _: None)
