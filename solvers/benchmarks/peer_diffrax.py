@@ -1,7 +1,7 @@
-"""Collisions by diffrax: Tsit5 with events, jitted and vectorised over all collisions, from the same emitted equations.
+"""Collisions by diffrax: Tsit5 with events, jitted and vectorised over all collisions, from the emitted equations.
 
-A flight is a loop over phases, each ended by diffrax's own event with a Newton root finder; like scipy's methods it looks
-at signs at the ends of steps. The level that proves a stick is an event of the energy, computed beforehand.
+A flight is a loop over phases, each ended by diffrax's own event with a Newton root finder; like scipy's methods it
+looks at signs at the ends of steps. The level that proves a stick is an event of the energy, computed beforehand.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,8 @@ def over_impacts(found: Stress) -> Figure:
         (left, error, "largest difference in $e_n$ between engines", (1e-16, 1e-6)),
         (right, cost, f"CPU time by {FAST} (ms)", _ends(cost)),
     ):
-        norm, shown = LogNorm(*ends, clip=True), None
+        norm = LogNorm(*ends, clip=True)
+        shown: Any = None
         for outcome, marker in _MARKERS.items():
             here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.found.values())]
             style: Any = {"c": [values[k] for k in here], "norm": norm, "cmap": "viridis", "linewidths": 0}
@@ -78,8 +80,9 @@ def _marked(axes: Axes, found: Stress) -> None:
     for which, colour, marker, label in ((failed, "#D55E00", "x", "failure"), (strange, "#D00000", "+", "unexplained")):
         scenes = [one.case.scene for one in which.values()]
         if scenes:
-            places: Any = [float(each.stokes or 0.0) for each in scenes], [np.degrees(each.angle) for each in scenes]
-            axes.scatter(*places, c=colour, marker=marker, s=34, linewidths=1.1, label=label)
+            stokes = [float(each.stokes or 0.0) for each in scenes]
+            angles = [math.degrees(each.angle or 0.0) for each in scenes]
+            axes.scatter(stokes, angles, c=colour, marker=marker, s=34, linewidths=1.1, label=label)
 
 
 def near(found: Stress) -> Figure:

@@ -21,10 +21,22 @@ def write(found: Stress, folder: Path) -> list[Path]:
 
     folder.mkdir(parents=True, exist_ok=True)
     data, text = folder / "stress.json", folder / "stress.md"
-    data.write_text(json.dumps(record(found), indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    kept = record(found) | {"tables": tables(found)}
+    data.write_text(json.dumps(kept, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     scenes = worst(found, folder / "worst")
     text.write_text(report(found, scenes), encoding="utf-8")
     return [data, text, *draw(found, folder), *scenes]
+
+
+def tables(found: Stress) -> dict[str, str]:
+    """The report's tables by name, for pages that are made from the record."""
+    return {
+        "disagreements": _listed(found, DISAGREEMENTS),
+        "failures": _failures(found),
+        "engines": _engines(found),
+        "ledgers": _ledgers(found),
+        "near": _near(found),
+    }
 
 
 def worst(found: Stress, folder: Path) -> list[Path]:

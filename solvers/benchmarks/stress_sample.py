@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -142,7 +143,9 @@ def _limited(count: int) -> Iterator[Case]:
         for distance in DISTANCES:
             for side, expected in ((-1, before), (1, after)):
                 st = stokes * (1 + side * distance)
-                yield Case(f"{name} {side * distance:+.0e}", scene.with_impact(stokes=st), "beside", distance, expected)
+                yield Case(
+                    f"{name} {side * distance:+.0e}", scene.with_impact(stokes=st), "beside", distance, expected, change
+                )
                 made += 1
                 if made == wanted:
                     return
@@ -150,7 +153,7 @@ def _limited(count: int) -> Iterator[Case]:
 
 def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str, str]]:
     """Changes of outcome of the presets and some of their variants, traced at angles that spread with their number."""
-    variants = (
+    variants: tuple[tuple[str, dict[str, Any]], ...] = (
         ("granulation", {}),
         ("pendulum", {}),
         ("granulation", {"bridge.law": "willett"}),

@@ -1,4 +1,4 @@
-"""The emitted modules for expressions that are not CasADi's: copies whose elementary functions are another library's."""
+"""The emitted modules for another library's expressions: copies whose elementary functions are that library's."""
 
 from __future__ import annotations
 

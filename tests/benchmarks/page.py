@@ -2,7 +2,7 @@
 
     python tests/benchmarks/page.py [FOLDER]
 
-FOLDER (docs/performance) holds bench.json, compile_flags.json, cvodes_share.json.
+FOLDER (docs/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if it was run, stress.json.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from wetdoublet.solvers.benchmarks.tables import ms, table
 Record = dict[str, Any]
 
 
-def page(bench: Record, flags: Record, share: Record, folder: str) -> str:
+def page(bench: Record, flags: Record, share: Record, stress: Record | None, folder: str) -> str:
     """The page."""
     parts = [
         "# Performance",
@@ -33,7 +33,16 @@ def page(bench: Record, flags: Record, share: Record, folder: str) -> str:
         parts += [tables.failures(task)]
     parts += ["## What a certificate, a ledger and a trajectory cost", f"![Cost of features]({folder}/cost.png)"]
     parts += [tables.cost_table(bench), tables.cost_note(bench)]
+    parts += tables.others(bench)
+    if bench["growth"]:
+        parts.append(f"![Growth]({folder}/growth.png)")
     parts += ["## Cold start", tables.cold_table(bench)]
+    if stress is not None:
+        parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
+        parts += [stress["tables"]["disagreements"], stress["tables"]["failures"], stress["tables"]["engines"]]
+        parts += [stress["tables"]["ledgers"], f"![Error and cost]({folder}/stress-map.png)"]
+        parts += ["### Near the separatrix", f"![Near the separatrix]({folder}/stress-near.png)"]
+        parts += [stress["tables"]["near"]]
     parts += ["## Why integrators are compiled with -O1", flags_table(flags), flags_text(flags)]
     parts += ["## Why CVODES is told rtol/30", SHARE, share_table(share), share_text(share)]
     return "\n\n".join(parts) + "\n"
@@ -41,24 +50,36 @@ def page(bench: Record, flags: Record, share: Record, folder: str) -> str:
 
 INTRODUCTION = """\
 Measured by `wetdoublet bench`; `tests/benchmarks/page.py` writes this page from the records of one run, in `{folder}/`.
-It is made anew by the four commands of [tests/benchmarks](../tests/benchmarks/README.md). The cores were shared: read
+It is made anew by `python tests/benchmarks/measure.py` (see [tests/benchmarks](../tests/benchmarks/README.md)). The cores were shared: read
 the ratios."""
 
 WORK = """\
-A point is one engine at one tolerance (1e-4 to 1e-12 in steps of 100): mean CPU time of a collision that is not decided
-at first touch, against the largest absolute error in e_n among those that separate.
+A point is one engine at one tolerance (1e-5 to 1e-13 in steps of 100): mean CPU time of a collision that is not decided
+at first touch, against the largest absolute error in e_n among those that separate. Everything runs on one core.
 
-* **The same for all**: equations and Jacobian from the emitted modules, events with their rules, stop rule, stick
-  certificate with its margin and its search for barriers, absolute tolerance, the way from a scene to its numbers.
+* **The same for all**: equations from the emitted modules, stop rule, stick certificate with its margin.
 * **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the impact is checked, the path located
-  (by the interpreted Rosenbrock), then flown again by the engine, and a result made with its SI quantities.
-  **`rosenbrock, compiled`** is what `collide_many` does: the located path alone, in C. Locating is never looser than
-  1e-6, so that 1e-4 and 1e-6 cost almost the same.
-* **scipy's** methods call CasADi functions with parameters bound once; they have neither check of the impact nor second
-  flight to pay for.
-  They stop at terminal events of `solve_ivp` and look for grazing minima afterwards, on the steps taken.
+  (by the interpreted Rosenbrock), then flown again by the engine, and a result made with its SI quantities. Locating is
+  never looser than 1e-6.
+* **Engines of many collisions** (`rosenbrock, compiled` and others by `collide_many`, heyoka, diffrax) get the whole
+  set twenty times in one call; what they compile is not counted.
+* **heyoka**: `taylor_adaptive_batch` with terminal events whose callbacks reverse, and refill a lane from the queue;
+  8 lanes of AVX-512, groups that do not vary written in as numbers, not in compact mode (which is 1.5 times slower).
+  Deciding at first touch and the level of energy that proves a stick are computed beforehand, for nothing. Its events
+  are isolated on the step's polynomial, so that it misses no graze.
+* **CVODE of scikit-sundae** has rates, Jacobian and events as machine code by numba; **scipy's** methods call CasADi
+  functions with parameters bound once. Both stop at terminal events, with the rules of our own flights between them.
+  scipy's look for grazing minima afterwards, CVODE does not.
+* **diffrax**: Tsit5, jitted and vectorised over the set, its own events with a Newton root finder.
+* A peer that is not installed is named at the top, and so is a compiler that is missing.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Where an error is below the difference to
   the next best computation (grey in the plot), it cannot be told from the reference's own."""
+
+STRESS = """\
+`wetdoublet bench --stress N`: a quasi-random sample of everything a scene may say, and points set at 1e-3 to 1e-12 of
+boundaries, each by every engine. Two engines disagree where their outcomes differ, or e_n by more than 1e3 rtol times its
+conditioning; that is explained only where a change of outcome lies within 1e3 rtol of the Stokes number, found by
+moving it. Certified sticks are flown on without their certificate; ledgers must close."""
 
 SHARE = """\
 Both engines fly the same located paths with the same landing on events, told the same relative tolerance; median
@@ -135,7 +156,9 @@ def main() -> None:
     """Read, and write the page beside the folder."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/performance")
     records = [json.loads((folder / f"{name}.json").read_text()) for name in ("bench", "compile_flags", "cvodes_share")]
-    folder.with_suffix(".md").write_text(page(*records, folder.name), encoding="utf-8")
+    stress = folder / "stress.json"
+    found = json.loads(stress.read_text()) if stress.is_file() else None
+    folder.with_suffix(".md").write_text(page(*records, found, folder.name), encoding="utf-8")
 
 
 if __name__ == "__main__":
