@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -68,9 +69,8 @@ def structures() -> list[Record]:
 
 def gradients() -> list[Record]:
     """CPU time of a gradient of e_n by number of parameters, over the collision's; empty without `sensitivities`."""
-    from .. import __dict__ as public
-
-    sensitivities: Callable[..., Any] | None = public.get("sensitivities")
+    package = import_module(__package__.rpartition(".")[0])
+    sensitivities: Callable[..., Any] | None = getattr(package, "sensitivities", None)
     if sensitivities is None:
         return []
     asked: dict[str, Any] = {"stokes": 0.05, "angle": math.radians(75.0)}

@@ -50,8 +50,8 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
 
 INTRODUCTION = """\
 Measured by `wetdoublet bench`; `tests/benchmarks/page.py` writes this page from the records of one run, in `{folder}/`.
-It is made anew by `python tests/benchmarks/measure.py` (see [tests/benchmarks](../tests/benchmarks/README.md)). The cores were shared: read
-the ratios."""
+It is made anew by `python tests/benchmarks/measure.py` (see [tests/benchmarks](../tests/benchmarks/README.md)).
+The cores were shared: read the ratios."""
 
 WORK = """\
 A point is one engine at one tolerance (1e-5 to 1e-13 in steps of 100): mean CPU time of a collision that is not decided
@@ -77,8 +77,8 @@ at first touch, against the largest absolute error in e_n among those that separ
 
 STRESS = """\
 `wetdoublet bench --stress N`: a quasi-random sample of everything a scene may say, and points set at 1e-3 to 1e-12 of
-boundaries, each by every engine. Two engines disagree where their outcomes differ, or e_n by more than 1e3 rtol times its
-conditioning; that is explained only where a change of outcome lies within 1e3 rtol of the Stokes number, found by
+boundaries, each by every engine. Two engines disagree where their outcomes differ, or e_n by more than 1e3 rtol times
+its conditioning; that is explained only where a change of outcome lies within 1e3 rtol of the Stokes number, found by
 moving it. Certified sticks are flown on without their certificate; ledgers must close."""
 
 SHARE = """\

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers import locate as locating
-from wetdoublet.solvers.benchmarks import features
+from wetdoublet.solvers.benchmarks import features, lines, needs
+from wetdoublet.solvers.benchmarks import growth as growing
 from wetdoublet.solvers.benchmarks import reference as references
 from wetdoublet.solvers.benchmarks import run as running
 from wetdoublet.solvers.benchmarks import work as working
@@ -194,3 +195,71 @@ def test_certificate_can_be_taken_away() -> None:
 def test_tables_line_up() -> None:
     """A Markdown table whose columns are as wide as their widest cell."""
     assert table(["a", "long"], [["bcd", "1"]]) == "| a   | long |\n| --- | ---: |\n| bcd |    1 |"
+
+
+def test_what_a_gradient_costs_is_measured_as_soon_as_there_are_gradients(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`sensitivities` is asked for 1, 4 and 12 parameters by both methods; central differences stand beside it."""
+    import wetdoublet.solvers as package
+
+    monkeypatch.setattr(needs, "REPEATS", 1)
+    monkeypatch.setattr(needs, "differences", lambda *_, **__: {})
+    asked: list[tuple[str, int]] = []
+    stand_in = lambda *_, method, wrt, **__: asked.append((method, len(wrt)))  # noqa: E731 # as it is called
+    monkeypatch.setattr(package, "sensitivities", stand_in, raising=False)
+    rows = needs.gradients()
+    assert set(asked) == {(method, count) for method in ("forward", "adjoint") for count in (1, 4, 12)}
+    assert [row["method"] for row in rows][-1] == "central differences"
+    assert rows[0]["ratio"] == 1.0
+
+
+def test_central_differences_agree_with_a_chord() -> None:
+    """Head-on, far above St*, e_n is nearly linear in e_dry: its derivative is the slope of a chord of 2 %."""
+    scene = Scene.load("granulation")
+    slope = needs.differences(["particles.dry_restitution"], stokes=3.0, angle=0.0)["particles.dry_restitution"]
+    ends = [
+        collide(
+            scene.with_entries({"particles.dry_restitution": each}), stokes=3.0, angle=0.0, rtol=1e-12, ledger=False
+        ).restitution
+        for each in (0.98, 1.0)
+    ]
+    assert slope == pytest.approx((ends[1] - ends[0]) / 0.02, rel=1e-3)
+
+
+def test_growth_is_measured_in_fresh_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wall and CPU time, memory and failures of a call, by its size; none is left out that is quick."""
+    monkeypatch.setattr(growing, "SIZES", (2,))
+    monkeypatch.setattr(growing, "ENGINES", ("rosenbrock",))
+    rows = growing.growth()
+    assert [row["collisions"] for row in rows if row["cores"] == 1] == [2]
+    assert all(row["failed"] == 0 and row["wall"] > 0 and row["memory"] >= row["before"] > 0 for row in rows)
+
+
+def test_bisection_finds_the_traced_boundaries() -> None:
+    """Halving on the outcome, and the roots of smooth functions, agree on every change at an angle."""
+    from wetdoublet.solvers import boundary
+
+    scene, angle = Scene.load("granulation"), float(np.radians(60.0))
+    found, taken = lines.bisected(scene, angle)
+    traced = boundary(scene, angle=angle, stokes=lines.STOKES).changes[0]
+    assert found == pytest.approx([each.stokes for each in traced], rel=1e-7)
+    assert taken > 20 * len(found)
+
+
+@pytest.mark.parametrize("preset", ["granulation", "pendulum"])
+@pytest.mark.parametrize("name", ["heyoka, batch of 8", "sundae CVODE, numba"])
+def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
+    """Where they are installed, their outcomes are Rosenbrock's and e_n agrees to what their tolerance allows."""
+    engine = next(each for each in engines() if each.name == name)
+    if engine.missing:
+        pytest.skip(engine.missing)
+    scene = Scene.load(preset)
+    impacts = [Impact(st, np.radians(angle)) for st, angle in ((0.6, 50.0), (0.05, 70.0), (2.0, 60.0), (0.02, 80.0))]
+    ours = [collide(scene, stokes=i.stokes, angle=i.angle, rtol=1e-11, engine="rosenbrock") for i in impacts]
+    if engine.many is not None:
+        found: list[Any] = engine.many(scene, impacts, 1e-9)()
+    else:
+        assert engine.one is not None
+        one = engine.one(scene, impacts, 1e-9)
+        found = [one(k) for k in range(len(impacts))]
+    assert [each.outcome for each in found] == [each.outcome for each in ours]
+    assert [each.restitution for each in found] == pytest.approx([each.restitution for each in ours], abs=1e-6)
