@@ -178,10 +178,14 @@ def growth_curves(record: Record) -> Figure:
             here = [each for each in record["growth"] if (each["engine"], each["cores"]) == (engine, cores)]
             counts = [each["collisions"] for each in here]
             style: Any = {"color": colour, "marker": marker, "linestyle": line, "markersize": 5, "linewidth": 1.3}
-            panels[0].loglog(counts, [each["wall"] for each in here], label=f"{engine}, {cores} core(s)", **style)
+            panels[0].loglog(
+                counts, [each["wall"] for each in here], label=f"{engine}, {cores} core{'s' * (cores > 1)}", **style
+            )
             panels[1].loglog(counts, [1e6 * each["wall"] / each["collisions"] for each in here], **style)
     for axes, label in zip(panels, ("wall time of the call (s)", "wall time a collision (us)")):
         axes.set(xlabel="collisions in one call", ylabel=label)
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
         axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     figure.legend(loc="outside upper center", ncols=2, frameon=False)
     return figure

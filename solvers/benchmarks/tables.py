@@ -132,16 +132,20 @@ def equal_error(task: Record) -> str:
 def failures(task: Record) -> str:
     """Every collision that failed or came out wrong, with what the engine said."""
     counted = [each for each in task["collisions"] if not each["decided_at_first_touch"] and not each["problem"]]
-    lines = []
+    said: dict[tuple[str, float, str], list[str]] = {}
     for point in task["points"]:
         for run, truth in zip(point["runs"], counted, strict=True):
-            said = run["failure"] or (
-                f"{run['outcome']} instead of {truth['outcome']}" if run["outcome"] != truth["outcome"] else ""
-            )
-            if said:
+            wrong = f"{run['outcome']} instead of {truth['outcome']}" if run["outcome"] != truth["outcome"] else ""
+            if what := run["failure"] or wrong:
                 where = f"St {truth['stokes']:.4g} at {truth['angle']:.4g} deg"
-                lines.append(f"* {point['engine']}, rtol {point['rtol']:.0e}, {where}: {said}")
+                said.setdefault((point["engine"], point["rtol"], what), []).append(where)
+    lines = [f"* {engine}, rtol {rtol:.0e}, {_some(places)}: {what}" for (engine, rtol, what), places in said.items()]
     return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else "No failures, no wrong outcomes."
+
+
+def _some(places: list[str]) -> str:
+    """The places, or the first of them and how many more."""
+    return ", ".join(places) if len(places) < 4 else f"{places[0]} and {len(places) - 1} others"
 
 
 def cost_table(record: Record) -> str:

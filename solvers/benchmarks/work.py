@@ -19,7 +19,7 @@ TOLERANCES = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
 REPEATS = 3  # the best of so many counts
 SETS = 20  # times the collisions are repeated within one call of an engine that takes many
 _LONG = 0.05  # s: a collision that takes longer is not repeated
-_DEAR = 20.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
+_DEAR = 5.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
 
 Tell = Callable[[str], None]
 
