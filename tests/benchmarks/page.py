@@ -65,8 +65,9 @@ at first touch, against the largest absolute error in e_n among those that separ
   set twenty times in one call; what they compile is not counted.
 * **heyoka**: `taylor_adaptive_batch` with terminal events whose callbacks reverse, and refill a lane from the queue;
   8 lanes of AVX-512, groups that do not vary written in as numbers, not in compact mode (which is 1.5 times slower).
-  Never looser than 1e-6 either: looser, the energy misses the level that proves a stick. Deciding at first touch and the level of energy that proves a stick are computed beforehand, for nothing. Its events
-  are isolated on the step's polynomial, so that it misses no graze.
+  Never looser than 1e-6 either: looser, the energy misses the level that proves a stick. Deciding at first touch and
+  that level are computed beforehand, for nothing. Its events are isolated on the step's polynomial, so that it misses
+  no graze.
 * **CVODE of scikit-sundae** has rates, Jacobian and events as machine code by numba; **scipy's** methods call CasADi
   functions with parameters bound once. Both stop at terminal events, with the rules of our own flights between them.
   scipy's look for grazing minima afterwards, CVODE does not.
