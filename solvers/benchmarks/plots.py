@@ -185,6 +185,7 @@ def growth_curves(record: Record) -> Figure:
     for axes, label in zip(panels, ("wall time of the call (s)", "wall time a collision (us)")):
         axes.set(xlabel="collisions in one call", ylabel=label)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0), numticks=20))
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     figure.legend(loc="outside upper center", ncols=2, frameon=False)
