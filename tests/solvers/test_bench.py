@@ -171,7 +171,7 @@ def test_peers_that_are_absent_are_named(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(listing, "find_spec", lambda _: None)
     monkeypatch.setattr(references, "find_spec", lambda _: None)
     missing = [each.name for each in engines() if "not installed" in each.missing]
-    assert missing == ["heyoka, batch of 8", "sundae CVODE, numba", "scipy LSODA", "scipy Radau"]
+    assert missing == ["heyoka, batch of 8", "sundae CVODE, numba", "diffrax Tsit5", "scipy LSODA", "scipy Radau"]
     found = reference(Scene.load("granulation"), Impact(0.05, 1.0))
     assert list(found.computed) == ["rosenbrock", "cvodes"]
 
