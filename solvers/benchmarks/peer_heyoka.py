@@ -198,7 +198,7 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
     flights = [Locate(model, each.groups, min(rtol, 1e-6)) for each in numbers]
     if any(flight.watch.tangential_edge for flight in flights):
         raise ComputationError("the tangential edge lies within reach")
-    proved = flights[0].proof.by_energy
+    proved = flights[0].proof.watches == "energy"
     equations = system(choice, [each.groups for each in numbers], proved)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
     batch.starts = starts(flights, numbers, equations.varying)

@@ -293,7 +293,7 @@ def _audited(case: Case, first: str) -> list[Issue]:
     n = dimensionless(scene, Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0)))
     flight: Any = Locate(load(choose(scene, n.oblique)), n.groups, RTOL)
     flight.proof = Audit()
-    flight.watch = replace(flight.watch, certificate=False)
+    flight.watch = replace(flight.watch, certificate=None)
     try:
         path = flight.run()
     except ComputationError:
