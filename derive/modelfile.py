@@ -27,7 +27,9 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
             raise ModelFileError(where, error.value, error.accepted, error.problem) from None
         except SyntaxError as error:
             problem = f"is not Python ({error.msg})"
-            raise ModelFileError(f"{path}, line {error.lineno}", (error.text or "").strip(), "a model file", problem) from None
+            raise ModelFileError(
+                f"{path}, line {error.lineno}", (error.text or "").strip(), "a model file", problem
+            ) from None
         except Exception as error:  # noqa: BLE001 # whatever a user's file does
             where = f"{path}, line {_line(error, path)}"
             said = " ".join(f"{type(error).__name__}: {error}".split())

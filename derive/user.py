@@ -19,7 +19,26 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 
 import sympy as sp
-from sympy import Abs, Max, Min, Piecewise, Rational, acos, asin, atan, cos, cosh, exp, log, pi, sin, sinh, sqrt, tan, tanh
+from sympy import (
+    Abs,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    acos,
+    asin,
+    atan,
+    cos,
+    cosh,
+    exp,
+    log,
+    pi,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+)
 
 from .bounds import Bounds, BoundsError
 from .dimensions import Dimension
@@ -29,8 +48,33 @@ from .laws.bridge import h
 from .laws.glass import approach
 from .laws.strings import offset_squared
 from .quantities import (
-    VOCABULARY, E, R, a, aspect, e_dry, g, gap, glass_number, l_s, m, mu, nu, omega, omega0, opening, p_gt, r, rho,
-    sigma, string_ratio, u, v0, x, x0, x_b, xi,
+    VOCABULARY,
+    E,
+    R,
+    a,
+    aspect,
+    e_dry,
+    g,
+    gap,
+    glass_number,
+    l_s,
+    m,
+    mu,
+    nu,
+    omega,
+    omega0,
+    opening,
+    p_gt,
+    r,
+    rho,
+    sigma,
+    string_ratio,
+    u,
+    v0,
+    x,
+    x0,
+    x_b,
+    xi,
 )  # fmt: skip
 from .quantities import contact_angle as phi
 from .quantities import volume as V

@@ -10,7 +10,6 @@ from .custom import UserModel
 from .laws import LAWS
 from .laws.base import Law
 from .model import derive
-from .quantities import VOCABULARY
 from .structure import Structure
 
 _FULL = Structure(True, True, False)  # oblique, with a bridge, nothing that exerts a torque
@@ -39,8 +38,8 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
     groups = model.extended(derive(_FULL)).groups
     own = {group.symbol: group for group in model.groups}
-    known = [f"{VOCABULARY[s.name].latex}" for s in groups if s not in own]
-    lines.append(f"Groups of the library that govern an oblique flight with a bridge: {', '.join(map(_plain, known))}.")
+    known = ", ".join(symbol.name for symbol in groups if symbol not in own)
+    lines.append(f"An oblique flight with a bridge is governed by the library's groups {known}.")
     for group in model.groups:
         if group.symbol == group.quantity.symbol:
             lines.append(f"New group: {group.symbol.name}, a plain number ({group.quantity.meaning}).")
@@ -51,11 +50,3 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     if not model.groups:
         lines.append("No new group.")
     return tuple(lines)
-
-
-def _plain(latex: str) -> str:
-    """LaTeX of a group as plain text."""
-    text = latex
-    for sign in ("\\", "{", "}", "_"):
-        text = text.replace(sign, "")
-    return text

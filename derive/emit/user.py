@@ -31,7 +31,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
         library: digest of the library's own equations, on which the model is built.
         origin: path of the model file as seen from the package.
     """
-    own = _own(model)
+    own = own_names(model)
     files = {SOURCE: source}
     laws = []
     for law in model.laws:
@@ -74,7 +74,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
     return dict(sorted(files.items()))
 
 
-def _own(model: UserModel) -> Own:
+def own_names(model: UserModel) -> Own:
     """Unit and meaning of the vocabulary and of what the model declares."""
     known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
     known |= {one.name: (one.unit, one.meaning) for one in model.declarations.quantities.values()}

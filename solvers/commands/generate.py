@@ -78,7 +78,9 @@ def _model(source: str, out: str | None, check: bool) -> None:
     if check:
         if lines := user.differences(made.files, folder):
             click.echo("\n".join(lines))
-            raise CheckFailed(f"{folder} is not what {source} gives; `wetdoublet generate {source} --out {out}` mends it")
+            raise CheckFailed(
+                f"{folder} is not what {source} gives; `wetdoublet generate {source} --out {out}` mends it"
+            )
         return
     folder.mkdir(parents=True, exist_ok=True)
     written = user.write(made.files, folder)

@@ -14,6 +14,7 @@ from . import options
 @click.argument("source", metavar="[SCENE]", required=False)
 @options.impact
 @options.changes
+@options.model
 @click.option("-o", "output", metavar="FILE", help="Write the report as Markdown to FILE as well.")
 @options.debug
 def command(
@@ -22,11 +23,12 @@ def command(
     speed: str | None,
     angle: str | None,
     changes: Sequence[str],
+    model: str | None,
     output: str | None,
 ) -> None:
     """Check the laws on SCENE, or on all presets; the report goes to standard output."""
     file = options.check_file(output, "-o")
-    asked = options.Asked.check(source, changes, stokes, speed, angle)
+    asked = options.Asked.check(source, changes, stokes, speed, angle, model=model)
     scene = asked.optional_scene()
 
     from ..verify import verify
