@@ -269,7 +269,7 @@ def _dimensional(expression: sp.Expr) -> list[str]:
 def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place]) -> Law:
     """The law with its groups as quantities, in the slot's own arguments alone."""
     back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups.values()}
-    back |= {s: value for s, value in group_definitions().items()}
+    back |= dict(group_definitions())
     functions = []
     for f in law.functions:
         own = all_places[f"{law.slot}.{f.name}"].arguments

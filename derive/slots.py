@@ -1,4 +1,4 @@
-"""What fills a slot: each function's dimensionless arguments, where they stand in SI, and the scale that makes it SI."""
+"""What fills a slot: each function's dimensionless arguments, where they stand in SI, and its scale."""
 
 from __future__ import annotations
 

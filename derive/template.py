@@ -9,7 +9,9 @@ Change it, then: wetdoublet generate THIS.py --out DIR; wetdoublet collide granu
 from wetdoublet.derive.user import *
 
 # A quantity that scenes may fill:  [custom]  yield_stress = "50 Pa"   or  --set custom.yield_stress="50 Pa"
-stress = quantity("yield_stress", r"\\tau_y", unit="Pa", default="20 Pa", bounds=">= 0", meaning="yield stress of the liquid")
+stress = quantity(
+    "yield_stress", r"\\tau_y", unit="Pa", default="20 Pa", bounds=">= 0", meaning="yield stress of the liquid"
+)
 
 # SI symbols: x gap, a = R/2, R, r = 4a + x, m, mu, sigma, x0, u, v0, ...; V = volume/R^3, phi contact angle.
 # `let` gives a part a name, which emitted code and printed equations keep.

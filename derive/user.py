@@ -1,8 +1,8 @@
-"""A user's model: one small Python file that declares laws, and the quantities that they need, over the vocabulary.
+r"""A user's model: one small Python file that declares laws, and the quantities that they need, over the vocabulary.
 
     from wetdoublet.derive.user import *
 
-    stress = quantity("yield_stress", r"\\tau_y", unit="Pa", default="10 Pa", bounds=">= 0")
+    stress = quantity("yield_stress", r"\tau_y", unit="Pa", default="10 Pa", bounds=">= 0")
     law("bridge", "mine", force=pi * R * sigma * 2 * cos(phi) + 4 * pi * a**2 * stress, source="...")
 
 A law fills a slot of the library's (`film`, `shear`, `arm`, `glass`, `bridge`, `strings`, ...). Its functions are given

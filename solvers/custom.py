@@ -132,7 +132,7 @@ class Package:
         """The module of a structure that it changes; derived on first use if it was not emitted."""
         if name in self.manifest["structures"]:
             return _module(self, f"{name}.py")
-        source = self._verified("model.py").decode()
+        source = self.source
 
         def derived() -> str:
             from ..derive.emit.one import user_structure_text  # imports sympy
@@ -154,6 +154,11 @@ class Package:
     def plain(self) -> tuple[str, ...]:
         """Its quantities that are groups as they are."""
         return tuple(one["name"] for one in self.manifest["quantities"] if one["group"] == one["name"])
+
+    @property
+    def source(self) -> str:
+        """Text of the model file that it was emitted from."""
+        return self._verified("model.py").decode()
 
     def _verified(self, path: str) -> bytes:
         """Content of one of its files; InputError if it is not the one that was emitted."""

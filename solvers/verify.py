@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
+from .custom import Package
 from .errors import ComputationError
 from .result import Collision
 from .scene import Scene
@@ -91,6 +93,8 @@ def verify(scene: Scene | None = None) -> Report:
     """Check the laws, and the numbers of `scene` (all presets if None)."""
     scenes = [Scene.load(name) for name in PRESETS] if scene is None else [scene]
     findings = [*symbolic()]
+    if scene is not None and scene.package is not None:
+        findings += model_findings(scene.package)
     for each in scenes:
         findings += numeric(each)
     return Report(tuple(findings))
@@ -102,6 +106,15 @@ def symbolic() -> Iterator[Finding]:
 
     for check in symbolic_checks():
         yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)
+
+
+def model_findings(package: Package) -> Iterator[Finding]:
+    """The checks of a user's model, out of the model file that it was emitted from."""
+    from ..derive.checks.user import model_checks  # imports sympy
+
+    _, checks = model_checks(Path(f"{package.name}.py"), package.source, package.name)
+    for check in checks:
+        yield Finding(f"Model: {package.name}", check.name, check.statement, check.figure, "", check.ok)
 
 
 def numeric(scene: Scene) -> Iterator[Finding]:

@@ -1,4 +1,4 @@
-"""A user's model as a package of emitted files: laws, the structures that they change, groups, and a manifest.
+"""A user's model as a package of emitted files: laws, structures that they change, groups, a manifest.
 
 The manifest has a digest of every file; `model.py` is the model file itself, from which everything can be derived again.
 """
