@@ -34,6 +34,13 @@ class Group:
         return self.quantity.symbol / self.over
 
 
+class InSI(LawFunction):
+    """A law's function for print: in its slot's arguments, and in SI quantities that no argument gives."""
+
+    def __post_init__(self) -> None:
+        """Demand nothing."""
+
+
 @dataclass(frozen=True)
 class UserModel:
     """A model file, derived: laws in the library's form, groups, and what each slot's functions take beside their own.
@@ -255,7 +262,8 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     rules = {s: value for s, value in to_groups().items() if s not in kept and s not in (x, u)}
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
-    by_term = sp.Add(*(sp.simplify(term) for term in sp.Add.make_args(expression)))  # terms stay as they were written
+    terms = sp.Add.make_args(expression)  # which stay as they were written, where nothing is left to cancel
+    by_term = sp.Add(*(sp.simplify(term) if _dimensional(term) else term for term in terms))
     result = by_term if not _dimensional(by_term) else sp.simplify(expression)
     if left := _dimensional(result):
         raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
@@ -278,8 +286,6 @@ def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place
         def put(expression: sp.Expr, rules: Mapping[sp.Basic, sp.Basic] = rules) -> sp.Expr:
             return expression.subs(rules, simultaneous=True)
 
-        free = {s for e in (f.result, *(v for _, v in f.definitions)) for s in put(e).free_symbols}
         parts = tuple((symbol, put(value)) for symbol, value in f.definitions)
-        more = tuple(s for s in free if s not in own and s not in {symbol for symbol, _ in parts})
-        functions.append(replace(f, arguments=(*own, *more), result=put(f.result), definitions=parts))
+        functions.append(InSI(f.name, own, put(f.result), f.doc, parts))
     return replace(law, functions=tuple(functions))

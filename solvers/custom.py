@@ -125,13 +125,27 @@ class Package:
 
     def law(self, slot: str, name: str) -> ModuleType:
         """The module of one of its laws."""
-        path = next(law["file"] for law in self.manifest["laws"] if law["slot"] == slot and law["name"] == name)
-        return _module(self, path)
+        return _module(self, self.law_file(slot, name))
+
+    def law_file(self, slot: str, name: str) -> str:
+        """The file of one of its laws, in its folder."""
+        return next(str(law["file"]) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
+
+    def text_of(self, path: str) -> str:
+        """Text of one of its files, verified and never run."""
+        return self._verified(path).decode()
 
     def structure(self, name: str) -> ModuleType:
         """The module of a structure that it changes; derived on first use if it was not emitted."""
         if name in self.manifest["structures"]:
             return _module(self, f"{name}.py")
+        text = self.structure_text(name).encode()
+        return executed(f"wetdoublet_model_{self.digest[:12]}.{name}", text)
+
+    def structure_text(self, name: str) -> str:
+        """Text of the module of a structure that it changes."""
+        if name in self.manifest["structures"]:
+            return self.text_of(f"{name}.py")
         source = self.source
 
         def derived() -> str:
@@ -139,8 +153,7 @@ class Package:
 
             return user_structure_text(source, self.name, name)
 
-        text = cached(f"{self.digest[:16]}-{name}.py", derived).read_bytes()
-        return executed(f"wetdoublet_model_{self.digest[:12]}.{name}", text)
+        return cached(f"{self.digest[:16]}-{name}.py", derived).read_text(encoding="utf-8")
 
     @cached_property
     def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
@@ -158,7 +171,7 @@ class Package:
     @property
     def source(self) -> str:
         """Text of the model file that it was emitted from."""
-        return self._verified("model.py").decode()
+        return self.text_of("model.py")
 
     def _verified(self, path: str) -> bytes:
         """Content of one of its files; InputError if it is not the one that was emitted."""

@@ -76,6 +76,18 @@ def module(name: str, derived: Callable[[], str] | None = None) -> ModuleType:
     return executed(f"{_PACKAGE}.{name}", cached(f"{name}.py", derived).read_bytes())
 
 
+def text(name: str) -> str:
+    """Text of an emitted module of the library, which is never run."""
+    path = name.replace(".", "/") + ".py"
+    if committed(path):
+        _verified(path)
+        return (_FOLDER / path).read_text(encoding="utf-8")
+    kind, _, rest = name.rpartition(".")
+    slot, _, law_name = rest.partition("_")
+    derived = (lambda: _derived_law(slot, law_name)) if kind else (lambda: _derived_structure(name))
+    return cached(f"{name}.py", derived).read_text(encoding="utf-8")
+
+
 def committed(path: str) -> bool:
     """Whether a file is among the emitted ones of the package."""
     return path in manifest()["files"]

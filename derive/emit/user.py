@@ -1,6 +1,6 @@
-"""A user's model as a package of emitted files: laws, structures that they change, groups, a manifest.
+"""A user's model as a package of emitted files: laws, structures they change, groups, a manifest.
 
-The manifest has a digest of every file; `model.py` is the model file itself, from which everything can be derived again.
+The manifest has a digest of every file; `model.py` is the model file itself, from which all can be derived again.
 """
 
 from __future__ import annotations

@@ -126,6 +126,17 @@ def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str
     return entries
 
 
+def entries(changes: Sequence[str]) -> dict[str, str]:
+    """Return the entries of --set by dotted name, read only with the scene that they are for."""
+    found = {}
+    for change in changes:
+        name, equals, value = change.partition("=")
+        if not equals:
+            raise InputError("--set", change, 'NAME=VALUE, such as liquid.viscosity="3 Pa s"', "has no =")
+        found[name.strip()] = value
+    return found
+
+
 def angles(text: str, option: str = "--angle") -> list[float]:
     """Return the impact angles (rad) of a range in degrees; InputError naming the option."""
 
