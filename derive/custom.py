@@ -219,14 +219,14 @@ def _function(
                 parts.append((part.symbol, _settled(label, place, value, groups)))
             else:
                 inline[part.symbol] = value
-        dimension = dimension_of(expression, of)
+        found = dimension_of(expression, of)
     except DimensionError as error:
         raise DimensionError(f"{label}: {error}") from None
     value = expression.xreplace(inline)
-    if dimension not in (None, ONE):
-        if dimension != place.dimension:
+    if found not in (None, ONE):
+        if found != place.dimension:
             wanted = "" if place.dimension == ONE else f"{place.dimension} or "
-            raise DimensionError(f"{label}: {expression} has dimension {dimension}, expected {wanted}a pure number")
+            raise DimensionError(f"{label}: {expression} has dimension {found}, expected {wanted}a pure number")
         value = sp.Add(*(term / place.scale for term in sp.Add.make_args(value)))
     result = _settled(label, place, value, groups)
     named = {symbol for symbol, _ in parts}

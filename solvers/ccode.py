@@ -60,7 +60,7 @@ def _comment(scene: Scene, model: Model, values: Numbers | None) -> str:
         "Time in x0/v0. Suffix _beyond_film: gap > x0; _beyond_shear: beyond the edge of the tangential force.",
         "State: " + ", ".join(f"{name} [{_UNITS.get(name, '1')}]" for name in model.state) + ".",
         "Groups: " + ", ".join(model.groups) + ".",
-        *(f"  {name} = {values.groups[name]!r}" for name in (model.groups if values else ())),
+        *([] if values is None else [f"  {name} = {values.groups[name]!r}" for name in model.groups]),
         "Scene (SI): " + ", ".join(f"{name} = {value}" for name, value in scene.si),
     ]
     inside = "\n".join(f" * {line}".rstrip() for line in lines).replace("*/", "* /")

@@ -18,7 +18,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .compiled import cache_folder
 from .errors import CheckFailed
 
 _PACKAGE = f"{__package__.rsplit('.', 1)[0]}.generated"
@@ -124,7 +123,7 @@ def derivation() -> str:
 
 def cached(name: str, derived: Callable[[], str]) -> Path:
     """The cached file of that name, derived if it is not there. Safe with several processes: moved into place whole."""
-    path = cache_folder() / "emitted" / derivation()[:32] / name
+    path = _cache() / "emitted" / derivation()[:32] / name
     if not path.is_file():
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         beside = path.with_name(f".{path.name}.{os.getpid()}")
@@ -135,7 +134,7 @@ def cached(name: str, derived: Callable[[], str]) -> Path:
 
 def cached_folder(key: str, derived: Callable[[], Mapping[str, str]]) -> Path:
     """The cached folder of files under a key, derived if it is not there; as safe as `cached`."""
-    folder = cache_folder() / "models" / key[:32]
+    folder = _cache() / "models" / key[:32]
     if folder.is_dir():
         return folder
     files = derived()
@@ -153,6 +152,12 @@ def cached_folder(key: str, derived: Callable[[], Mapping[str, str]]) -> Path:
     finally:
         shutil.rmtree(beside, ignore_errors=True)
     return folder
+
+
+def _cache() -> Path:
+    from .compiled import cache_folder  # imports casadi
+
+    return cache_folder()
 
 
 def _derived_structure(name: str) -> str:
