@@ -18,6 +18,7 @@ from .slots import MOTION, Place, places
 from .user import Declarations, Declared, Proposed
 
 _ALWAYS = (a, x0, mu, v0, m)  # what every scene has, in the order in which a scale is looked for
+_MOVED = ("separation", "separation_rate", "rotation_rate", "spin_rate")
 _MOVING = ("separation", "separation_rate", "rotation_rate", "spin_rate", "rotation", "time", "initial_rate")
 
 
@@ -259,7 +260,7 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
                 expression = expression.subs(moving, sp.solve(sp.Eq(at, argument), moving)[0])
     expression = expression.subs(u, v0 * opening).subs(own, simultaneous=True)
     kept = {s: s for s in place.arguments}
-    rules = {s: value for s, value in to_groups().items() if s not in kept and s not in (x, u)}
+    rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
     terms = sp.Add.make_args(expression)  # which stay as they were written, where nothing is left to cancel

@@ -278,6 +278,8 @@ def _of_folder(folder: Path, label: str) -> Package:
     if origin and source.is_file() and _sha256(source) != package.manifest["files"]["model.py"]:
         problem = f"is stale: {source} has changed since"
         raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
+    for path in package.manifest["files"]:
+        package.text_of(path)
     return package
 
 
