@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -109,6 +110,12 @@ class Package:
                 found[entry] = self.laws(slot)[0]
         return found
 
+    @property
+    def unnamed(self) -> tuple[str, ...]:
+        """Slots that its laws fill and that no entry of a scene names."""
+        slots = dict.fromkeys(law["slot"] for law in self.manifest["laws"])
+        return tuple(slot for slot in slots if ENTRIES.get(slot) not in FIELDS)
+
     # ---- its code
 
     def laws(self, slot: str) -> tuple[str, ...]:
@@ -189,8 +196,13 @@ class Package:
     @property
     def remedy(self) -> str:
         """What to run to have it emitted again."""
-        source = self.manifest["origin"]
-        return f"run `wetdoublet generate {source or 'MODEL.py'} --out {self.folder}`"
+        return f"run `wetdoublet generate {self.original or 'MODEL.py'} --out {self.folder}`"
+
+    @property
+    def original(self) -> Path | None:
+        """The model file that it was emitted from, wherever it may be by now."""
+        origin = self.manifest["origin"]
+        return Path(os.path.normpath(self.folder / origin)) if origin and self.folder is not None else None
 
 
 @lru_cache(maxsize=256)
@@ -273,9 +285,8 @@ def _of_folder(folder: Path, label: str) -> Package:
     if package.manifest["library"] != library_digest():
         problem = "was emitted for other equations of the library than these"
         raise InputError(label, str(folder), package.remedy.removeprefix("run "), problem)
-    origin = package.manifest["origin"]
-    source = folder / origin
-    if origin and source.is_file() and _sha256(source) != package.manifest["files"]["model.py"]:
+    source = package.original
+    if source is not None and source.is_file() and _sha256(source) != package.manifest["files"]["model.py"]:
         problem = f"is stale: {source} has changed since"
         raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
     for path in package.manifest["files"]:
@@ -342,8 +353,6 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
 
 def _origin(path: Path, folder: Path | None) -> str:
     """The model file as seen from the folder."""
-    import os
-
     if folder is None:
         return ""
     try:

@@ -13,8 +13,7 @@ from casadi import SX, Function, densify, fmax, fmin, vertcat
 from ..generated.assemble import Laws, symbols, vector
 from . import emitted
 from .buffered import Buffered
-from .custom import ENTRIES, Package
-from .schema import FIELDS
+from .custom import Package
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -65,10 +64,7 @@ def choose(scene: Scene, oblique: bool, full: bool = False) -> Choice:
 
 def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
     """The laws of a choice, with the model's where no entry of the scene could have named it."""
-    return tuple(
-        (slot, package.laws(slot)[0] if package.laws(slot) and ENTRIES.get(slot) not in FIELDS else name)
-        for slot, name in laws
-    )
+    return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
 
 
 def _structure(choice: Choice) -> ModuleType:

@@ -130,6 +130,11 @@ class Scene:
         """What this scene may say: dotted name -> entry."""
         return fields(self.package)
 
+    @property
+    def custom(self) -> Mapping[str, Raw]:
+        """What a user's model declares: name -> value with its unit, as it was given or by default."""
+        return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
+
     def _kept(self, name: str, raw: object) -> Raw:
         """A value in the form a scene keeps it; of a model's own quantity with its unit."""
         entry = self.fields[name]

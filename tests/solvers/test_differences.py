@@ -154,7 +154,8 @@ def test_exported_c_is_the_model(tmp_path: Path):
         for suffix in suffixes
     )
     (tmp_path / "main.c").write_text(
-        '#include <stdio.h>\n#include "granulation.h"\nint main(void) { int k; double f[4], w[999]; long long int iw[99];\n'
+        '#include <stdio.h>\n#include "granulation.h"\n'
+        "int main(void) { int k; double f[4], w[999]; long long int iw[99];\n"
         f"double y[4] = {{{', '.join(map(repr, state))}}};\n"
         f"const double *arg[9] = {{y, granulation_groups}}; double *res[9] = {{f}};\n{calls} return 0; }}\n"
     )

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from wetdoublet.derive.checks.user import model_checks
+from wetdoublet.derive.template import TEMPLATE
 from wetdoublet.solvers import InputError, Scene, cli, collide, collide_many, emitted, regime_map
 from wetdoublet.solvers.errors import CheckFailed
 
@@ -197,7 +199,7 @@ def test_tampered_code_is_not_run(mine: Path, tmp_path: Path, name: str):
     folder = copied(mine, tmp_path)
     (folder / name).write_text(f"raise SystemExit('run')\n{(folder / name).read_text()}")
     with pytest.raises(
-        InputError, match=f"{name}: is not what was emitted; .*run `wetdoublet generate ../mine.py --out"
+        InputError, match=f"{name}: is not what was emitted; .*run `wetdoublet generate .*mine.py --out"
     ):
         Scene.load("granulation", model=folder)
 
@@ -310,3 +312,14 @@ def test_a_film_may_depend_on_the_speed(tmp_path: Path):
     pair = [collide(each, engine="rosenbrock", ledger=False).restitution for each in (same, "granulation", thin)]
     assert pair[0] == pytest.approx(pair[1], rel=1e-9)
     assert pair[2] > pair[1]
+
+
+def test_the_page_on_models_is_true(tmp_path: Path):
+    """The model file that docs/models.md shows is the template, and its checks hold."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / "models.md").read_text(encoding="utf-8")
+    shown = page.partition("```python\n")[2].partition("```")[0]
+    assert shown == TEMPLATE
+    checks = model_checks(Path("mine.py"), shown)[1]
+    assert all(check.ok for check in checks)
+    for check in checks:
+        assert f"ok   {check.name}" in page
