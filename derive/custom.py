@@ -42,7 +42,7 @@ class InSI(LawFunction):
         """Demand nothing."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class UserModel:
     """A model file, derived: laws in the library's form, groups, and what each slot's functions take beside their own.
 

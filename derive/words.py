@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+
 import sympy as sp
 
 from .checks.closed import filled
@@ -12,6 +16,7 @@ from .laws.base import Law
 from .model import derive
 from .structure import Structure
 
+_ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"
 _FULL = Structure(True, True, False)  # oblique, with a bridge, nothing that exerts a torque
 
 
@@ -23,15 +28,23 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     return sp.simplify(filled(rate, {}))
 
 
+@cache
 def conserved(model: UserModel) -> tuple[str, ...]:
-    """What stays the same along a flight without strings and without solids."""
-    return ("angular momentum",) if torque(model) == 0 else ()
+    """What stays the same along a flight without strings and without solids, whatever the other laws are.
+
+    Invariants linear in the momenta where the derivation can find them, else angular momentum, if it is one.
+    """
+    if find_spec(".invariants", __package__) is None:
+        return (_ANGULAR_MOMENTUM,) if torque(model) == 0 else ()
+    found = import_module(".invariants", __package__)
+    arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
+    return tuple(each.describe() for each in found.invariants(model.extended(derive(_FULL)), {"arm": arm}))
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:
     """Sentences: what is conserved, where the energy goes, which groups govern an oblique flight with a bridge."""
     if conserved(model):
-        lines = ["Without strings angular momentum L = m [r^2 omega + (32/5) a^2 xi] is conserved, identically."]
+        lines = [f"Conserved without strings, for every law in the other slots: {'; '.join(conserved(model))}."]
     else:
         lines = [f"Angular momentum is not conserved: d/dt of L over its scale is {torque(model)}."]
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"

@@ -126,8 +126,8 @@ def test_conservation_is_said_in_words():
     """The library's arms, written again: mid-gap conserves angular momentum, the surface arm does not."""
     midgap = model('law("arm", "half", lever=distance/2)')
     surface = model('law("arm", "two", lever=2 + 0*distance)')
-    assert conserved(midgap) == ("angular momentum",)
-    assert conserved(surface) == ()
+    assert any("angular momentum" in each for each in conserved(midgap))
+    assert not any("angular momentum" in each for each in conserved(surface))
     assert "is not conserved" in in_words(surface)[0]
 
 
