@@ -90,12 +90,14 @@ class Package:
         return {name: value for name, value in given.items() if value is not None}
 
     def completed(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Entries with the defaults of what is not given; InputError for a quantity that has none."""
-        found = {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
+        """Entries with the defaults of what is not given."""
+        return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
+
+    def demand(self, entries: Mapping[str, Any]) -> None:
+        """InputError for a quantity that has no default and is not among the entries."""
         for name in self.quantities:
-            if f"{TABLE}.{name}" not in found:
+            if f"{TABLE}.{name}" not in entries:
                 raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
-        return found
 
     def chosen(self, given: Mapping[str, Any]) -> dict[str, str]:
         """Entries by which the model's laws take their slots; InputError if the scene lacks what one acts in."""
@@ -228,7 +230,9 @@ def _field(one: Mapping[str, Any]) -> Field:
 
     unit = None if one["unit"] == "1" else one["unit"]
     default = one["default"]
-    example = f'"{default}"' if isinstance(default, str) else str(default if default is not None else "1")
+    example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
+    if unit and default is None:
+        example = f'"1 {unit}"'
     what = f"the {one['meaning']}" if unit else f"a number ({one['meaning']})"
     return Field(f"{TABLE}.{one['name']}", what, example, Range(bounds["text"], holds), unit=unit)
 

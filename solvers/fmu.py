@@ -1,8 +1,8 @@
 """FMU export: named, and refused until it is right.
 
-CasADi 3.8.2 can write the sources of an FMU with event indicators, but calls that experimental and incomplete, ships no
-FMI headers to compile them with, and has no place for what is decided by rule here: criteria that are met already, events
-that coincide, resting contact.
+CasADi 3.8.2 can write the sources of an FMU with event indicators, but calls that experimental, ships no
+FMI headers to compile them with, and has no place for what is decided by rule here: criteria that are met already,
+events that coincide, resting contact.
 """
 
 from __future__ import annotations

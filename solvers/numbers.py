@@ -78,8 +78,8 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
     if scene.pendulum is not None:
         values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
     if scene.package is not None:
-        entries = scene.entries
-        values |= {name: float(entries[f"custom.{name}"]) for name in scene.package.quantities}
+        own = {f"custom.{name}": name for name in scene.package.quantities}
+        values |= {own[entry]: float(value) for entry, value in scene.si if entry in own}
     return values
 
 
@@ -112,6 +112,7 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     plain = ("dry_restitution", "volume", "contact_angle")
     groups: dict[str, float] = {name: values[name] for name in plain if name in values}
     if scene.package is not None:
+        scene.package.demand(scene.entries)
         groups |= {name: values[name] for name in scene.package.plain}
     groups["elastic_gap"] = 0.0
     for name, (arguments, function) in group_functions(scene).items():

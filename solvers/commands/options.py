@@ -107,7 +107,8 @@ class Asked:
 
         if self.source is None:
             raise InputError("SCENE", None, "a scene file (TOML) or a preset: " + ", ".join(PRESETS))
-        return Scene.load(self.source, self.package).with_entries(self.entries).with_impact(**self.impact)
+        changed = Scene.load(self.source, self.package).with_entries(self.entries).with_impact(**self.impact)
+        return Scene.load(changed)  # with everything that a model demands
 
 
 def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str, str]:
