@@ -66,7 +66,7 @@ def _model(source: str, out: str | None, check: bool) -> None:
     if folder.resolve() == OWN:
         raise InputError("--out", out, "a folder of its own for a model", "is the package's own folder")
 
-    from ..custom import derived_package
+    from ..derived import derived_package
 
     made = derived_package(Path(source), folder)
     click.echo(made.report)
