@@ -93,7 +93,7 @@ class FilmProof:
         """Loss of u along a path of gaps, cumulative."""
         low, high = grid[:-1], grid[1:]
         nodes = low + np.outer(_NODES + 1, high - low) / 2
-        resistance = np.asarray(_resistance(self.model)(nodes.reshape(1, -1)).full()).reshape(nodes.shape)
+        resistance = np.asarray(_resistance(self.model)(nodes.reshape(1, -1), self.p).full()).reshape(nodes.shape)
         panels = (_WEIGHTS @ resistance) * (high - low) / 2
         losses: np.ndarray = np.concatenate([[0.0], np.cumsum(panels)]) / self.stokes
         return losses
@@ -107,7 +107,8 @@ def _glass(model: Model) -> Function:
 @lru_cache(maxsize=64)
 def _resistance(model: Model) -> Function:
     gap = SX.sym("gap")
-    return Function("resistance", [gap], [model.laws.film.resistance(gap)])
+    more = model.extra("film", "resistance")
+    return Function("resistance", [gap, model.parameters], [model.laws.film.resistance(gap, *more)])
 
 
 @dataclass(frozen=True)
@@ -257,12 +258,19 @@ def _tethered(model: Model) -> Function:
     return Function("tethered", [model.column, model.parameters, margin], [tethered_margin(model, margin)])
 
 
+def _integrable(model: Model) -> bool:
+    """Whether the laws say what the film takes and how far the glass criterion reaches (a user's need not)."""
+    return hasattr(model.laws.film, "stopping") and hasattr(model.laws.glass, "reach")
+
+
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
-    if model.has("tethered") and model.choice.law("arm") == "midgap":
+    if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
         return TetherProof(model, p, rtol)
     if model.oblique and (model.strings or not model.bridge):
         return NoProof()
     if model.bridge or model.strings:
         return BarrierProof(model, p, rtol)
+    if any(str(symbol) in model.state for symbol in model.extra("film", "resistance")):
+        return NoProof()  # a film whose force is not proportional to u has no momentum integral
     return FilmProof(model, p, rtol)

@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from .many import FAILED, OUTCOMES
+from .regime_map import scene_of
 from .scene import Scene
 from .show import name_of, quantity
 
@@ -37,7 +38,7 @@ _LEVELS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 
 def draw_map(data: xarray.Dataset) -> Figure:
     """Draw a regime map as `regime_map` returns it, or as it is read back from a file."""
-    scene = Scene.from_toml(data.attrs["scene"])
+    scene = scene_of(data)
     varied = [name for name in data["outcome"].dims if name not in ("angle", "stokes", "speed")]
     if varied:
         figure, notes = _multiples(data, varied)

@@ -94,7 +94,8 @@ class Locate:
         self.proof: Proof = proof_for(model, self.p, rtol)
         self.contact_gap = max(groups["elastic_gap"], groups["rough_gap"])
         rupture = groups["rupture_gap"] if model.bridge else 1.0
-        self.edge = float(model.laws.shear.edge(groups["aspect"])) if model.oblique else np.inf
+        more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
+        self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
         self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
         self.extras = extras + (("capillary",) if self.proof.watches == "energy" and model.bridge else ())

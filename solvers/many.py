@@ -22,7 +22,6 @@ from .model import choose, load
 from .numbers import Numbers, numbers
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
-from .schema import FIELDS
 from .settings import RTOL
 
 if TYPE_CHECKING:
@@ -231,7 +230,7 @@ def as_dataset(request: Request, results: Block) -> xarray.Dataset:
         coordinates["speed"] = ("collision", request.speed, {"units": "m/s", "long_name": "normal approach speed"})
     coordinates["angle"] = ("collision", request.angle, {"units": "rad", "long_name": "impact angle"})
     for name, values in request.vary.items():
-        coordinates[name] = ("collision", values, {"units": FIELDS[name].unit or "1"})
+        coordinates[name] = ("collision", values, {"units": request.scene.fields[name].unit or "1"})
     variables: dict[str, Any] = {
         "outcome": ("collision", results["outcome"], outcome_attributes()),
         "certified": ("collision", results["certified"], {"long_name": "the stick is proved"}),
@@ -241,6 +240,8 @@ def as_dataset(request: Request, results: Block) -> xarray.Dataset:
         if name in results:
             variables[name] = ("collision", results[name], {"units": unit, "long_name": meaning})
     attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
+    if request.scene.package is not None:
+        attributes["model"] = request.scene.package.text
     return xr.Dataset(variables, coordinates, attributes)
 
 

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache, cached_property
-from importlib import import_module
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from casadi import SX, Function, densify, fmax, fmin, vertcat
 
 from ..generated.assemble import Laws, symbols, vector
+from . import emitted
 from .buffered import Buffered
+from .custom import Package
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from .scene import Scene
 
-_GENERATED = f"{__package__.rsplit('.', 1)[0]}.generated"
 # Solutions never come below the contact gap; this keeps trial stages of a step out of x <= 0.
 _FLOOR = 0.5
 _SMALLEST_GAP = 1e-12
@@ -27,10 +27,11 @@ _SMALLEST_GAP = 1e-12
 
 @dataclass(frozen=True)
 class Choice:
-    """Which structure module, with which law in each slot."""
+    """Which structure module, with which law in each slot; laws may be those of a user's model."""
 
     structure: str
     laws: tuple[tuple[str, str], ...]
+    package: Package | None = None
 
     def law(self, slot: str) -> str | None:
         return dict(self.laws).get(slot)
@@ -56,7 +57,40 @@ def choose(scene: Scene, oblique: bool, full: bool = False) -> Choice:
         laws.append(("bridge", scene.bridge.law))
     if scene.pendulum is not None:
         laws.append(("strings", scene.pendulum.law))
-    return Choice("_".join(parts), tuple(laws))
+    if scene.package is None:
+        return Choice("_".join(parts), tuple(laws))
+    return Choice("_".join(parts), own_laws(scene.package, laws), scene.package)
+
+
+def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """The laws of a choice, with the model's where no entry of the scene could have named it."""
+    return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
+
+
+def _structure(choice: Choice) -> ModuleType:
+    slots = tuple(slot for slot, _ in choice.laws)
+    if choice.package is not None and choice.package.changes(slots):
+        return choice.package.structure(choice.structure)
+    return emitted.structure(choice.structure)
+
+
+def _law(package: Package | None, slot: str, name: str) -> Any:
+    if package is None:
+        return emitted.law(slot, name)
+    if name in package.laws(slot):
+        return package.law(slot, name)
+    return _Narrow(emitted.law(slot, name), package, slot)
+
+
+class _Narrow:
+    """A law of the library where a user's model calls its slot with more arguments: it takes no notice of them."""
+
+    def __init__(self, law: ModuleType, package: Package, slot: str) -> None:
+        self._law, self._package, self._slot = law, package, slot
+
+    def __getattr__(self, function: str) -> Any:
+        found, more = getattr(self._law, function), len(self._package.extra(self._slot, function))
+        return (lambda *arguments: found(*arguments[: len(arguments) - more])) if more else found
 
 
 class Model:
@@ -67,10 +101,8 @@ class Model:
 
     def __init__(self, choice: Choice) -> None:
         self.choice = choice
-        self.structure: ModuleType = import_module(f"{_GENERATED}.{choice.structure}")
-        self.laws = Laws(
-            **{slot: import_module(f"{_GENERATED}.laws.{slot}_{name.replace('-', '_')}") for slot, name in choice.laws}
-        )
+        self.structure: ModuleType = _structure(choice)
+        self.laws = Laws(**{slot: _law(choice.package, slot, name) for slot, name in choice.laws})
         self.state: dict[str, SX] = symbols(self.structure.STATES)
         self.groups: dict[str, SX] = symbols(self.structure.GROUPS)
         self._functions: dict[tuple[str, int, int], Function] = {}
@@ -120,6 +152,12 @@ class Model:
             self.state if state is None else state, self.groups, self.laws, **(region or {})
         )
         return found
+
+    def extra(self, slot: str, function: str) -> list[SX]:
+        """What a slot's function takes beside its own arguments, in a user's model: groups, as symbols."""
+        package = self.choice.package
+        names = () if package is None else package.extra(slot, function)
+        return [self.groups[name] if name in self.groups else self.state[name] for name in names]
 
     def has(self, name: str) -> bool:
         return name in self.structure.FUNCTIONS

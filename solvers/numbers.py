@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..generated import scaling
 from .errors import ComputationError, InputError
@@ -77,14 +77,23 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
         }
     if scene.pendulum is not None:
         values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
+    if scene.package is not None:
+        own = {f"custom.{name}": name for name in scene.package.quantities}
+        values |= {own[entry]: float(value) for entry, value in scene.si if entry in own}
     return values
 
 
-def _finite(name: str, arguments: tuple[str, ...], values: Mapping[str, float]) -> float:
+def group_functions(scene: Scene) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
+    """Every group and scale of a scene: name -> the quantities that it takes, in order, and its emitted formula."""
+    found = {name: (arguments, getattr(scaling, name)) for name, arguments in scaling.ARGUMENTS.items()}
+    return found if scene.package is None else found | scene.package.groups
+
+
+def _finite(name: str, arguments: tuple[str, ...], function: Callable[..., Any], values: Mapping[str, float]) -> float:
     """A group by its emitted formula; InputError where it leaves the range of a double."""
     given = [values[argument] for argument in arguments]
     try:
-        value = float(getattr(scaling, name)(*given))
+        value = float(function(*given))
     except (OverflowError, ZeroDivisionError):
         value = math.inf
     if math.isfinite(value):
@@ -102,10 +111,13 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     values = si_values(scene, speed, angle)
     plain = ("dry_restitution", "volume", "contact_angle")
     groups: dict[str, float] = {name: values[name] for name in plain if name in values}
+    if scene.package is not None:
+        scene.package.demand(scene.entries)
+        groups |= {name: values[name] for name in scene.package.plain}
     groups["elastic_gap"] = 0.0
-    for name, arguments in scaling.ARGUMENTS.items():
+    for name, (arguments, function) in group_functions(scene).items():
         if all(argument in values for argument in arguments):
-            groups[name] = _finite(name, arguments, values)
+            groups[name] = _finite(name, arguments, function, values)
     x0 = scene.liquid.film_thickness
     return Numbers(
         groups=groups,

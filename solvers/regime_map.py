@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..generated import scaling
+from .custom import Package
 from .errors import InputError
 from .journal import Journal
 from .many import Block, compute, empty, fill, outcome_attributes
 from .numbers import si_values
 from .requests import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .scene import Scene
-from .schema import FIELDS
 from .settings import RTOL, check_engine, check_rtol
 
 if TYPE_CHECKING:
@@ -162,6 +162,7 @@ def _identity(grid: Grid, request: Request) -> dict[str, Any]:
         "of": sorted(set(request.of)),
         "version": _version(),
         "equations": Path(scaling.__file__).with_name("manifest.json").read_text(),
+        "model": grid.scene.package and grid.scene.package.digest,
     }
 
 
@@ -194,6 +195,8 @@ def _dataset(grid: Grid, request: Request, results: Block) -> xarray.Dataset:
         "engine": request.engine,
         "version": _version(),
     }
+    if grid.scene.package is not None:
+        attributes["model"] = grid.scene.package.text
     return xr.Dataset(variables, _coordinates(grid), attributes)
 
 
@@ -208,7 +211,7 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
         grid.impact: (grid.impact, grid.values, labels[grid.impact]),
     }
     for name, values in grid.vary.items():
-        field = FIELDS[name]
+        field = grid.scene.fields[name]
         coordinates[name] = (name, values, {"units": field.unit or "1", "long_name": name.replace(".", ", ", 1)})
     other = "speed" if grid.impact == "stokes" else "stokes"
     shape = grid.shape[2:]
@@ -241,6 +244,12 @@ def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> list[l
         [float(scaling.centrifugal(**fixed, speed=speed, angle=angle)) for speed in speeds.tolist()]
         for angle in angles.tolist()
     ]
+
+
+def scene_of(data: xarray.Dataset) -> Scene:
+    """The scene of a map, with its model as far as a description goes."""
+    model = data.attrs.get("model")
+    return Scene.from_toml(data.attrs["scene"], package=None if model is None else Package(str(model)))
 
 
 def write(data: xarray.Dataset, path: str | Path) -> None:

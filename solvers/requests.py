@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from .custom import Package, fields, unknown
 from .errors import InputError, did_you_mean
 from .scene import Scene
-from .schema import FIELDS, unknown_entry
+from .schema import unknown_entry
 from .settings import check_engine, check_rtol
 
 QUANTITIES: dict[str, tuple[str, str]] = {
@@ -133,20 +134,21 @@ def checked_impact(scene: Scene, stokes: Any, speed: Any, angle: Any) -> dict[st
 def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> dict[str, np.ndarray]:
     """Other entries that vary, SI; InputError for a name that cannot."""
     for name, values in vary.items():
-        check_varies(name, values, label)
+        check_varies(name, values, label, scene.package)
         if "." in name and name.partition(".")[0] not in {given.partition(".")[0] for given, _ in scene.given}:
             accepted = ", ".join(given for given, _ in scene.given if not given.startswith("impact."))
             raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
-    return {name: checked_numbers(name, values) for name, values in vary.items()}
+    return {name: checked_numbers(name, values, scene.package) for name, values in vary.items()}
 
 
-def check_varies(name: str, values: object, label: str = "vary") -> None:
+def check_varies(name: str, values: object, label: str = "vary", package: Package | None = None) -> None:
     """InputError unless an entry of this name may vary: a number that is none of the impact's."""
-    if name not in FIELDS:
-        raise unknown_entry(name, values)
+    known = fields(package)
+    if name not in known:
+        raise unknown(name, values, package) or unknown_entry(name, values)
     if name.startswith("impact."):
         raise InputError(label, name, "entries that are not of the impact", "has an argument of its own")
-    if FIELDS[name].choices:
+    if known[name].choices:
         raise InputError(label, name, "entries that are numbers", "is a choice")
 
 
@@ -164,12 +166,13 @@ def check_some_scene(request: Request) -> None:
         raise first
 
 
-def checked_numbers(name: str, values: Any) -> np.ndarray:
+def checked_numbers(name: str, values: Any, package: Package | None = None) -> np.ndarray:
     """An array of SI numbers, in one dimension or none, each acceptable for its field; text carries its unit."""
+    entry = fields(package)[name]
     if isinstance(values, str):
-        values = FIELDS[name].number(values)
+        values = entry.number(values)
     elif isinstance(values, (list, tuple)):
-        values = [FIELDS[name].number(value) if isinstance(value, str) else value for value in values]
+        values = [entry.number(value) if isinstance(value, str) else value for value in values]
     try:
         array = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
@@ -177,5 +180,5 @@ def checked_numbers(name: str, values: Any) -> np.ndarray:
     if array.ndim > 1:
         raise InputError(name, f"{array.ndim} dimensions", "one dimension, or a single number", "is not accepted")
     for value in np.unique(array):
-        FIELDS[name].number(float(value))
+        entry.number(float(value))
     return array

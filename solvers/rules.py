@@ -7,11 +7,13 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from . import custom
 from .errors import InputError, shown
 from .schema import ALTERNATIVES, FIELDS, REQUIRED_TABLES, TABLES, unknown_entry
 from .tables import Bridge, Pendulum, Table
 
 if TYPE_CHECKING:
+    from .custom import Package
     from .scene import Scene
 
 
@@ -31,13 +33,14 @@ def grouped(entries: Mapping[str, Any]) -> dict[str, Any]:
     return {name: entries[name] for table in tables for name in entries if name.partition(".")[0] == table}
 
 
-def check_entries(entries: Mapping[str, Any], *, from_file: bool = False) -> None:
+def check_entries(entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False) -> None:
     """InputError for an entry that is unknown, wrong by itself, or says again what another has said."""
+    known = custom.fields(package)
     for name, raw in entries.items():
-        if name not in FIELDS:
-            raise unknown_entry(name, raw)
+        if name not in known:
+            raise custom.unknown(name, raw, package) or unknown_entry(name, raw)
     for name, raw in entries.items():
-        FIELDS[name].read(raw, from_file=from_file)
+        known[name].read(raw, from_file=from_file)
     for ways in ALTERNATIVES:
         first, *others = [name for name in ways if name in entries] or [""]
         if others:
@@ -95,7 +98,7 @@ def table(kind: type[Table], values: Mapping[str, Any]) -> Table | None:
     """Return a table of its entries; None for a table that means something by its absence."""
     keys = [field.name for field in dataclasses.fields(kind)]
     own = {key: values[f"{kind.name}.{key}"] for key in keys if f"{kind.name}.{key}" in values}
-    return None if not own and kind in (Bridge, Pendulum) else kind(**own)
+    return None if not own and kind in (Bridge, Pendulum) else kind.of(own)
 
 
 def check_together(scene: Scene) -> None:

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import rules, scenefile
+from .custom import Package, fields, open_package
 from .errors import InputError
-from .schema import FIELDS, TABLES, Raw
+from .schema import FIELDS, TABLES, Field, Raw
 from .tables import Bridge, Impact, Liquid, Model, Particles, Pendulum
 
 
@@ -25,6 +26,7 @@ class Scene:
         name: any text, may be empty.
         given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
         comments: (dotted name, `assumed ...`) for entries that are guesses.
+        package: a user's model, whose quantities and laws the entries may name.
 
     Raises:
         InputError: names the first entry that is wrong, its value, and what is accepted.
@@ -37,6 +39,7 @@ class Scene:
     name: str
     given: tuple[tuple[str, Raw], ...] = field(compare=False, repr=False)
     comments: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
+    package: Package | None = field(default=None, repr=False)
 
     particles: Particles = field(init=False, compare=False)
     liquid: Liquid = field(init=False, compare=False)
@@ -50,11 +53,13 @@ class Scene:
         """Read the tables and hold them against the rules."""
         rules.check_name(self.name)
         given = rules.grouped(dict(self.given))
-        rules.check_entries(given)
-        values = {name: FIELDS[name].read(raw) for name, raw in given.items()}
+        if self.package is not None:
+            given = self.package.completed(given)
+        rules.check_entries(given, self.package)
+        values = {name: self.fields[name].read(raw) for name, raw in given.items()}
         rules.check_complete(given)
         kept = {
-            "given": tuple((name, FIELDS[name].kept(raw)) for name, raw in given.items()),
+            "given": tuple((name, self._kept(name, raw)) for name, raw in given.items()),
             "comments": tuple((name, text) for name, text in self.comments if name in given),
             "si": tuple(values.items()),
             "particles": Particles(**rules.spheres(values)),
@@ -67,33 +72,49 @@ class Scene:
     # ---- where scenes come from and go to
 
     @classmethod
-    def load(cls, source: str | Path | Scene) -> Scene:
+    def load(cls, source: str | Path | Scene, model: str | Path | Package | None = None) -> Scene:
         """Return the scene of a file, of a preset's name, or the scene that it is already.
+
+        Arguments:
+            model: folder of a user's model (`wetdoublet generate MODEL.py --out DIR`), or the model file.
 
         Raises:
             InputError: no such file or preset (the nearest is named), broken TOML (file and line), bad entry.
         """
         if isinstance(source, Scene):
-            return source
-        return cls.from_toml(*scenefile.read_text(source))
+            loaded = source if model is None else source.with_model(model)
+            if loaded.package is not None:
+                loaded.package.demand(loaded.entries)
+            return loaded
+        text, origin = scenefile.read_text(source)
+        if model is None:
+            return cls.from_toml(text, origin)
+        package = open_package(model, "model")
+        return cls.from_toml(text, origin, package).with_model(package)
 
     @classmethod
-    def from_toml(cls, text: str, origin: str = "scene") -> Self:
+    def from_toml(cls, text: str, origin: str = "scene", package: Package | None = None) -> Self:
         """Return the scene written in TOML; `origin` names the text in errors."""
-        return cls.from_dict(scenefile.parse(text, origin), from_file=True, comments=scenefile.assumptions(text))
+        comments = scenefile.assumptions(text)
+        return cls.from_dict(scenefile.parse(text, origin), from_file=True, comments=comments, package=package)
 
     @classmethod
     def from_dict(
-        cls, tables: Mapping[str, Any], *, from_file: bool = False, comments: Mapping[str, str] | None = None
+        cls,
+        tables: Mapping[str, Any],
+        *,
+        from_file: bool = False,
+        comments: Mapping[str, str] | None = None,
+        package: Package | None = None,
     ) -> Self:
         """Return the scene of nested tables, `{"liquid": {"viscosity": "2 Pa s", ...}, ...}`.
 
         Plain numbers are SI and radians, unless they come from a file, where a quantity must carry its unit.
         """
-        entries = scenefile.flatten(tables)
-        rules.check_entries(entries, from_file=from_file)
+        entries = scenefile.flatten(tables, package)
+        rules.check_entries(entries, package, from_file=from_file)
         rules.check_complete(entries, tables)
-        return cls(tables.get("name", ""), tuple(entries.items()), tuple((comments or {}).items()))
+        return cls(tables.get("name", ""), tuple(entries.items()), tuple((comments or {}).items()), package)
 
     def to_toml(self) -> str:
         """Return the scene file: units as they were given, and the comments on what is assumed."""
@@ -108,6 +129,23 @@ class Scene:
         return tables
 
     @property
+    def fields(self) -> Mapping[str, Field]:
+        """What this scene may say: dotted name -> entry."""
+        return fields(self.package)
+
+    @property
+    def custom(self) -> Mapping[str, Raw]:
+        """What a user's model declares: name -> value with its unit, as it was given or by default."""
+        return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
+
+    def _kept(self, name: str, raw: object) -> Raw:
+        """A value in the form a scene keeps it; of a model's own quantity with its unit."""
+        entry = self.fields[name]
+        kept = entry.kept(raw)
+        own = name not in FIELDS and entry.unit and not isinstance(kept, str)
+        return f"{kept!r} {entry.unit}" if own else kept
+
+    @property
     def entries(self) -> Mapping[str, float | str]:
         """Dotted name -> SI number or choice, of what was given only, in the order of the file."""
         return dict(self.si)
@@ -120,14 +158,29 @@ class Scene:
 
     # ---- the same scene, but
 
+    def with_model(self, model: str | Path | Package) -> Self:
+        """Return the scene with a user's model: its laws take their slots, its quantities their defaults.
+
+        What is changed afterwards (`with_entries({"bridge.law": "willett"})`) stands.
+
+        Raises:
+            InputError: no such model, a stale one, or a scene that lacks what a law acts in.
+        """
+        package = open_package(model, "model")
+        given = {
+            name: value for name, value in self.given if name.partition(".")[0] != "custom" or package == self.package
+        }
+        entries = {**given, **package.chosen(given)}
+        return type(self)(self.name, tuple(entries.items()), self.comments, package)
+
     def with_entries(self, changes: Mapping[str, Any]) -> Self:
         """Return the scene with entries replaced or added, by dotted name; text carries its unit."""
         changes = dict(changes)
         name = changes.pop("name", self.name)
-        rules.check_entries(changes)
+        rules.check_entries(changes, self.package)
         rules.check_replaced(dict(self.given), changes)
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
-        return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments)
+        return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments, self.package)
 
     def with_impact(
         self, stokes: float | str | None = None, speed: float | str | None = None, angle: float | str | None = None
@@ -140,11 +193,11 @@ class Scene:
         changes = {name: value for name, value in impact.items() if value is not None}
         if not changes:
             return self
-        rules.check_entries(changes)
+        rules.check_entries(changes, self.package)
         replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
         entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
-        return type(self)(self.name, tuple(entries), self.comments)
+        return type(self)(self.name, tuple(entries), self.comments, self.package)
 
     # ---- lengths, and the impact both ways
 

@@ -6,10 +6,14 @@ import json
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from . import custom
 from .errors import InputError, did_you_mean
 from .schema import FIELDS, TABLES, Raw
+
+if TYPE_CHECKING:
+    from .custom import Package
 
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
 _FOLDER = Path(__file__).with_name("presets")
@@ -77,11 +81,16 @@ def assumptions(text: str) -> dict[str, str]:
     return found
 
 
-def flatten(tables: Mapping[str, Any]) -> dict[str, Any]:
+def flatten(tables: Mapping[str, Any], package: Package | None = None) -> dict[str, Any]:
     """Return entries by dotted name, tables kept together, `name` left out; InputError for what is no table."""
     entries: dict[str, Any] = {}
     for table, content in tables.items():
         if table == "name":
+            continue
+        if table == custom.TABLE and isinstance(content, Mapping):
+            entries.update({f"{table}.{key}": value for key, value in content.items()})
+            if not content and package is None:
+                raise custom.unknown(table, content, None) or AssertionError
             continue
         if table not in TABLES:
             homes = [f"[{home}]" for home in TABLES if f"{home}.{table}" in FIELDS]
@@ -108,7 +117,7 @@ def write(name: str, entries: Mapping[str, Raw], comments: Mapping[str, str]) ->
 
 def written(entry: str, value: Raw) -> Raw:
     """Return a kept value as a scene file has it: text with its unit, or a plain number."""
-    unit = FIELDS[entry].unit
+    unit = FIELDS[entry].unit if entry in FIELDS else None  # a model's own carry theirs
     return f"{value!r} {unit}" if unit and not isinstance(value, str) else value
 
 

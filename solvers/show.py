@@ -198,6 +198,9 @@ def _model(scene: Scene) -> list[str]:
         used["bridge"] = scene.bridge.law
     if scene.pendulum is not None:
         used["strings"] = scene.pendulum.law
+    if scene.package is not None:  # laws of slots that no entry of a scene names
+        used |= {slot: scene.package.laws(slot)[0] for slot in scene.package.unnamed}
+        used |= {name.replace("_", " "): str(value) for name, value in scene.custom.items()}
     lines = wrap(", ".join(f"{slot} {law}" for slot, law in used.items()), WIDTH - _LABEL, break_on_hyphens=False)
     return [_line("model" if line == lines[0] else "", line) for line in lines]
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .many import FAILED, OUTCOMES
-from .scene import Scene
+from .regime_map import scene_of
 from .show import WIDTH, name_of, quantity
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def table(data: xarray.Dataset) -> str:
     """The map as text, subsampled where it is too large; several where more than the impact varies."""
     varied = [str(name) for name in data["outcome"].dims if name not in ("angle", "stokes", "speed")]
     legend = "   ".join(f"{letter} {name}" for letter, name in zip(CHARACTERS, (*OUTCOMES, "failed"), strict=True))
-    lines = [f"{name_of(Scene.from_toml(data.attrs['scene']))}: {data['outcome'].size} collisions", legend]
+    lines = [f"{name_of(scene_of(data))}: {data['outcome'].size} collisions", legend]
     sizes = [data.sizes[name] for name in varied]
     chosen = _some(math.prod(sizes), _MAPS)
     for number in chosen:

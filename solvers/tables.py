@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 from .schema import FIELDS
 
@@ -21,6 +22,14 @@ class Table:
             value = getattr(self, key)
             if value is not None:
                 object.__setattr__(self, key, FIELDS[f"{self.name}.{key}"].read(value))
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> Self:
+        """Return the table of entries that have been read already (a model may name laws of its own)."""
+        made = object.__new__(cls)
+        for field in dataclasses.fields(cls):
+            object.__setattr__(made, field.name, values.get(field.name, field.default))
+        return made
 
 
 @dataclass(frozen=True)

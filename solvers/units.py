@@ -106,7 +106,7 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
 
     Arguments:
         text: such as `"50 um"`; the space may be left out.
-        si: the unit of the result, a key of `DIMENSIONS`.
+        si: the unit of the result, coherent SI.
         field: name of the entry or option, for the error.
         accepted: what is accepted there, for the error.
 
@@ -128,7 +128,7 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
     if unit in COMMON:
         dimension, factor = COMMON[unit]
         if dimension != si:
-            raise InputError(field, text, accepted, f"is {DIMENSIONS[dimension]}, not {DIMENSIONS[si]}")
+            raise InputError(field, text, accepted, f"is {DIMENSIONS[dimension]}, not {_demanded(si)}")
         value = float(_EXACT.multiply(Decimal(digits), factor)) if size else 0.0
     else:
         value = size * _pint_factor(unit, si, text, field, accepted)
@@ -161,8 +161,13 @@ def _pint_factor(unit: str, si: str, text: str, field: str, accepted: str) -> fl
         raise InputError(field, text, accepted, f'has the unknown unit "{unit}"{hint}') from None
     # Root units rather than dimensionality: to pint an angle is as dimensionless as a percentage.
     if root != ours:
-        raise InputError(field, text, accepted, f"is {_in_words(root)}, not {DIMENSIONS[si]}")
+        raise InputError(field, text, accepted, f"is {_in_words(root)}, not {_demanded(si)}")
     return float(size / our_size)
+
+
+def _demanded(si: str) -> str:
+    """Return in words what is measured in a coherent SI unit, of the table or a model's own."""
+    return DIMENSIONS[si] if si in DIMENSIONS else _in_words(_root(si))
 
 
 def _in_words(root: Any) -> str:

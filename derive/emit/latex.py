@@ -6,6 +6,9 @@ stand in the order of the literature (6 pi mu a^2 u), sums behind a fraction, ne
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+
 import sympy as sp
 
 from ..mechanics import F_c, F_n, F_t, S_n, S_t
@@ -44,8 +47,34 @@ _FIRST = [  # of the factors, the rest by vocabulary
     v0.name,
 ]
 _ORDER = {name: place for place, name in enumerate(dict.fromkeys([*_FIRST, *NAMES]))}
-_FUNCTIONS: dict[type, str] = {sp.log: r"\ln", sp.sin: r"\sin", sp.cos: r"\cos", sp.tan: r"\tan", sp.exp: r"\exp"}
+_FUNCTIONS: dict[type, str] = {
+    sp.log: r"\ln",
+    sp.sin: r"\sin",
+    sp.cos: r"\cos",
+    sp.tan: r"\tan",
+    sp.exp: r"\exp",
+    sp.asin: r"\arcsin",
+    sp.acos: r"\arccos",
+    sp.atan: r"\arctan",
+    sp.sinh: r"\sinh",
+    sp.cosh: r"\cosh",
+    sp.tanh: r"\tanh",
+}
 _OPERATORS = tuple(_FUNCTIONS.values())
+
+
+@contextmanager
+def naming(names: Mapping[str, str]) -> Iterator[None]:
+    """Print symbols of a user's model, by name, as it says; inside only."""
+    order = {name: len(_ORDER) + place for place, name in enumerate(names) if name not in NAMES}
+    added = {name: text for name, text in names.items() if name not in NAMES}
+    NAMES.update(added)
+    _ORDER.update(order)
+    try:
+        yield
+    finally:
+        for name in added:
+            del NAMES[name], _ORDER[name]
 
 
 def latex(expression: sp.Expr) -> str:
@@ -76,7 +105,22 @@ def _print(node: sp.Basic) -> str:
         return _power(node)
     if type(node) in _FUNCTIONS:
         return _call(node)
+    if isinstance(node, sp.Abs):
+        return rf"\left| {_print(node.args[0])} \right|"
+    if isinstance(node, (sp.Min, sp.Max)):
+        inside = ", ".join(_print(argument) for argument in sorted(node.args, key=sp.default_sort_key))
+        return rf"\{'min' if isinstance(node, sp.Min) else 'max'} \left( {inside} \right)"
+    if isinstance(node, sp.Piecewise):
+        rows = r" \\ ".join(rf"{_print(value)} & {_condition(when)}" for value, when in node.args)
+        return rf"\begin{{cases}} {rows} \end{{cases}}"
     raise EmissionError(f"no LaTeX for {type(node).__name__}: {node}")
+
+
+def _condition(node: sp.Basic) -> str:
+    if node == sp.true:
+        return r"\text{else}"
+    sign = {"<": "<", "<=": r"\leq", ">": ">", ">=": r"\geq"}[node.rel_op]
+    return f"{_print(node.lhs)} {sign} {_print(node.rhs)}"
 
 
 def _sum(node: sp.Add) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import sympy as sp
 
@@ -72,7 +72,16 @@ def model_digest(model: Model) -> str:
     return digest(*parts)
 
 
-def _describe(model: Model) -> str:
+Own = Mapping[str, tuple[str, str]]
+"""Unit and meaning, by name, of groups that are not the vocabulary's."""
+
+
+def _described(name: str, own: Own) -> str:
+    unit, meaning = own[name] if name in own else (VOCABULARY[name].unit, VOCABULARY[name].meaning)
+    return f"- {name} [{unit}]: {meaning}"
+
+
+def _describe(model: Model, own: Own) -> str:
     shape = model.structure
     what = "Oblique" if shape.oblique else "Head-on"
     extras = [word for word, there in (("a liquid bridge", shape.bridge), ("pendulum strings", shape.strings)) if there]
@@ -80,15 +89,15 @@ def _describe(model: Model) -> str:
     if shape.reduced:
         title += ", spin eliminated through the conserved angular momentum"
     lines = [f"{title}.", "", "Time in x0/v0. States (per unit):"]
-    lines += [f"- {s.name} [{VOCABULARY[s.name].unit}]: {VOCABULARY[s.name].meaning}" for s in model.states]
+    lines += [_described(s.name, own) for s in model.states]
     lines += ["", "Groups:"]
-    lines += [f"- {s.name} [{VOCABULARY[s.name].unit}]: {VOCABULARY[s.name].meaning}" for s in model.groups]
+    lines += [_described(s.name, own) for s in model.groups]
     lines += ["", f"Law slots: {', '.join(model.slots)}."]
     return "\n".join(lines)
 
 
-def structure_module(model: Model) -> str:
-    """A structure: states, groups, slots, and its functions of named values."""
+def structure_module(model: Model, own: Own | None = None) -> str:
+    """A structure: states, groups, slots, and its functions of named values; `own` are a user's groups."""
     printer = Printer()
     body: list[str] = ["", "Values = Mapping[str, Any]", ""]
     for constant, names in (
@@ -103,7 +112,8 @@ def structure_module(model: Model) -> str:
     for function in model.functions:
         body += _function(model, function.name, printer)
     imports = ["from collections.abc import Mapping", "from typing import Any", ""]
-    return module(_header(model_digest(model)), _describe(model), [*imports, *_casadi(printer)], body)
+    doc = _describe(model, own or {})
+    return module(_header(model_digest(model)), doc, [*imports, *_casadi(printer)], body)
 
 
 def _tuple(names: Sequence[str]) -> str:
@@ -150,11 +160,22 @@ def _scaling() -> dict[sp.Symbol, sp.Expr]:
 
 def scaling_module() -> str:
     """The groups as functions of SI quantities, one a function, and which quantities each takes."""
+    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
+    return groups_module(_scaling(), known, scaling_digest(), _GROUPS_DOC)
+
+
+_GROUPS_DOC = (
+    "Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.\n\n"
+    "A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
+)
+
+
+def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: str, doc: str) -> str:
+    """Groups as functions of quantities, of which `known` has unit and meaning by name, in order."""
     printer = Printer()
     body: list[str] = ["", "ARGUMENTS: dict[str, tuple[str, ...]] = {"]
-    definitions = _scaling()
     arguments = {
-        group.name: tuple(name for name in VOCABULARY if VOCABULARY[name].symbol in expression.free_symbols)
+        group.name: tuple(name for name in known if name in {s.name for s in expression.free_symbols})
         for group, expression in definitions.items()
     }
     for name, wanted in arguments.items():
@@ -163,11 +184,8 @@ def scaling_module() -> str:
     for group, expression in definitions.items():
         names = arguments[group.name]
         body += ["", f"def {group.name}({', '.join(f'{name}: Any' for name in names)}) -> Any:"]
-        units = "\n".join(f"- {name} [{VOCABULARY[name].unit}]: {VOCABULARY[name].meaning}" for name in names)
-        body += docstring(f"{VOCABULARY[group.name].meaning} [{VOCABULARY[group.name].unit}].\n\n{units}", INDENT)
+        units = "\n".join(f"- {name} [{known[name][0]}]: {known[name][1]}" for name in names)
+        unit, meaning = known[group.name]
+        body += docstring(f"{meaning} [{unit}].\n\n{units}", INDENT)
         body += [f"{INDENT}return {printer(expression)}", ""]
-    doc = (
-        "Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.\n\n"
-        "A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
-    )
-    return module(_header(scaling_digest()), doc, ["from typing import Any", "", *_casadi(printer)], body)
+    return module(_header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)

@@ -70,9 +70,10 @@ class Equation:
         return f"{self.left} {self.relation} {latex(self.expression)}"
 
 
-def theory(choice: Mapping[str, str] | None = None) -> tuple[Equation, ...]:
-    """Every line of the theory, with the laws of `choice` (slot to name) where not the default."""
-    laws = {slot: LAWS[slot][name] for slot, name in {**DEFAULTS, **(choice or {})}.items()}
+def theory(choice: Mapping[str, str | Law] | None = None) -> tuple[Equation, ...]:
+    """Every line of the theory, with the laws of `choice` (slot to name, or a law in SI) where not the default."""
+    chosen = {**DEFAULTS, **(choice or {})}
+    laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
     return (*_motion(laws), *_film(laws), *_bridge(laws["bridge"]), *_strings(laws), *_flight(laws), *_groups())
 
 
@@ -111,7 +112,7 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     shear = fill(force_laws()[F_t].subs(inside), laws)
     for call in shear.atoms(sp.log):
         shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x), and not -ln(x/x0)
-    edge = sp.solve(sp.log(1) - next(iter(shear.atoms(sp.log))), x)[0]
+    edge = sp.simplify(x0 * laws["shear"]["edge"](x0 / a))
     yield Equation("Lubrication", latex(F_n), normal, _inside(x0) + "; the same on the way in and out")
     yield Equation("Lubrication", latex(F_t), shear, _inside(edge))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import hashlib
 import json
 from pathlib import Path
 
@@ -28,6 +29,11 @@ def _package(doc: str) -> str:
     return f'# {_PROVENANCE}\n"""{doc}"""\n'
 
 
+def sha256(text: str) -> str:
+    """Digest of an emitted file, as manifests have it."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def emitted() -> dict[str, str]:
     """Relative path -> text of every file of `generated/`, manifest included."""
     files = {
@@ -46,6 +52,7 @@ def emitted() -> dict[str, str]:
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
         manifest["structures"][structure.name] = model_digest(model)
+    manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith(".py")}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return dict(sorted(files.items()))
 

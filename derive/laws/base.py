@@ -13,13 +13,17 @@ Definition = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class LawFunction:
-    """One function of a law: `definitions` name intermediates, in order, for `result`."""
+    """One function of a law: `definitions` name intermediates, in order, for `result`.
+
+    `for_proof`: only a stick certificate asks for it; a law that lacks it is flown without that certificate.
+    """
 
     name: str
     arguments: tuple[sp.Symbol, ...]
     result: sp.Expr
     doc: str
     definitions: tuple[Definition, ...] = ()
+    for_proof: bool = False
 
     def __post_init__(self) -> None:
         known = set(self.arguments)

@@ -66,6 +66,7 @@ FILMS = (
                 arguments=(gap,),
                 result=_stopping(),
                 doc="Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.",
+                for_proof=True,
             ),
         ),
     ),

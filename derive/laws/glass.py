@@ -38,7 +38,11 @@ def _law(name: str, pressure: sp.Expr, meaning: str) -> Law:
     functions = (
         LawFunction("pressure", (gap, approach), pressure, "Film pressure on the axis over 3 mu a v0/x0^2."),
         LawFunction(
-            "reach", (approach, glass_number), _reach(pressure), "Gap at which this approach speed meets the criterion."
+            "reach",
+            (approach, glass_number),
+            _reach(pressure),
+            "Gap at which this approach speed meets the criterion.",
+            for_proof=True,
         ),
     )
     return Law(

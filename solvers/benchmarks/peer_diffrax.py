@@ -53,7 +53,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Callable
     return every
 
 
-def _flight(choice: Any, names: tuple[str, ...], proved: bool, rtol: float) -> Callable[..., Any]:
+def _flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:
     """The flight of one collision as a function that jax can transform."""
     import diffrax
     import jax
@@ -69,7 +69,7 @@ def _flight(choice: Any, names: tuple[str, ...], proved: bool, rtol: float) -> C
     def rates(_: Any, y: Any, args: Any) -> Any:
         state, groups, film, _level = unpacked(y, args)
         found = list(structure.right_hand_side(state, groups, laws, film, 1).values())
-        if proved and bridge:
+        if proved == "energy" and bridge:
             found.append(structure.energy_rates(state, groups, laws, film, 1)["capillary"])
         return args[-2] * jnp.stack([jnp.asarray(each, float) for each in found])  # at rest where a flight has ended
 
@@ -81,15 +81,19 @@ def _flight(choice: Any, names: tuple[str, ...], proved: bool, rtol: float) -> C
         found |= {name: table[name] for name in ("half_turn", "unwinding") if name in table}
         if bridge:
             found["film_edge"] = (2 * film - 1) * table["film_edge"]
-        if proved:
+        if proved == "energy":
             energy = sum(structure.energies(state, groups, laws).values())
             found["certified"] = energy + (y[-1] if bridge else 0.0) - level
+        elif proved == "tethered":
+            held = structure.tethered(state, groups, laws)
+            inward = held["outward"] - held["pull"]
+            found["certified"] = jnp.maximum(inward, jnp.maximum(held["film"], held["recoil"])) + level
         return found
 
     def watched(name: str) -> Callable[..., Any]:
         return lambda t, y, args, **_: events(y, args)[name]
 
-    width = len(states) + int(proved and bridge)
+    width = len(states) + int(proved == "energy" and bridge)
     known = [name for name in ("glass", "contact", "rupture", "half_turn", "unwinding", "film_edge", "certified")
              if name in jax.eval_shape(events, jnp.zeros(width), jnp.ones(len(names) + 3))]  # fmt: skip
     event = diffrax.Event(

@@ -29,12 +29,21 @@ _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
 
 
-def _function(name: str) -> Callable[[Any], Any]:
+def _function(name: str) -> Callable[..., Any]:
     """An elementary function of numbers and of heyoka's expressions."""
     import heyoka
 
+    if name in ("fmax", "fmin"):  # of expressions by selection, which heyoka expands as a series too
+        first = heyoka.gt if name == "fmax" else heyoka.lt
+        return lambda x, y: heyoka.select(first(_expression(x), _expression(y)), _expression(x), _expression(y))
     of_expression, of_number = getattr(heyoka, name), getattr(math, name)
     return lambda x: of_expression(x) if isinstance(x, heyoka.expression) else of_number(x)
+
+
+def _expression(value: Any) -> Any:
+    import heyoka
+
+    return value if isinstance(value, heyoka.expression) else heyoka.expression(float(value))
 
 
 @dataclass(frozen=True)
@@ -53,7 +62,7 @@ class System:
     varying: tuple[str, ...]
 
 
-def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: bool) -> System:
+def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | None) -> System:
     """The equations of these collisions; what is the same for all of them is written in."""
     import heyoka
 
@@ -73,7 +82,7 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: bool) 
     events["rupture"] = found["rupture"]
     if bridge:
         events["film_edge"] = found["film_edge"]
-    if proved:
+    if proved == "energy":
         energy = sum(structure.energies(y, p, laws).values())
         if bridge:
             work = heyoka.make_vars("capillary")
@@ -81,6 +90,10 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: bool) 
             rates.append((work, active * rate))
             energy = energy + work
         events["certified"] = energy - level
+    elif proved == "tethered":
+        held, larger = structure.tethered(y, p, laws), _function("fmax")
+        inward = held["outward"] - held["pull"]
+        events["certified"] = larger(inward, larger(held["film"], held["recoil"])) + level
     return System(rates, events, varying)
 
 
@@ -198,7 +211,7 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
     flights = [Locate(model, each.groups, min(rtol, 1e-6)) for each in numbers]
     if any(flight.watch.tangential_edge for flight in flights):
         raise ComputationError("the tangential edge lies within reach")
-    proved = flights[0].proof.watches == "energy"
+    proved = flights[0].proof.watches
     equations = system(choice, [each.groups for each in numbers], proved)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
     batch.starts = starts(flights, numbers, equations.varying)

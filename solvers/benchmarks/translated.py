@@ -10,10 +10,10 @@ from typing import Any
 from ..model import Choice
 
 _GENERATED = f"{__package__.rpartition('.')[0].rpartition('.')[0]}.generated"
-_FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan")
+_FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")
 
 
-def translated(choice: Choice, function: Callable[[str], Callable[[Any], Any]]) -> tuple[ModuleType, Any]:
+def translated(choice: Choice, function: Callable[[str], Callable[..., Any]]) -> tuple[ModuleType, Any]:
     """The structure module of a choice, and its laws as attributes by slot.
 
     Arguments:
@@ -23,7 +23,7 @@ def translated(choice: Choice, function: Callable[[str], Callable[[Any], Any]]) 
     return _copy(choice.structure, function), SimpleNamespace(**laws)
 
 
-def _copy(name: str, function: Callable[[str], Callable[[Any], Any]]) -> ModuleType:
+def _copy(name: str, function: Callable[[str], Callable[..., Any]]) -> ModuleType:
     spec = find_spec(f"{_GENERATED}.{name}")
     assert spec is not None
     assert spec.loader is not None

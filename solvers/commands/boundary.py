@@ -22,6 +22,7 @@ _ENTRY = FIELDS["impact.angle"]
 @click.option("--angle", metavar="RANGE", help="Impact angles in degrees, as 20:65:10.")
 @click.option("--stokes", metavar="LO:HI", help="Stokes numbers to look between [1e-4:100].")
 @options.changes
+@options.model
 @options.rtol
 @options.as_json
 @options.plot
@@ -32,6 +33,7 @@ def command(
     angle: str | None,
     stokes: str | None,
     changes: Sequence[str],
+    model: str | None,
     rtol: str | None,
     as_json: bool,
     plot: str | None,
@@ -51,7 +53,7 @@ def command(
     options.check_apart(file, "-o", picture, "--plot")
     span = STOKES if stokes is None else _span(stokes)
     angles = None if angle is None else parse_range(angle, "--angle", _degrees, unit="in degrees")
-    scene = options.Asked.check(source, changes).scene()
+    scene = options.Asked.check(source, changes, model=model).scene()
     if angles is None:
         raise InputError("--angle", None, "LO:HI:N in degrees, as 20:65:10")
 

@@ -15,6 +15,7 @@ from . import options
 @options.scene_argument
 @options.impact
 @options.changes
+@options.model
 @options.rtol
 @options.engine
 @options.as_json
@@ -27,6 +28,7 @@ def command(
     speed: str | None,
     angle: str | None,
     changes: Sequence[str],
+    model: str | None,
     rtol: str | None,
     engine: str | None,
     as_json: bool,
@@ -39,7 +41,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle).scene()
+    scene = options.Asked.check(source, changes, stokes, speed, angle, model=model).scene()
     scene.need_impact()
 
     from ..simulate import collide

@@ -1,4 +1,4 @@
-"""`wetdoublet generate`: derive the equations and emit them."""
+"""`wetdoublet generate`: derive the equations and emit them, the library's or a user's model."""
 
 from __future__ import annotations
 
@@ -16,11 +16,33 @@ _SHOWN = 5  # extra files named in the message; the listing has them all
 
 
 @click.command("generate", short_help="Derive the equations and emit them as CasADi functions.")
-@click.option("--out", metavar="DIR", help="Write there instead of the package's own folder.")
-@click.option("--check", is_flag=True, help="Compare the package's own folder, byte for byte, and write nothing.")
+@click.argument("model", metavar="[MODEL.py]", required=False)
+@click.option("--out", metavar="DIR", help="Write there; for a model it must be given.")
+@click.option("--check", is_flag=True, help="Compare with what is there, byte for byte, and write nothing.")
+@click.option("--template", is_flag=True, help="Print a model file that runs as it is.")
 @options.debug
-def command(out: str | None, check: bool) -> None:
-    """Derive the equations and emit them as CasADi functions."""
+def command(model: str | None, out: str | None, check: bool, template: bool) -> None:
+    """Derive the equations and emit them as CasADi functions.
+
+    With MODEL.py its laws are derived, checked and emitted into DIR, for --model DIR of the other commands.
+
+    \b
+    Example:
+      wetdoublet generate --template > mine.py
+      wetdoublet generate mine.py --out mine
+      wetdoublet collide granulation --model mine --set custom.yield_stress="50 Pa"
+    """  # noqa: D301 # click wants the character itself
+    if template:
+        for option, given in (("MODEL.py", model), ("--out", out), ("--check", check or None)):
+            if given is not None:
+                raise InputError(option, given, "--template alone: it prints a model file", "is given with --template")
+        from ...derive.template import TEMPLATE
+
+        click.echo(TEMPLATE.rstrip("\n"))
+        return
+    if model is not None:
+        _model(model, out, check)
+        return
     if check and out is not None:
         raise InputError("--out", out, "--check alone: it compares the package's own folder", "is given with --check")
     folder = options.check_folder(out) or OWN
@@ -33,6 +55,36 @@ def command(out: str | None, check: bool) -> None:
     elif differences := write.check():
         click.echo("\n".join(differences))
         raise CheckFailed(_advice(differences))
+
+
+def _model(source: str, out: str | None, check: bool) -> None:
+    """Derive, check and emit a user's model, and say what it is."""
+    if out is None:
+        raise InputError("--out", None, "a folder for the emitted model")
+    folder = options.check_folder(out)
+    assert folder is not None
+    if folder.resolve() == OWN:
+        raise InputError("--out", out, "a folder of its own for a model", "is the package's own folder")
+
+    from ..derived import derived_package
+
+    made = derived_package(Path(source), folder)
+    click.echo(made.report)
+    if not made.files:
+        raise CheckFailed(f"{source}: {made.failed}")
+
+    from ...derive.emit import user
+
+    if check:
+        if lines := user.differences(made.files, folder):
+            click.echo("\n".join(lines))
+            raise CheckFailed(
+                f"{folder} is not what {source} gives; `wetdoublet generate {source} --out {out}` mends it"
+            )
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    written = user.write(made.files, folder)
+    click.echo(f"\n{len(written)} files in {folder}; use it with --model {folder}")
 
 
 def _advice(differences: list[str]) -> str:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ..custom import fields
 from ..errors import InputError
 from ..ranges import parse_range
-from ..schema import FIELDS
+from ..schema import FIELDS, Field
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     help='Another dimension, as liquid.viscosity="1 Pa s:4 Pa s:3"; repeatable.',
 )
 @options.changes
+@options.model
 @options.rtol
 @options.engine
 @click.option("-o", "output", metavar="FILE.nc", help="Write NetCDF; an interrupted run is continued.")
@@ -44,6 +46,7 @@ def command(
     angle: str | None,
     vary: Sequence[str],
     changes: Sequence[str],
+    model: str | None,
     rtol: str | None,
     engine: str | None,
     output: str | None,
@@ -62,7 +65,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o", (".nc",))
     axes = _axes(stokes, speed, angle)
-    asked = options.Asked.check(source, changes)
+    asked = options.Asked.check(source, changes, model=model)
     varied = _varied(vary, asked)
     for name in asked.entries:
         if name.startswith("impact."):
@@ -84,9 +87,11 @@ def _axes(stokes: str | None, speed: str | None, angle: str | None) -> dict[str,
     """The axes of the impact, SI; InputError naming the first that is wrong."""
     axes = {}
     if stokes is not None:
-        axes["stokes"] = parse_range(stokes, "--stokes", _reader("impact.stokes", "--stokes"))
+        axes["stokes"] = parse_range(stokes, "--stokes", _reader(FIELDS["impact.stokes"], "--stokes"))
     if speed is not None:
-        axes["speed"] = parse_range(speed, "--speed", _reader("impact.speed", "--speed"), unit="with their units")
+        axes["speed"] = parse_range(
+            speed, "--speed", _reader(FIELDS["impact.speed"], "--speed"), unit="with their units"
+        )
     if angle is not None:
         axes["angle"] = options.angles(angle)
     if stokes is not None and speed is not None:
@@ -95,8 +100,8 @@ def _axes(stokes: str | None, speed: str | None, angle: str | None) -> dict[str,
     return axes
 
 
-def _reader(name: str, label: str) -> options.Reader:
-    return lambda text: FIELDS[name].number(text, label=label)
+def _reader(entry: Field, label: str) -> options.Reader:
+    return lambda text: entry.number(text, label=label)
 
 
 def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float]]:
@@ -109,12 +114,13 @@ def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float]]
         name = name.strip()
         if not equals:
             raise InputError("--vary", text, 'NAME=RANGE, such as liquid.viscosity="1 Pa s:4 Pa s:3"', "has no =")
-        check_varies(name, values, "--vary")
+        check_varies(name, values, "--vary", asked.package)
         if name in found or name in asked.entries:
             other = "twice" if name in found else "together with --set"
             raise InputError("--vary", name, "every entry once", f"is given {other}")
-        unit = "with their units" if FIELDS[name].unit else ""
-        found[name] = parse_range(values, f"--vary {name}", _reader(name, f"--vary {name}"), unit=unit)
+        entry = fields(asked.package)[name]
+        unit = "with their units" if entry.unit else ""
+        found[name] = parse_range(values, f"--vary {name}", _reader(entry, f"--vary {name}"), unit=unit)
     return found
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from .. import units
+from ..custom import Package, fields, open_package, unknown
 from ..errors import InputError, shown
 from ..ranges import parse_range
 from ..schema import FIELDS, unknown_entry
@@ -31,6 +32,7 @@ rtol = click.option("--rtol", metavar="R", help="Relative tolerance, 1e-13..1e-3
 engine = click.option("--engine", metavar="E", help="cvodes or rosenbrock [the best for the scene].")
 plot = click.option("--plot", metavar="FILE.png", help="Draw a picture: .png, .pdf or .svg.")
 output = click.option("-o", "output", metavar="FILE", help="Write to FILE instead of standard output.")
+model = click.option("--model", "model", metavar="DIR", help="A user's model: folder of `generate`, or MODEL.py.")
 changes = click.option(
     "--set",
     "changes",
@@ -54,6 +56,7 @@ class Asked:
     source: str | None
     entries: Mapping[str, str]
     impact: Mapping[str, str]  # with its unit, as it was given
+    package: Package | None = None
 
     @classmethod
     def check(
@@ -63,6 +66,7 @@ class Asked:
         stokes: str | None = None,
         speed: str | None = None,
         angle: str | None = None,
+        model: str | None = None,
     ) -> Asked:
         """Return what is asked for; InputError naming the first option that is wrong."""
         given = {"stokes": stokes, "speed": speed, "angle": angle}
@@ -73,14 +77,15 @@ class Asked:
             raise InputError(
                 "--speed", speed, "only one of --stokes, --speed", f"is given together with --stokes = {stokes}"
             )
-        entries = _entries(changes)
+        package = None if model is None else open_package(model)
+        entries = _entries(changes, package)
         for key in read:
             same = ("impact.angle",) if key == "angle" else ("impact.stokes", "impact.speed")
             for entry in same:
                 if entry in entries:
                     problem = f"is given together with --set {entry} = {shown(entries[entry])}"
                     raise InputError(f"--{key}", given[key], "only one of the two", problem)
-        return cls(source, entries, read)
+        return cls(source, entries, read, package)
 
     def optional_scene(self) -> Scene | None:
         """Read the scene if one is named; InputError for an option that is given without one."""
@@ -90,6 +95,8 @@ class Asked:
                 *(("--set", f"{name}={value}") for name, value in self.entries.items()),
             ):
                 raise InputError(option, value, f"a SCENE with {option}", "needs a SCENE")
+            if self.package is not None:
+                raise InputError("--model", str(self.package.folder), "a SCENE with --model", "needs a SCENE")
             return None
         return self.scene()
 
@@ -100,23 +107,35 @@ class Asked:
 
         if self.source is None:
             raise InputError("SCENE", None, "a scene file (TOML) or a preset: " + ", ".join(PRESETS))
-        return Scene.load(self.source).with_entries(self.entries).with_impact(**self.impact)
+        changed = Scene.load(self.source, self.package).with_entries(self.entries).with_impact(**self.impact)
+        return Scene.load(changed)  # with everything that a model demands
 
 
-def _entries(changes: Sequence[str]) -> dict[str, str]:
+def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str, str]:
     """Return the entries of --set by dotted name, each right by itself."""
-    entries = {}
+    entries, known = {}, fields(package)
     for change in changes:
         name, equals, value = change.partition("=")
         name = name.strip()
         if not equals:
             raise InputError("--set", change, 'NAME=VALUE, such as liquid.viscosity="3 Pa s"', "has no =")
         if name != "name":
-            if name not in FIELDS:
-                raise unknown_entry(name, value)
-            FIELDS[name].read(value)
+            if name not in known:
+                raise unknown(name, value, package) or unknown_entry(name, value)
+            known[name].read(value)
         entries[name] = value
     return entries
+
+
+def entries(changes: Sequence[str]) -> dict[str, str]:
+    """Return the entries of --set by dotted name, read only with the scene that they are for."""
+    found = {}
+    for change in changes:
+        name, equals, value = change.partition("=")
+        if not equals:
+            raise InputError("--set", change, 'NAME=VALUE, such as liquid.viscosity="3 Pa s"', "has no =")
+        found[name.strip()] = value
+    return found
 
 
 def angles(text: str, option: str = "--angle") -> list[float]:

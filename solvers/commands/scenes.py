@@ -13,6 +13,7 @@ from . import options
 @click.argument("name", metavar="[NAME]", required=False)
 @options.impact
 @options.changes
+@options.model
 @options.output
 @options.debug
 def command(
@@ -21,11 +22,12 @@ def command(
     speed: str | None,
     angle: str | None,
     changes: Sequence[str],
+    model: str | None,
     output: str | None,
 ) -> None:
     """List the presets, or print the scene NAME as TOML, ready to be saved and edited."""
     file = options.check_file(output, "-o")
-    asked = options.Asked.check(name, changes, stokes, speed, angle)
+    asked = options.Asked.check(name, changes, stokes, speed, angle, model=model)
     scene = asked.optional_scene()
     options.put(_listing() if scene is None else scene.to_toml().rstrip("\n"), file)
 

@@ -14,6 +14,7 @@ from . import options
 @click.argument("source", metavar="[SCENE]", required=False)
 @options.impact
 @options.changes
+@options.model
 @click.option("-o", "output", metavar="FILE", help="Write the report as Markdown to FILE as well.")
 @click.option("--plot", metavar="FILE.png", help="Draw where e_n > 1, and what it is made of: .png, .pdf or .svg.")
 @options.debug
@@ -23,6 +24,7 @@ def command(
     speed: str | None,
     angle: str | None,
     changes: Sequence[str],
+    model: str | None,
     output: str | None,
     plot: str | None,
 ) -> None:
@@ -30,7 +32,7 @@ def command(
     file = options.check_file(output, "-o")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     options.check_apart(file, "-o", picture, "--plot")
-    asked = options.Asked.check(source, changes, stokes, speed, angle)
+    asked = options.Asked.check(source, changes, stokes, speed, angle, model=model)
     scene = asked.optional_scene()
     if scene is None and picture is not None:
         raise InputError("--plot", plot, "a SCENE with --plot", "needs a SCENE")

@@ -3,20 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..model import choose
 from .report import Finding
 
 if TYPE_CHECKING:
+    from ..custom import Package
     from ..scene import Scene
 
 
 def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
-    """The checks of `derive.checks` (which loads sympy), for the laws of `scene`, or for all of the library's."""
+    """The checks of `derive.checks` (which loads sympy), for the laws of `scene`, or for all of the library's.
+
+    A user's laws have checks of their own, after these.
+    """
     from ...derive.checks import symbolic_checks
     from ...derive.laws import LAWS
 
     chosen = choose(scene, oblique=True, full=True).laws if scene is not None else ()
-    for check in symbolic_checks({slot: LAWS[slot][name] for slot, name in chosen}):
+    laws = {slot: LAWS[slot][name] for slot, name in chosen if name in LAWS[slot]}
+    for check in symbolic_checks(laws):
         yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)
+    if scene is not None and scene.package is not None:
+        yield from _of_the_model(scene.package)
+
+
+def _of_the_model(package: Package) -> Iterator[Finding]:
+    """The checks of a user's model, out of the model file that it was emitted from."""
+    from ...derive.checks.user import model_checks
+
+    _, checks = model_checks(Path(f"{package.name}.py"), package.source, package.name)
+    for check in checks:
+        yield Finding(f"Model: {package.name}", check.name, check.statement, check.figure, "", check.ok)

@@ -1,0 +1,67 @@
+"""The numbers that a declared quantity may take, read from words such as `> 0 and <= 5`."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_SIDE = re.compile(rf"(>=|<=|>|<)\s*({_NUMBER})")
+_SPAN = re.compile(rf"(?:from\s+)?({_NUMBER})\s+to\s+({_NUMBER})")
+
+
+class BoundsError(ValueError):
+    """The words are not bounds."""
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """An interval, and whether its ends belong to it."""
+
+    text: str
+    low: float = -math.inf
+    high: float = math.inf
+    low_open: bool = False
+    high_open: bool = False
+
+    @classmethod
+    def read(cls, text: str) -> Bounds:
+        """Bounds in words; BoundsError for anything else, and for none at all."""
+        if not isinstance(text, str):
+            raise BoundsError(text)
+        words = " ".join(text.split())
+        if span := _SPAN.fullmatch(words):
+            found = cls(f"from {span[1]} to {span[2]}", float(span[1]), float(span[2]))
+        else:
+            found = cls(words)
+            for part in words.split(" and "):
+                side = _SIDE.fullmatch(part.strip())
+                if side is None:
+                    raise BoundsError(text)
+                value, is_open = float(side[2]), len(side[1]) == 1
+                if side[1][0] == ">":
+                    found = cls(words, value, found.high, is_open, found.high_open)
+                else:
+                    found = cls(words, found.low, value, found.low_open, is_open)
+        if not found.low < found.high:
+            raise BoundsError(text)
+        return found
+
+    @property
+    def positive(self) -> bool:
+        return self.low > 0 or (self.low == 0 and self.low_open)
+
+    @property
+    def not_negative(self) -> bool:
+        return self.low >= 0
+
+    def to_json(self) -> dict[str, object]:
+        """As a manifest has it: infinite ends are null."""
+        return {
+            "text": self.text,
+            "low": None if math.isinf(self.low) else self.low,
+            "high": None if math.isinf(self.high) else self.high,
+            "low_open": self.low_open,
+            "high_open": self.high_open,
+        }

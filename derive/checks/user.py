@@ -1,0 +1,188 @@
+"""What must hold of a user's model: dimensions, invariants, dissipation, limits; each check by its name."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+
+import sympy as sp
+
+from ..custom import UserModel
+from ..dimensions import DimensionError
+from ..laws import LAWS
+from ..laws.base import Law, LawFunction
+from ..modelfile import read
+from ..quantities import contact_angle, volume
+from ..scaling import ScalingError
+from ..words import torque
+from .base import Check
+
+# Values at which laws are tried, by argument; anything else is a group, tried over four decades.
+_TRIED: Mapping[str, tuple[float, ...]] = {
+    "gap": (1e-3, 0.01, 0.1, 0.3, 0.7, 0.99),
+    "distance": (4.001, 4.1, 4.5, 6.0),
+    "approach": (1e-3, 0.1, 1.0),
+    "opening": (-1.0, -0.1, -1e-3, 1e-3, 0.1, 1.0),
+    "aspect": (1e-3, 0.05, 0.16),
+    "volume": (1e-3, 0.01, 0.1),
+    "contact_angle": (0.0, 0.5, 1.0),
+    "offset_squared": (0.0, 1.0, 4.0),
+    "string_ratio": (20.0, 100.0),
+}
+_PARTS_OF_RUPTURE = (1e-4, 0.01, 0.1, 0.3, 0.6, 1.0)  # of x_f, at which a bridge's force is tried
+_EQUAL = 1e-12  # relative
+_SIGNED = ("film.resistance", "shear.log_factor", "glass.pressure")
+
+
+def model_checks(path: Path, text: str | None = None, name: str = "") -> tuple[UserModel | None, tuple[Check, ...]]:
+    """The model of a file, None if it cannot be expressed, and every check of it.
+
+    Raises:
+        ModelFileError: the file is not a model file.
+    """
+    try:
+        model = read(path, text, name)
+    except (DimensionError, ScalingError) as error:
+        kind = "dimensions" if isinstance(error, DimensionError) else "groups"
+        statement = {
+            "dimensions": "every term of every law has the dimension that it must have",
+            "groups": "every law is a function of its slot's arguments and of dimensionless groups",
+        }
+        return None, (Check(kind, statement[kind], False, str(error)),)
+    return model, checks_of(model)
+
+
+def checks_of(model: UserModel) -> tuple[Check, ...]:
+    """Every check of a model that can be expressed."""
+    functions = sum(len(law.functions) for law in model.laws)
+    found = [Check("dimensions", "every term has the dimension that it must have", True, f"{functions} functions")]
+    named = ", ".join(str(group.symbol) for group in model.groups) or "none but the library's"
+    found.append(Check("groups", "laws depend on their arguments and dimensionless groups", True, named))
+    for law in model.laws:
+        found += _law_checks(model, law)
+    return tuple(_accepted(model, check) for check in found)
+
+
+def _accepted(model: UserModel, check: Check) -> Check:
+    if check.ok or not model.accepted & {check.name, check.name.partition(":")[0]}:
+        return check
+    return replace(check, ok=True, figure=f"{check.figure} (fails, and is accepted by the model)")
+
+
+def _law_checks(model: UserModel, law: Law) -> Iterator[Check]:
+    label = f"{law.slot} {law.name}"
+    yield _finite(model, law, label)
+    if law.slot == "arm":
+        rate = torque(model, law)
+        figure = "identity" if rate == 0 else f"dL/dt over its scale = {rate}"
+        yield Check(f"angular momentum: {label}", "dL/dt = 0 without strings, for every other law", rate == 0, figure)
+    for function in law.functions:
+        if f"{law.slot}.{function.name}" in _SIGNED:
+            yield _sign(model, law, function, label)
+    if law.slot == "strings":
+        yield _stiffness(law, label)
+    for group in model.groups:
+        if group.quantity.bounds.low == 0 and not group.quantity.bounds.low_open:
+            yield from _without(model, law, group.symbol, label)
+
+
+def _samples(model: UserModel, law: Law, function: LawFunction) -> Iterator[dict[sp.Symbol, float]]:
+    ranges = [_tried(model, symbol) for symbol in function.arguments]
+    for values in product(*ranges):
+        at = dict(zip(function.arguments, values, strict=True))
+        reach = next((s for s in at if s.name == "gap_over_radius"), None)
+        if reach is not None:  # up to the rupture distance over R
+            at[reach] *= at.get(volume, 0.1) ** (1 / 3) * (1 + at.get(contact_angle, 0.0) / 2)
+        if f"{law.slot}.{function.name}" == "shear.log_factor":
+            edge = law["edge"]
+            at[function.arguments[0]] *= float(edge(*(at.get(s, 1.0) for s in edge.arguments)))
+        yield at
+
+
+def _tried(model: UserModel, symbol: sp.Symbol) -> tuple[float, ...]:
+    if symbol.name == "gap_over_radius":
+        return _PARTS_OF_RUPTURE
+    if symbol.name in _TRIED:
+        return _TRIED[symbol.name]
+    own = next((group.quantity for group in model.groups if group.symbol == symbol), None)
+    if own is None:
+        return (0.1, 10.0)
+    low, high = own.bounds.low, own.bounds.high
+    if own.symbol == symbol and math.isfinite(low) and math.isfinite(high):
+        return (low + 1e-3 * (high - low), (low + high) / 2, high - 1e-3 * (high - low))
+    least = (0.0,) if own.bounds.not_negative and not own.bounds.low_open else ()
+    return (*least, 0.01, 1.0, 100.0) if own.bounds.not_negative else (-1.0, -0.01, 0.01, 1.0)
+
+
+def _evaluated(function: LawFunction) -> sp.Lambda:
+    return sp.lambdify(function.arguments, function(*function.arguments), modules=["math"])
+
+
+def _value(compiled: sp.Lambda, at: Mapping[sp.Symbol, float]) -> float:
+    try:
+        value = complex(compiled(*at.values()))
+    except (ArithmeticError, ValueError, TypeError):
+        return math.nan
+    return value.real if cmath.isfinite(value) and value.imag == 0 else math.nan
+
+
+def _finite(model: UserModel, law: Law, label: str) -> Check:
+    count = 0
+    for function in law.functions:
+        compiled = _evaluated(function)
+        for at in _samples(model, law, function):
+            count += 1
+            if math.isnan(_value(compiled, at)):
+                figure = f"{function.name} is not a finite number at {_at(at)}"
+                return Check(f"limits: {label}", "finite from the smallest gap to the largest", False, figure)
+    return Check(f"limits: {label}", "finite from the smallest gap to the largest", True, f"{count} states")
+
+
+def _sign(model: UserModel, law: Law, function: LawFunction, label: str) -> Check:
+    statement = "never of the sign that would give energy" if law.slot != "glass" else "not negative while closing"
+    compiled, least = _evaluated(function), math.inf
+    name = f"dissipation: {label}" if law.slot != "glass" else f"sign: {label}"
+    for at in _samples(model, law, function):
+        value = _value(compiled, at)
+        least = min(least, value)
+        if value < 0:
+            return Check(name, f"{function.name} is {statement}", False, f"{function.name} = {value:.3g} at {_at(at)}")
+    return Check(name, f"{function.name} is {statement}", True, f"least value {least:.3g}")
+
+
+def _stiffness(law: Law, label: str) -> Check:
+    swing = law["rise"].arguments[1]
+    rise, stiffness = law["rise"](*law["rise"].arguments), law["stiffness"](*law["stiffness"].arguments)
+    left = sp.simplify(2 * rise.diff(swing) - stiffness)
+    figure = "identity" if left == 0 else f"left over: {left}"
+    return Check(f"potential: {label}", "stiffness is twice the slope of rise", left == 0, figure)
+
+
+def _without(model: UserModel, law: Law, symbol: sp.Symbol, label: str) -> Iterator[Check]:
+    """Which law of the library is left where a quantity is zero, by values; reported, not demanded."""
+    for known in LAWS[law.slot].values():
+        if all(_same(model, law, function, known, symbol) for function in law.functions):
+            statement = f"without {symbol.name} it is a law of the library"
+            yield Check(f"limit: {label}", statement, True, f"{symbol.name} = 0 gives {known.name}")
+            return
+
+
+def _same(model: UserModel, law: Law, function: LawFunction, known: Law, symbol: sp.Symbol) -> bool:
+    there = next((f for f in known.functions if f.name == function.name), None)
+    if there is None or not set(there.arguments) <= set(function.arguments):
+        return False
+    mine, theirs = _evaluated(function), _evaluated(there)
+    for at in _samples(model, law, function):
+        one = _value(mine, {**at, symbol: 0.0})
+        other = _value(theirs, {s: at[s] for s in there.arguments})
+        if not abs(one - other) <= _EQUAL * abs(other):
+            return False
+    return True
+
+
+def _at(at: Mapping[sp.Symbol, float]) -> str:
+    return ", ".join(f"{symbol.name} = {value:.3g}" for symbol, value in at.items())

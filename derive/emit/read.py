@@ -1,0 +1,120 @@
+"""Emitted modules read back as mathematics: text to sympy expressions, without running any of it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import sympy as sp
+
+_SIGNED = {
+    "opening",
+    "orbit",
+    "spin",
+    "orbital_rate",
+    "slip",
+    "log_volume",
+    "log_scaled_gap",
+    "decay",
+    "offset",
+    "tail",
+}
+_FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
+    "exp": sp.exp, "log": sp.log, "sqrt": sp.sqrt, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin,
+    "acos": sp.acos, "atan": sp.atan, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "fabs": sp.Abs,
+    "fmin": sp.Min, "fmax": sp.Max,
+}  # fmt: skip
+_RELATIONS: dict[type, type] = {ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge}
+
+
+class ReadError(ValueError):
+    """The text is not of an emitted module; the message names what is foreign in it."""
+
+
+@dataclass(frozen=True)
+class Read:
+    """A function of an emitted module: named intermediates in order, and outputs (one under its own name)."""
+
+    name: str
+    definitions: tuple[tuple[str, sp.Expr], ...]
+    outputs: tuple[tuple[str, sp.Expr], ...]
+
+
+def functions(text: str) -> tuple[Read, ...]:
+    """Every function of an emitted law, structure or scaling module.
+
+    Raises:
+        ReadError: something in it that is never emitted.
+    """
+    try:
+        tree = ast.parse(text)
+    except SyntaxError as error:
+        raise ReadError(f"line {error.lineno}: {error.msg}") from None
+    return tuple(_function(node) for node in tree.body if isinstance(node, ast.FunctionDef))
+
+
+def _function(node: ast.FunctionDef) -> Read:
+    definitions: list[tuple[str, sp.Expr]] = []
+    outputs: list[tuple[str, sp.Expr]] = []
+    for statement in node.body:
+        if isinstance(statement, ast.Expr):
+            continue  # the docstring
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
+            if not isinstance(statement.value, ast.Subscript):  # a state or group by its own name
+                definitions.append((statement.targets[0].id, _expression(statement.value)))
+        elif isinstance(statement, ast.Return) and isinstance(statement.value, ast.Dict):
+            for key, value in zip(statement.value.keys, statement.value.values, strict=True):
+                outputs.append((str(ast.literal_eval(key)) if key else "", _expression(value)))
+        elif isinstance(statement, ast.Return) and statement.value is not None:
+            outputs.append((node.name, _expression(statement.value)))
+        else:
+            raise ReadError(f"line {statement.lineno}: {type(statement).__name__}")
+    if definitions and definitions[-1][0] == "result":  # a law's result that is too long for its return
+        return Read(node.name, tuple(definitions[:-1]), ((node.name, definitions[-1][1]),))
+    return Read(node.name, tuple(definitions), tuple(outputs))
+
+
+def _expression(node: ast.expr) -> sp.Expr:
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+        return sp.Rational(str(node.value))
+    if isinstance(node, ast.Name):
+        if node.id == "pi":
+            return sp.pi
+        return sp.Symbol(node.id, real=True) if node.id in _SIGNED else sp.Symbol(node.id, positive=True)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        return -_expression(node.operand)
+    if isinstance(node, ast.BinOp):
+        left, right = _expression(node.left), _expression(node.right)
+        if isinstance(node.op, ast.Add):
+            return left + right
+        if isinstance(node.op, ast.Sub):
+            return left - right
+        if isinstance(node.op, ast.Mult):
+            return left * right
+        if isinstance(node.op, ast.Div):
+            return left / right
+        if isinstance(node.op, ast.Pow):
+            return left**right
+    if isinstance(node, ast.Call):
+        return _call(node)
+    raise ReadError(f"line {node.lineno}: {ast.unparse(node)}")
+
+
+def _call(node: ast.Call) -> sp.Expr:
+    name = ast.unparse(node.func)
+    if name == "if_else":
+        condition, first, second = node.args
+        return sp.Piecewise((_expression(first), _condition(condition)), (_expression(second), True))
+    arguments = [_expression(argument) for argument in node.args]
+    if name in _FUNCTIONS:
+        return _FUNCTIONS[name](*arguments)
+    if name.startswith("laws."):
+        return sp.Function(name.removeprefix("laws."), real=True)(*arguments)
+    raise ReadError(f"line {node.lineno}: {name}")
+
+
+def _condition(node: ast.expr) -> sp.Basic:
+    if isinstance(node, ast.Compare) and type(node.ops[0]) in _RELATIONS:
+        return _RELATIONS[type(node.ops[0])](_expression(node.left), _expression(node.comparators[0]))
+    raise ReadError(f"line {node.lineno}: {ast.unparse(node)}")

@@ -1,0 +1,133 @@
+"""A user's model as a package of emitted files: laws, structures they change, groups, a manifest.
+
+The manifest has a digest of every file; `model.py` is the model file itself, from which all can be derived again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..custom import UserModel
+from ..model import derive
+from ..quantities import VOCABULARY
+from ..structure import structures
+from ..words import conserved, in_words
+from .modules import Own, digest, groups_module, law_digest, law_module, model_digest, structure_module
+from .write import sha256
+
+FORMAT = 1
+SOURCE = "model.py"
+_DOC = "The dimensionless groups of this model beside the library's, from SI quantities.\n\nAs the library's `scaling`."
+
+
+def package(model: UserModel, source: str, library: str, origin: str = "") -> dict[str, str]:
+    """Relative path -> text of every file of a model's package, manifest included.
+
+    Arguments:
+        source: text of the model file.
+        library: digest of the library's own equations, on which the model is built.
+        origin: path of the model file as seen from the package.
+    """
+    own = own_names(model)
+    files = {SOURCE: source}
+    laws = []
+    for law in model.laws:
+        path = f"laws/{law.module}.py"
+        files[path] = law_module(law)
+        laws.append(
+            {"slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning}
+        )
+    changed = {key.split(".")[0] for key in model.extra}
+    digests: dict[str, str] = {}
+    for structure in structures():
+        plain = derive(structure)
+        if not changed & set(plain.slots):
+            continue
+        extended = model.extended(plain)
+        files[f"{structure.name}.py"] = structure_module(extended, own)
+        digests[structure.name] = model_digest(extended)
+    definitions = {group.symbol: group.definition for group in model.groups if group.symbol != group.quantity.symbol}
+    scaling = ""
+    if definitions:
+        scaling = digest(*(part for pair in definitions.items() for part in pair))
+        files["scaling.py"] = groups_module(definitions, own, scaling, _DOC)
+    manifest = {
+        "kind": "wetdoublet model",
+        "format": FORMAT,
+        "name": model.name,
+        "meaning": model.meaning,
+        "origin": origin,
+        "library": library,
+        "laws": laws,
+        "structures": digests,
+        "scaling": scaling,
+        "extra": {key: [symbol.name for symbol in extra] for key, extra in model.extra.items()},
+        "quantities": [_quantity(model, name) for name in model.declarations.quantities],
+        "conserves": list(conserved(model)),
+        "words": list(in_words(model)),
+        "files": {name: sha256(text) for name, text in sorted(files.items())},
+    }
+    files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
+    return dict(sorted(files.items()))
+
+
+def own_names(model: UserModel) -> Own:
+    """Unit and meaning of the vocabulary and of what the model declares."""
+    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
+    known |= {one.name: (one.unit, one.meaning) for one in model.declarations.quantities.values()}
+    for group in model.groups:
+        if group.symbol != group.quantity.symbol:
+            known[group.symbol.name] = ("1", f"{group.quantity.meaning}, over {group.over}")
+    return known
+
+
+def _quantity(model: UserModel, name: str) -> dict[str, object]:
+    one = model.declarations.quantities[name]
+    group = next(group for group in model.groups if group.quantity.name == name)
+    return {
+        "name": name,
+        "symbol": one.latex,
+        "unit": one.unit,
+        "default": one.default,
+        "bounds": one.bounds.to_json(),
+        "meaning": one.meaning,
+        "group": group.symbol.name,
+        "over": str(group.over),
+    }
+
+
+def write(files: Mapping[str, str], folder: Path) -> list[Path]:
+    """Write a package into a folder; what an earlier one has left there is removed, other files stay."""
+    for name in _earlier(folder) - files.keys():
+        (folder / name).unlink(missing_ok=True)
+    written = []
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode())
+        written.append(path)
+    return written
+
+
+def _earlier(folder: Path) -> set[str]:
+    try:
+        listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["files"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return set()
+    inside = folder.resolve()
+    return {name for name in listed if inside in (folder / name).resolve().parents}
+
+
+def differences(files: Mapping[str, str], folder: Path) -> list[str]:
+    """Lines that name each file of a package that is missing from a folder, or differs."""
+    lines = []
+    for name, text in files.items():
+        path = folder / name
+        if not path.is_file():
+            lines.append(f"missing: {name}")
+        elif hashlib.sha256(path.read_bytes()).hexdigest() != sha256(text):
+            lines.append(f"differs: {name}")
+    return lines

@@ -1,0 +1,172 @@
+"""Emitted modules by name: the library's, held against their manifest; what is not committed is derived on first use.
+
+What is derived goes to the user's cache, addressed by the derivation's sources and versions, so that sympy is loaded
+once and never again. `generated/` and the cache are the only places that this imports from.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from .errors import CheckFailed
+
+_PACKAGE = f"{__package__.rsplit('.', 1)[0]}.generated"
+_FOLDER = Path(__file__).resolve().parents[1] / "generated"
+_DERIVE = _FOLDER.with_name("derive")
+
+
+@cache
+def manifest() -> dict[str, Any]:
+    """The library's manifest."""
+    found: dict[str, Any] = json.loads(_manifest_text())
+    return found
+
+
+@cache
+def _manifest_text() -> str:
+    return (_FOLDER / "manifest.json").read_text(encoding="utf-8")
+
+
+@cache
+def library_digest() -> str:
+    """Digest of the library's equations: of its manifest, which has those of every law and structure."""
+    return hashlib.sha256(_manifest_text().encode()).hexdigest()
+
+
+def structure(name: str) -> ModuleType:
+    """The module of a structure: committed, or derived on first use."""
+    return module(name, lambda: _derived_structure(name))
+
+
+def law(slot: str, name: str) -> ModuleType:
+    """The module of a law of the library: committed, or derived on first use."""
+    path = f"{slot}_{name.replace('-', '_')}"
+    return module(f"laws.{path}", lambda: _derived_law(slot, name))
+
+
+@cache
+def module(name: str, derived: Callable[[], str] | None = None) -> ModuleType:
+    """An emitted module of the library.
+
+    Arguments:
+        name: dotted, below `generated`.
+        derived: gives its text where it is not committed.
+
+    Raises:
+        CheckFailed: the file is not the one that was emitted; says what to run.
+    """
+    path = name.replace(".", "/") + ".py"
+    if committed(path):
+        for each in (path, "assemble.py", "scaling.py"):
+            _verified(each)
+        return import_module(f"{_PACKAGE}.{name}")
+    if derived is None:
+        raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
+    return executed(f"{_PACKAGE}.{name}", cached(f"{name}.py", derived).read_bytes())
+
+
+def text(name: str) -> str:
+    """Text of an emitted module of the library, which is never run."""
+    path = name.replace(".", "/") + ".py"
+    if committed(path):
+        _verified(path)
+        return (_FOLDER / path).read_text(encoding="utf-8")
+    kind, _, rest = name.rpartition(".")
+    slot, _, law_name = rest.partition("_")
+    derived = (lambda: _derived_law(slot, law_name)) if kind else (lambda: _derived_structure(name))
+    return cached(f"{name}.py", derived).read_text(encoding="utf-8")
+
+
+def committed(path: str) -> bool:
+    """Whether a file is among the emitted ones of the package."""
+    return path in manifest()["files"]
+
+
+@cache
+def _verified(path: str) -> None:
+    file = _FOLDER / path
+    if not file.is_file() or hashlib.sha256(file.read_bytes()).hexdigest() != manifest()["files"][path]:
+        raise CheckFailed(
+            f"{file} is not what was emitted (edited, or from another version); run `wetdoublet generate`"
+        )
+
+
+def executed(name: str, source: bytes) -> ModuleType:
+    """A module of a source that has been verified: what is run is what was read."""
+    made = ModuleType(name)
+    exec(compile(source, f"<{name}>", "exec", dont_inherit=True), made.__dict__)
+    return made
+
+
+@cache
+def derivation() -> str:
+    """Digest of what emitted code comes from: the derivation's sources, and the versions that matter."""
+    from importlib.metadata import version
+
+    found = hashlib.sha256()
+    for name in ("wetdoublet", "sympy", "casadi"):
+        found.update(f"{name} {version(name)}\n".encode())
+    for path in sorted(_DERIVE.rglob("*.py")):
+        found.update(path.relative_to(_DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return found.hexdigest()
+
+
+def cached(name: str, derived: Callable[[], str]) -> Path:
+    """The cached file of that name, derived if it is not there. Safe with several processes: moved into place whole."""
+    path = _cache() / "emitted" / derivation()[:32] / name
+    if not path.is_file():
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        beside = path.with_name(f".{path.name}.{os.getpid()}")
+        beside.write_bytes(derived().encode())
+        beside.replace(path)
+    return path
+
+
+def cached_folder(key: str, derived: Callable[[], Mapping[str, str]]) -> Path:
+    """The cached folder of files under a key, derived if it is not there; as safe as `cached`."""
+    folder = _cache() / "models" / key[:32]
+    if folder.is_dir():
+        return folder
+    files = derived()
+    folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    beside = Path(tempfile.mkdtemp(prefix=f".{key[:8]}-", dir=folder.parent))  # 0700
+    try:
+        for name, text in files.items():
+            (beside / name).parent.mkdir(parents=True, exist_ok=True)
+            (beside / name).write_bytes(text.encode())
+        try:
+            beside.rename(folder)
+        except OSError:  # another process was faster: its folder is the same
+            if not folder.is_dir():
+                raise
+    finally:
+        shutil.rmtree(beside, ignore_errors=True)
+    return folder
+
+
+def _cache() -> Path:
+    from .compiled import cache_folder  # imports casadi
+
+    return cache_folder()
+
+
+def _derived_structure(name: str) -> str:
+    from ..derive.emit.one import structure_text  # imports sympy
+
+    return structure_text(name)
+
+
+def _derived_law(slot: str, name: str) -> str:
+    from ..derive.emit.one import law_text  # imports sympy
+
+    return law_text(slot, name)

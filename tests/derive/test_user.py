@@ -1,0 +1,203 @@
+"""Model files: declarations, groups found, laws brought to their slots, checks that name what fails."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from wetdoublet.derive.bounds import Bounds, BoundsError
+from wetdoublet.derive.checks.user import checks_of, model_checks
+from wetdoublet.derive.compare import same
+from wetdoublet.derive.dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, TIME
+from wetdoublet.derive.emit.document import document
+from wetdoublet.derive.laws import LAWS, fill
+from wetdoublet.derive.model import derive
+from wetdoublet.derive.modelfile import read
+from wetdoublet.derive.structure import Structure, structures
+from wetdoublet.derive.template import TEMPLATE
+from wetdoublet.derive.unitnames import UnitError, dimension_of_unit
+from wetdoublet.derive.user import ModelFileError
+from wetdoublet.derive.words import conserved, in_words
+
+HEAD = "from wetdoublet.derive.user import *\n"
+
+
+def model(body: str):
+    """The model of a file with this body."""
+    return read(Path("mine.py"), HEAD + body)
+
+
+def failing(body: str) -> dict[str, str]:
+    """Checks of a model file that fail: name -> figure."""
+    return {check.name: check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok}
+
+
+def test_si_and_dimensionless_forms_are_the_same_law():
+    """A force in SI over pi R sigma is the law in h = x/R; no group is new."""
+    si = model('law("bridge", "mine", force=pi*R*sigma*2*cos(phi)*(1 - x/sqrt(x**2 + 2*V*R**2/pi)))')
+    plain = model('law("bridge", "mine", force=2*cos(phi)*(1 - h/sqrt(h**2 + 2*V/pi)))')
+    assert same(si.laws[0].functions[0].result, plain.laws[0].functions[0].result)
+    assert si.extra == plain.extra == {}
+    assert same(
+        si.laws[0]["force"](*si.laws[0]["force"].arguments),
+        LAWS["bridge"]["lambert"]["force"](*plain.laws[0]["force"].arguments),
+    )
+
+
+def test_written_the_same_it_is_the_same():
+    """The film's law as the paper prints it in SI is the law that the derivation integrates."""
+    mine = model('law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2)').laws[0]
+    assert sp.simplify(mine["resistance"].result - LAWS["film"]["finite"]["resistance"].result) == 0
+
+
+@pytest.mark.parametrize(
+    ("declaration", "law", "definition"),
+    [
+        ('k = quantity("k", unit="Pa")', 'law("bridge", "mine", force=k*a**2)', "reduced_radius*k/surface_tension"),
+        ('k = quantity("k", unit="Pa")', 'law("film", "mine", resistance=k*a**2*u/v0)', "k*reduced_radius/(speed*viscosity)"),  # noqa: E501
+        ('k = quantity("k", unit="Pa", over=mu*v0/x0)', 'law("film", "mine", resistance=k*a**2*u/v0)', "film_thickness*k/(speed*viscosity)"),  # noqa: E501
+        ('k = quantity("k", unit="m")', 'law("bridge", "mine", force=exp(-x/k))', "k/reduced_radius"),
+        ('k = quantity("k")', 'law("bridge", "mine", force=k*h)', "k"),
+    ],
+)  # fmt: skip
+def test_groups_are_found(declaration: str, law: str, definition: str):
+    """A declared quantity becomes a group over quantities of the slot's own scale, or those that `over` names."""
+    found = model(f"{declaration}\n{law}")
+    names = {s.name: s for s in found.groups[0].definition.free_symbols}
+    assert sp.simplify(found.groups[0].definition - sp.sympify(definition, locals=names)) == 0
+
+
+def test_extended_structure_without_its_quantity_is_the_librarys():
+    """With no yield stress the template's equations are those of the library with Willett's closed form."""
+    mine = read(Path("mine.py"), TEMPLATE)
+    nothing = {mine.groups[0].symbol: 0}
+    for structure in (Structure(True, True, False, reduced=True), Structure(False, True, True)):
+        library = derive(structure)
+        own = mine.extended(library)
+        assert own.groups == (*library.groups, mine.groups[0].symbol)
+        for function in ("right_hand_side", "energy_rates", "inward_force"):
+            for (key, one), (_, other) in zip(own[function].outputs, library[function].outputs, strict=True):
+                filled = fill(own.expanded(one), _laws(mine.default("bridge"))).subs(nothing)
+                assert same(filled, fill(library.expanded(other), _laws(LAWS["bridge"]["willett-simple"]))), key
+
+
+def _laws(bridge):
+    return {slot: next(iter(laws.values())) for slot, laws in LAWS.items()} | {"bridge": bridge}
+
+
+def test_structures_without_the_slot_are_untouched():
+    """A bridge law changes no equation of a structure without a bridge."""
+    mine = read(Path("mine.py"), TEMPLATE)
+    for structure in structures():
+        if not structure.bridge:
+            assert mine.extended(derive(structure)) == derive(structure)
+
+
+@pytest.mark.parametrize(
+    ("body", "name", "figure"),
+    [
+        ('law("bridge", "mine", force=pi*R*sigma + mu*a)', "dimensions", "law bridge mine, force: term"),
+        ('law("bridge", "mine", force=mu*u*a**2)', "dimensions", "expected M L T^-2 or a pure number"),
+        ('law("bridge", "mine", force=mu*a*u)', "groups", "depends on opening"),
+        ('law("bridge", "mine", force=m*omega**2*a)', "groups", "rotation_rate"),
+        ('k = quantity("k", unit="Pa")\nlaw("bridge", "mine", force=2*cos(phi))', "groups", "k: declared, but no law"),
+        ('law("film", "mine", resistance=(gap - 0.5)/gap)', "dissipation: film mine", "resistance = "),
+        ('law("bridge", "mine", force=1/(h - h))', "dimensions", "zoo"),
+        ('law("bridge", "mine", force=log(V - 0.05))', "limits: bridge mine", "volume = 0.001"),
+        ('law("arm", "mine", lever=2 + (distance - 4)/3)', "angular momentum: arm mine", "dL/dt"),
+        ('law("strings", "mine", rise=offset_squared/2, stiffness=offset_squared)', "potential: strings mine", "left over"),  # noqa: E501
+    ],
+)  # fmt: skip
+def test_checks_fail_by_name(body: str, name: str, figure: str):
+    """What is wrong with a law is found by the check of that name, and shown."""
+    assert figure in failing(body)[name]
+
+
+def test_a_known_violation_can_be_accepted():
+    """A model may say which check it is known to fail; the figure stays."""
+    body = 'law("arm", "mine", lever=2 + 0*distance, accept=("angular momentum",))'
+    _, checks = model_checks(Path("mine.py"), HEAD + body)
+    assert all(check.ok for check in checks)
+    assert any("accepted by the model" in check.figure for check in checks)
+
+
+def test_conservation_is_said_in_words():
+    """The library's arms, written again: mid-gap conserves angular momentum, the surface arm does not."""
+    midgap = model('law("arm", "half", lever=distance/2)')
+    surface = model('law("arm", "two", lever=2 + 0*distance)')
+    assert any("angular momentum" in each for each in conserved(midgap))
+    assert not any("angular momentum" in each for each in conserved(surface))
+    assert "is not conserved" in in_words(surface)[0]
+
+
+def test_template_says_what_it_is_without_stress():
+    """All checks of the template hold, and it finds the law of the library that it contains."""
+    found = checks_of(read(Path("mine.py"), TEMPLATE))
+    assert all(check.ok for check in found)
+    assert "yield_stress_number = 0 gives willett-simple" in [check.figure for check in found]
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("law('brige', 'mine', force=1)", "line 2: law: 'brige' is not a slot"),
+        ("law('bridge', 'mikami', force=1)", "is a law of the library"),
+        ("law('bridge', 'mine', pull=1)", "accepted: the functions force"),
+        ("law('bridge', 'mine')", "law bridge mine.force"),
+        ("law('bridge', 'mine', force='x')", "a sympy expression"),
+        ("k = quantity('viscosity')", "is taken already"),
+        ("k = quantity('k', unit='ergs')", "unknown unit 'ergs'"),
+        ("k = quantity('k', bounds='small')", "k.bounds"),
+        ("law('bridge', 'mine', force=undefined)", "line 2: None NameError: name 'undefined'"),
+        ("law('bridge', 'mine', force=", "is not Python"),
+        ("pass", "declares no law"),
+    ],
+)
+def test_bad_model_files_are_named(body: str, said: str):
+    """A file that cannot be a model is an error with file, line, what is wrong and what is accepted."""
+    with pytest.raises(ModelFileError) as caught:
+        model(body)
+    assert str(caught.value).startswith("mine.py")
+    assert said in str(caught.value)
+    assert "accepted: " in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("unit", "dimension"),
+    [("Pa", PRESSURE), ("N/m^2", PRESSURE), ("kg m/s^2", FORCE), ("1/s", TIME**-1), ("kg/m^3", MASS / LENGTH**3), ("1", ONE)],  # noqa: E501
+)  # fmt: skip
+def test_units_have_dimensions(unit: str, dimension):
+    """Coherent SI in words has the dimension that mechanics says."""
+    assert dimension_of_unit(unit) == dimension
+
+
+@pytest.mark.parametrize("unit", ["", "um", "kg/m/s m", "Pa^x", "kg//m"])
+def test_other_units_are_errors(unit: str):
+    """Prefixes, other systems and broken words are no coherent SI."""
+    with pytest.raises(UnitError):
+        dimension_of_unit(unit)
+
+
+def test_bounds_in_words():
+    """Bounds are read with their open and closed ends; nonsense and empty intervals are errors."""
+    assert Bounds.read("> 0 and <= 5").to_json() == {
+        "text": "> 0 and <= 5", "low": 0.0, "high": 5.0, "low_open": True, "high_open": False,
+    }  # fmt: skip
+    assert Bounds.read("0 to 1").not_negative
+    for text in ("small", "5 to 1", "> 1 and < 0", ""):
+        with pytest.raises(BoundsError):
+            Bounds.read(text)
+
+
+def test_document_has_the_models_own_lines():
+    """Table 1 of a model shows its force over its quantities, its parts, and its group; strings are left out."""
+    laws = {slot: next(iter(known)) for slot, known in LAWS.items()} | {"bridge": "yielding"}
+    made = document("mine", laws, read(Path("mine.py"), TEMPLATE), ("strings",))
+    tex, page = made.tex(), made.markdown()
+    for text in (tex, page):
+        assert r"\tau_y" in text
+        assert r"S = \frac{x}{2 a \sqrt{V}}".partition(" = ")[2] in text
+        assert r"\frac{a \tau_y}{\sigma}" in text
+        assert "F_{S,n}" not in text
+    assert tex.count(r"\begin{align*}") == tex.count(r"\end{align*}")
