@@ -16,7 +16,9 @@ from .events import events, reversal, reversal_loss, start
 from .intermediates import intermediates
 from .laws.base import Definition
 from .observables import angular_momentum, effective_potential, energies, energy_rates, outputs, rigid_rotation
+from .partners import rotation
 from .quantities import (
+    adhesion,
     aspect,
     beta,
     capillary,
@@ -25,9 +27,11 @@ from .quantities import (
     elastic_gap,
     gap,
     glass_number,
+    mass_ratio,
     obliquity,
     opening,
     orbit,
+    radius_ratio,
     rough_gap,
     rupture_gap,
     spin,
@@ -89,13 +93,15 @@ def derive(structure: Structure) -> Model:
 
 
 _GROUP_ORDER = (
-    stokes, aspect, obliquity, capillary, volume, contact_angle, weight, string_ratio,
-    glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
+    stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
+    radius_ratio, mass_ratio, glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
 )  # fmt: skip
 
 
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
     states = [gap, opening]
+    if structure.partner:
+        return (*states, *rotation(structure.partner).states)
     if structure.oblique:
         states += [orbit] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
     return tuple(states)
@@ -104,8 +110,8 @@ def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
 def _slots(structure: Structure) -> tuple[str, ...]:
     slots = ["film", "glass"]
     if structure.oblique:
-        slots += ["shear"] + ([] if structure.reduced else ["arm"])
-    slots += (["bridge"] if structure.bridge else []) + (["strings"] if structure.strings else [])
+        slots += ["shear"] + ([] if structure.reduced or structure.partner == "wall" else ["arm"])
+    slots += [slot for slot in ("bridge", "strings", "attraction") if getattr(structure, slot)]
     return tuple(slots)
 
 
@@ -137,12 +143,16 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 of_states(resting_rates(structure)),
                 regional=True,
             ),
-            ModelFunction(
-                "turning_rate",
-                "Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).",
-                ((beta.name, turning_rate()),),
-            ),
         ]
+        turning = turning_rate(structure)
+        if turning is not None:
+            functions.append(
+                ModelFunction(
+                    "turning_rate",
+                    "Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).",
+                    ((beta.name, turning),),
+                )
+            )
     functions += [
         ModelFunction(
             "inward_force",
@@ -160,7 +170,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             "State just after a reversal by the solids: u -> -e_dry u, all else continues.",
             of_states(reversal(states)),
         ),
-        ModelFunction("start", "State at first touch.", of_states(start())),
+        ModelFunction("start", "State at first touch.", of_states(start(structure))),
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
         ModelFunction(
             "energy_rates",
@@ -174,12 +184,13 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             (("dry_contact", reversal_loss()),),
         ),
     ]
-    if structure.oblique and not structure.reduced:
+    momentum = angular_momentum(structure) if structure.oblique and not structure.reduced else None
+    if momentum is not None:
         functions.append(
             ModelFunction(
                 "angular_momentum",
                 "Angular momentum over its start value.",
-                (("angular_momentum", angular_momentum()),),
+                (("angular_momentum", momentum),),
             )
         )
     functions.append(
@@ -203,6 +214,14 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "rigid_rotation",
                 "The state that has this least energy: at rest in the gap, turning as one body.",
                 of_states(rigid_rotation(structure)),
+            )
+        )
+    if structure.partner == "wall":  # what moves along the wall never comes to help
+        functions.append(
+            ModelFunction(
+                "escape_energy",
+                "Energy over m v0^2 of the motion along the line of centres, which alone can part the two.",
+                (("kinetic", opening**2 / 2),),
             )
         )
     return tuple(functions)

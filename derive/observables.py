@@ -6,6 +6,7 @@ import sympy as sp
 
 from .forces import TANGENTIAL
 from .intermediates import (
+    ATTRACTION_FORCE,
     BRIDGE_FORCE,
     FILM_FORCE,
     INERTIA_RATIO,
@@ -19,6 +20,7 @@ from .intermediates import (
 from .laws import slot_call
 from .laws.strings import offset_squared
 from .mechanics import doublet_inertia, equations_of_motion
+from .partners import rotation
 from .quantities import a, aspect, g, gap, m, omega, omega0, opening, orbit, r, spin, string_ratio, v0, x, x0, xi
 from .scaling import DISTANCE, nondimensional
 from .structure import Structure
@@ -33,6 +35,8 @@ def energies(structure: Structure) -> dict[str, sp.Expr]:
 
 
 def _kinetic(structure: Structure) -> sp.Expr:
+    if structure.partner:
+        return opening**2 / 2 + rotation(structure.partner).kinetic
     energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
     if not structure.oblique:
         energy = energy.subs({omega: 0, xi: 0})
@@ -55,20 +59,28 @@ def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
     taken = {"normal_lubrication": FILM_FORCE * opening}
     if structure.bridge:
         taken["capillary"] = BRIDGE_FORCE * opening
-    if structure.oblique and not structure.reduced:
+    if structure.attraction:
+        taken["attraction"] = ATTRACTION_FORCE * opening
+    if structure.partner:
+        taken["tangential_lubrication"] = rotation(structure.partner).power
+    elif structure.oblique and not structure.reduced:
         power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * omega0 * ORBITAL_RATE - 2 * a * LEVER * xi)
         taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
     return taken
 
 
-def angular_momentum() -> sp.Expr:
-    """Angular momentum over its start value."""
+def angular_momentum(structure: Structure) -> sp.Expr | None:
+    """Angular momentum over its start value; None where there is none to be conserved."""
+    if structure.partner:
+        return rotation(structure.partner).momentum
     return MOMENTUM / (4 + aspect) ** 2
 
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
     """What a separated doublet shows: restitutions, and rates over omega0."""
     shown: dict[str, sp.Expr] = {"restitution": opening}
+    if structure.partner:
+        return shown | dict(rotation(structure.partner).outputs)
     if structure.oblique:
         shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / (4 + aspect)
         shown["final_rotation_rate"] = ORBITAL_RATE
@@ -79,13 +91,17 @@ def outputs(structure: Structure) -> dict[str, sp.Expr]:
 def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
     """Pieces of the stick certificate: least energy at a gap for the state's angular momentum, and its slope."""
     energy, slope = sp.Integer(0), sp.Integer(0)
-    if structure.oblique:
+    if structure.partner:
+        energy, slope = rotation(structure.partner).least
+    elif structure.oblique:
         square = (m * a**2 * omega0 * MOMENTUM) ** 2
         energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
         body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
         slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
     if structure.bridge:
         slope += BRIDGE_FORCE
+    if structure.attraction:
+        slope += ATTRACTION_FORCE
     if structure.strings:
         energy += _lifted()
         slope += STRING_PULL
@@ -94,5 +110,7 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
 
 def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
+    if structure.partner:
+        return {gap: gap, opening: sp.Integer(0), **rotation(structure.partner).rigid}
     rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
     return {gap: gap, opening: sp.Integer(0), orbit: DISTANCE**2 * rate, spin: rate}

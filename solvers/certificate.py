@@ -1,8 +1,8 @@
 """Proofs that a doublet never separates, so that a flight can end as soon as its outcome is decided.
 
-With a bridge (or head-on, strings): mechanical energy never increases and angular momentum is conserved, so energy
+With an attraction (or head-on, strings): mechanical energy never increases and angular momentum is conserved, so energy
 below the barrier of the effective potential U_eff = L^2/(2 I) + W_c (+ U_s) on the far side cannot be made up for.
-Head-on with a film alone: the film's momentum integral decides.
+Head-on with a film alone: the film's momentum integral decides. Beside a wall all is as head-on: nothing turns.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 class Proof(Protocol):
-    """What a flight asks of a proof. `y` is the locating state: the model's states, then the capillary work."""
+    """What a flight asks of a proof. `y` is the locating state: the model's states, then works against attractions."""
 
     theorem: bool  # a stick found by it is proved, not only certain for practical purposes
-    by_energy: bool  # it may give a level, and then `y` carries the capillary work
+    by_energy: bool  # it may give a level, and then `y` carries the works
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         """Energy (over m v0^2) below which the doublet at `y` is proved to stick; None if energy proves nothing."""
@@ -69,8 +69,8 @@ class FilmProof:
         gap, opening = float(y[0]), float(y[1])
         if phase.resting:
             return True
-        if phase.motion != CLOSING:  # u falls by the film's integral up to its surface, x = x0
-            loss = self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
+        if phase.motion != CLOSING:  # u falls by the film's integral up to its surface, x = x0; not if it cavitates
+            loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
             return bool(opening - loss < -self.margin)
         # closing: neither the solids nor the glass pressure are met before the film stops the motion
         grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
@@ -79,7 +79,8 @@ class FilmProof:
             return False
         # along a panel the speed falls and the pressure per speed rises: its ends bound the pressure from above
         fastest, nearest = np.maximum(speed[:-1], 0.0), grid[1:]
-        clearance = np.asarray(_glass(self.model)(np.vstack([nearest, -fastest]), self.p).full())
+        beside = np.zeros((len(self.model.state) - 2, nearest.size))  # what moves across the line of centres
+        clearance = np.asarray(_glass(self.model)(np.vstack([nearest, -fastest, beside]), self.p).full())
         return bool(np.min(clearance) > self.margin * self.glass)
 
     def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
@@ -124,7 +125,7 @@ class BarrierProof:
         self.model, self.p, self.rtol = model, p, rtol
         self.groups = dict(zip(model.groups, p, strict=True))
         self.theorem = model.choice.law("arm") != "surface"
-        self._largest = float(sum(model.values("energies", model.start(p), p).values()))
+        self._largest = float(sum(model.values(model.escape, model.start(p), p).values()))
         self._known: tuple[float, tuple[Barrier, ...]] | None = None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
@@ -140,15 +141,15 @@ class BarrierProof:
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        if phase.resting and not self.model.oblique:
-            return True  # nothing moves, and the force is inward
+        if phase.resting and (not self.model.oblique or self.model.wall):
+            return True  # nothing moves that could part them, and the force is inward
         level = self._level(y, phase, _SAFETY)
         return level is not None and self.energy(y) < level
 
     def energy(self, y: np.ndarray) -> float:
         """Mechanical energy over m v0^2."""
-        work = float(y[-1]) if self.model.bridge else 0.0
-        return float(sum(self.model.values("energies", y, self.p).values())) + work
+        work = sum(y[y.size - len(self.model.works) :])
+        return float(sum(self.model.values(self.model.escape, y, self.p).values()) + work)
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
@@ -230,8 +231,9 @@ class BarrierProof:
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
-    if model.oblique and (model.strings or not model.bridge):
+    turning = model.oblique and not model.wall
+    if turning and (model.strings or not model.works):
         return NoProof()
-    if model.bridge or model.strings:
+    if model.works or model.strings:
         return BarrierProof(model, p, rtol)
     return FilmProof(model, p, rtol)
