@@ -6,6 +6,7 @@ that holds, holds for all values. `symbolic_checks` runs them all.
 
 from __future__ import annotations
 
+from .attractions import law_checks
 from .base import Check
 from .certificate import least_energy
 from .conservation import angular_momentum, energy
@@ -13,6 +14,7 @@ from .dimensions import dimension_checks
 from .groups import centrifugal_number, normalisation_of_the_paper, number_of_groups
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
+from .partners import partner_checks
 
 __all__ = ["Check", "symbolic_checks"]
 
@@ -31,4 +33,6 @@ def symbolic_checks() -> tuple[Check, ...]:
         centrifugal_number(),
         normalisation_of_the_paper(),
         number_of_groups(),
+        *law_checks(),
+        *partner_checks(),
     )

@@ -139,7 +139,7 @@ FILMS = (
         slot="film",
         name="constant-volume",
         meaning="the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
-        source="Pitois, Moucheront & Chateau, J. Colloid Interface Sci. 231, 26 (2000); derived: disc of constant volume",
+        source="Pitois, Moucheront & Chateau, J. Colloid Interface Sci. 231, 26 (2000); derived: a disc of that volume",
         functions=(
             LawFunction(
                 name="resistance",

@@ -51,8 +51,8 @@ def _turned(expression: sp.Expr) -> sp.Expr:
 def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
     """Torques on the two spheres and the tangential force, in SI.
 
-    The torques are the leading logarithms, stretched by the arm's law: `midgap` by r/(R_1 + R_2), so that they add up to
-    r F_t and dL/dt = 0 identically; `surface` not at all.
+    The torques are the leading logarithms, stretched by the arm's law: `midgap` by r/(R_1 + R_2), so that they add
+    up to r F_t and dL/dt = 0 identically; `surface` not at all.
     """
     log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
     slips = sp.Matrix([omega - xi, omega - partner_spin_rate])

@@ -2,7 +2,7 @@
 
 In the frame that turns with the line of centres both spheres only spin, at xi_i - omega, and the gap keeps its shape
 h = x + s^2/(2a). The sum of the surfaces' velocities drags liquid along the narrowing gap and raises a pressure; their
-difference shears it. Each torque follows from the stress on its sphere; the force is what the torques leave of dL/dt = 0.
+difference shears it. Each torque follows from the stress on its sphere, and with the arms the force follows too.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 """film law `constant-volume`: the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at
 any gap.
 
-Source: Pitois, Moucheront & Chateau, J. Colloid Interface Sci. 231, 26 (2000); derived: disc of constant
+Source: Pitois, Moucheront & Chateau, J. Colloid Interface Sci. 231, 26 (2000); derived: a disc of that
 volume.
 """
 
