@@ -14,7 +14,7 @@ from ..quantities import DIMENSIONS, centrifugal, contact_angle, gap, omega0, op
 from ..scaling import generalised_centrifugal, group_definitions
 from ..structure import Structure
 from .base import Check, vanishing
-from .closed import slope_along
+from .closed import opened, slope_along
 
 _H = sp.Symbol("h", positive=True)
 _ATTRACTED = (
@@ -84,8 +84,8 @@ def slopes() -> Check:
     for structure in _ATTRACTED:
         model = derive(structure)
         outputs, taken = dict(model["effective_potential"].outputs), dict(model["energy_rates"].outputs)
-        value, slope = model.expanded(outputs["energy"]), model.expanded(outputs["slope"])
-        works = [model.expanded(taken[name]) / opening for name in ("capillary", "attraction") if name in taken]
+        value, slope = opened(model, outputs["energy"]), opened(model, outputs["slope"])
+        works = [opened(model, taken[name]) / opening for name in ("capillary", "attraction") if name in taken]
         left.append(slope - _rises(structure, value) - sum(works))
     return vanishing("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L", left)
 
@@ -95,8 +95,8 @@ def _rises(structure: Structure, value: sp.Expr) -> sp.Expr:
     momentum, model = sp.Symbol("L", positive=True), derive(structure)
     if structure.oblique and structure.partner != "wall":
         definitions = dict(model.definitions)
-        own = next(model.expanded(each) for symbol, each in definitions.items() if symbol.name == "momentum")
-        inertia = next(model.expanded(each) for symbol, each in definitions.items() if symbol.name == "inertia_ratio")
+        own = next(opened(model, each) for symbol, each in definitions.items() if symbol.name == "momentum")
+        inertia = next(opened(model, each) for symbol, each in definitions.items() if symbol.name == "inertia_ratio")
         scale = sp.simplify(value * inertia / own**2)
         return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
     return slope_along(value, gap)

@@ -22,7 +22,7 @@ from ..quantities import (
 )
 from ..structure import Partner, Structure
 from .base import Check, vanishing
-from .closed import emitted_rates, filled
+from .closed import emitted_rates, filled, opened, opened_rates
 
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
@@ -61,8 +61,8 @@ def momenta_are_found() -> Check:
 def angular_momentum_is_kept() -> Check:
     """The emitted equations keep the emitted angular momentum, for any laws with the midgap arm."""
     model = derive(_PAIR)
-    momentum = model.expanded(dict(model["angular_momentum"].outputs)["angular_momentum"])
-    rates = emitted_rates(model)
+    momentum = opened(model, dict(model["angular_momentum"].outputs)["angular_momentum"])
+    rates = opened_rates(model)
     change = sum((momentum.diff(state) * rates[state] for state in (orbit, spin, partner_spin)), sp.Integer(0))
     statement = "dL/dt = 0 along the emitted equations (midgap arm, any law)"
     return vanishing("pair: angular momentum", statement, [filled(change, _MIDGAP)])
@@ -73,9 +73,9 @@ def energy_is_accounted_for() -> Check:
     left = []
     for structure in (_PAIR, _WALL):
         model = derive(structure)
-        stored = model.expanded(dict(model["energies"].outputs)["kinetic"])
-        change = sum((stored.diff(state) * rate for state, rate in emitted_rates(model).items()), sp.Integer(0))
-        left.append(change + sum(model.expanded(rate) for _, rate in model["energy_rates"].outputs))
+        stored = opened(model, dict(model["energies"].outputs)["kinetic"])
+        change = sum((stored.diff(state) * rate for state, rate in opened_rates(model).items()), sp.Integer(0))
+        left.append(change + sum(opened(model, rate) for _, rate in model["energy_rates"].outputs))
     return vanishing("pair, wall: energy", "d(kinetic)/dt = -(film + shear + bridge + attraction power)", left)
 
 

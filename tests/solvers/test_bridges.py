@@ -28,8 +28,8 @@ CRITICAL = {
 def test_critical_centrifugal_number(law, critical):
     """At 45 deg a doublet sticks 1 % below the listed Ce* and rotates and separates 1 % above it.
 
-    Below it, the constant force with the surface arm leaves a doublet breathing for ever about a gap beyond the film, which
-    nothing decides: there the sign of the traced boundary's function is asked, which follows it until it falls back.
+    Below it, the constant force with the surface arm leaves a doublet breathing for ever about a gap beyond the film,
+    which nothing decides: there the traced boundary's function is asked, which follows it until it falls back.
     """
     scene = Scene.load("granulation").with_entries({"bridge.law": law, "model.arm": "surface"})
     at = collide(scene, stokes=0.05, angle="45 deg", ledger=False)  # Ce goes with the square of St
@@ -76,7 +76,7 @@ def test_own_rupture(law):
 
 
 def test_own_rupture_is_where_it_ruptures():
-    """The last gap of a flight is the own distance, and the work up to it is the bridge's: 2 pi R sigma x for constant."""
+    """The last gap of a flight is the own distance."""
     scene = Scene.load("granulation").with_entries({"bridge.law": "willett", "bridge.rupture": "own"})
     one = collide(scene, stokes=0.1, angle="75 deg", trajectory=True)
     assert float(one.trajectory.gap[-1]) == pytest.approx(scene.rupture_gap, rel=1e-9)
