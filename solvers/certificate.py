@@ -69,18 +69,30 @@ class FilmProof:
         gap, opening = float(y[0]), float(y[1])
         if phase.resting:
             return True
-        if phase.motion != CLOSING:  # u falls by the film's integral up to its surface, x = x0; not if it cavitates
-            loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
-            return bool(opening - loss < -self.margin)
+        if phase.motion != CLOSING:
+            return self.held(gap, opening)
         # closing: neither the solids nor the glass pressure are met before the film stops the motion
         grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
-        speed = -opening + self._momentum_loss(grid)  # losses are negative along a falling gap
+        speed = self.slowed(-opening, grid)
         if speed[-1] > -self.margin:
             return False
         # along a panel the speed falls and the pressure per speed rises: its ends bound the pressure from above
-        fastest, nearest = np.maximum(speed[:-1], 0.0), grid[1:]
-        beside = np.zeros((len(self.model.state) - 2, nearest.size))  # what moves across the line of centres
-        clearance = np.asarray(_glass(self.model)(np.vstack([nearest, -fastest, beside]), self.p).full())
+        return self.clear(grid[1:], np.maximum(speed[:-1], 0.0))
+
+    def held(self, gap: float, opening: float) -> bool:
+        """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""
+        loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
+        return bool(opening - loss < -self.margin)
+
+    def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
+        """Closing speed along a falling gap; losses are negative there. Below zero: it has been stopped before."""
+        found: np.ndarray = speed + self._momentum_loss(grid)
+        return found
+
+    def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
+        """Whether no glass pressure is met at these gaps and closing speeds."""
+        beside = np.zeros((len(self.model.state) - 2, gaps.size))  # what moves across the line of centres
+        clearance = np.asarray(_glass(self.model)(np.vstack([gaps, -speeds, beside]), self.p).full())
         return bool(np.min(clearance) > self.margin * self.glass)
 
     def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
@@ -229,11 +241,57 @@ class BarrierProof:
         return float(np.sum((_WEIGHTS @ integrand) * (high - low) / 2))
 
 
+class AttractedProof(BarrierProof):
+    """Head-on or beside a wall, film and attraction without a bridge: energy, or the film that stops the approach.
+
+    An attraction too weak to show in the energy still holds what the film has stopped. Closing at speed w under the film
+    alone, the doublet closes at no more than w + g with the attraction, g^2/2 being its work from x = x0 on: where
+    v = w + g, dv/dx of the two together is less than that of either sum. If w vanishes before the solids are met and v
+    meets no glass pressure, the solids are met at no more than g, and e_dry <= 1 gives back less than it takes to x0.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        super().__init__(model, p, rtol)
+        self._film = FilmProof(model, p, rtol)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return super().decided(y, phase) or (not phase.resting and self._stopped(y, phase))
+
+    def _stopped(self, y: np.ndarray, phase: Phase) -> bool:
+        film, gap, opening = self._film, float(y[0]), float(y[1])
+        grid = np.geomspace(gap, max(film.contact, gap * np.exp(-100.0)), 801)
+        if phase.motion == CLOSING:
+            speed = film.slowed(-opening, grid)
+            if speed[-1] > -film.margin:
+                return False
+        else:
+            if not film.held(gap, opening):
+                return False
+            speed = np.zeros(grid.size)
+        work = self._fallen(np.geomspace(1.0, gap, 65))[-1] + self._fallen(grid)
+        fastest = np.maximum(speed[:-1], 0.0) + np.sqrt(2 * work[1:])
+        if phase.motion != CLOSING:  # it may rise up to x0 before it falls
+            grid = np.geomspace(1.0, grid[-1], 801)
+            fastest = np.sqrt(2 * self._fallen(grid)[1:])
+        return film.clear(grid[1:], fastest)
+
+    def _fallen(self, grid: np.ndarray) -> np.ndarray:
+        """Work of the attraction from the first gap on, cumulative; the slope of the potential is nothing else here."""
+        low, high = grid[:-1], grid[1:]
+        nodes = low + np.outer(_NODES + 1, high - low) / 2
+        still = np.zeros(len(self.model.state))
+        pull = self._slope(nodes.ravel(), still).reshape(nodes.shape)
+        works: np.ndarray = np.concatenate([[0.0], np.cumsum((_WEIGHTS @ pull) * (low - high) / 2)])
+        return works
+
+
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
     turning = model.oblique and not model.wall
     if turning and (model.strings or not model.works):
         return NoProof()
+    if model.works == ("attraction",) and not turning and not model.strings:
+        return AttractedProof(model, p, rtol)
     if model.works or model.strings:
         return BarrierProof(model, p, rtol)
     return FilmProof(model, p, rtol)
