@@ -244,10 +244,10 @@ class BarrierProof:
 class AttractedProof(BarrierProof):
     """Head-on or beside a wall, film and attraction without a bridge: energy, or the film that stops the approach.
 
-    An attraction too weak to show in the energy still holds what the film has stopped. Closing at speed w under the film
-    alone, the doublet closes at no more than w + g with the attraction, g^2/2 being its work from x = x0 on: where
-    v = w + g, dv/dx of the two together is less than that of either sum. If w vanishes before the solids are met and v
-    meets no glass pressure, the solids are met at no more than g, and e_dry <= 1 gives back less than it takes to x0.
+    An attraction too weak to show in the energy still holds what the film has stopped. What would close at w under
+    the film alone closes at most at w + g with the attraction, g^2/2 being its work from x = x0 on: where v = w + g,
+    v >= g, so v grows no faster than w + g does. If w vanishes before the solids are met and w + g meets no glass
+    pressure, the solids are met at no more than g, and e_dry <= 1 gives back less than it takes to get to x0.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
