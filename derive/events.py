@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from .laws import slot_call
+from .partners import rotation
 from .quantities import (
     aspect,
     beta,
@@ -22,11 +23,12 @@ from .rates import inward_force
 from .structure import Structure
 
 
-def start() -> dict[sp.Symbol, sp.Expr]:
+def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """State at first touch: closing at v0, the line of centres turning and nothing spinning."""
-    return {
-        gap: sp.Integer(1),
-        opening: sp.Integer(-1),
+    touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), opening: sp.Integer(-1)}
+    if structure.partner:
+        return touching | dict(rotation(structure.partner).start)
+    return touching | {
         orbit: (4 + aspect) ** 2,
         spin: sp.Integer(0),
         beta: sp.Integer(0),
@@ -42,10 +44,11 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
         "turning": opening,
         "rupture": (rupture_gap if structure.bridge else 1) - gap,
     }
-    if structure.bridge:
+    if structure.bridge and not structure.spread:
         functions["film_edge"] = 1 - gap
     if structure.oblique:
         functions["tangential_edge"] = slot_call("shear", "edge", aspect) - gap
+    if structure.oblique and structure.partner != "wall":  # beside a wall nothing turns that could release
         functions["release"] = inward_force(structure)
     if structure.oblique and structure.strings:
         functions["half_turn"] = sp.pi - beta

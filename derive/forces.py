@@ -13,7 +13,7 @@ import sympy as sp
 from .laws import slot_call
 from .laws.strings import offset_squared, swing_squared
 from .laws.strings import r as string_distance
-from .mechanics import F_c, F_n, F_t, S_n, S_t, arm
+from .mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm
 from .quantities import (
     R,
     a,
@@ -37,7 +37,7 @@ from .quantities import (
     x0,
     xi,
 )
-from .scaling import DISTANCE, INERTIA, nondimensional
+from .scaling import DISTANCE, INERTIA, VAN_DER_WAALS, nondimensional
 
 # Flags of the region, as they appear in emitted code.
 FILM, SHEAR = sp.symbols("film shear", nonnegative=True)
@@ -46,14 +46,20 @@ TANGENTIAL = m * a * omega0 * v0 / x0  # scale of tangential forces
 
 
 @cache
-def force_laws() -> dict[sp.Symbol, sp.Expr]:
-    """The forces of the model in SI, with slot calls in place of the selectable laws."""
+def force_laws(spread: bool = False) -> dict[sp.Symbol, sp.Expr]:
+    """The forces of the model in SI, with slot calls in place of the selectable laws.
+
+    Arguments:
+        spread: the film law knows the volume of the bridge.
+    """
     offset = (swing_squared() / a**2).subs(string_distance, r)
     stiffness = slot_call("strings", "stiffness", l_s / a, offset)
     # S = dU/dr with U = 4 m g a rise(l/a, (d/a)^2) and stiffness = 2 d rise/d (d/a)^2
     lift = 4 * m * g * a * stiffness / 2
+    film = (x / x0, x0 / a, volume) if spread else (x / x0,)
     return {
-        F_n: FILM * 6 * sp.pi * mu * a**2 * u / x0 * slot_call("film", "resistance", x / x0),
+        F_n: FILM * 6 * sp.pi * mu * a**2 * u / x0 * slot_call("film", "resistance", *film),
+        F_w: VAN_DER_WAALS * slot_call("attraction", "force", x / x0),
         F_c: sp.pi * R * sigma * slot_call("bridge", "force", x / R, volume, contact_angle),
         F_t: SHEAR * 8 * sp.pi * mu * a**2 * (omega - xi) * slot_call("shear", "log_factor", x / x0, x0 / a),
         arm: a * slot_call("arm", "lever", r / a),

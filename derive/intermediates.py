@@ -10,7 +10,8 @@ from .forces import TANGENTIAL, force_laws, scaled_strings
 from .laws import slot_call
 from .laws.base import Definition
 from .laws.strings import offset_squared
-from .mechanics import F_c, F_n, F_t, doublet_inertia, equations_of_motion
+from .mechanics import F_c, F_n, F_t, F_w, doublet_inertia, equations_of_motion
+from .partners import rotation
 from .quantities import a, aspect, gap, m, omega, omega0, orbit, r, spin
 from .scaling import DISTANCE, INERTIA, nondimensional
 from .structure import Structure
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
 FILM_FORCE, BRIDGE_FORCE, SHEAR_FORCE = sp.symbols("film_force bridge_force shear_force", real=True)
 STRING_PULL, STRING_SIDEWAYS, CENTRIFUGAL_FORCE = sp.symbols("string_pull string_sideways centrifugal_force", real=True)
+ATTRACTION_FORCE = sp.Symbol("attraction_force", real=True)
 LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
 
 
@@ -33,9 +35,11 @@ def intermediates(structure: Structure, conserved: Conserved | None = None) -> t
     Arguments:
         conserved: what a reduced structure eliminates the spin with: the invariant found and its value at the start.
     """
-    laws = force_laws()
+    laws = force_laws(structure.spread)
     definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
-    if structure.oblique:
+    if structure.partner:
+        definitions = list(rotation(structure.partner).definitions)
+    elif structure.oblique:
         definitions += _rotation(conserved)
         slip_form = _scaled(laws[F_t], TANGENTIAL)
         definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - spin, SLIP)))
@@ -43,13 +47,15 @@ def intermediates(structure: Structure, conserved: Conserved | None = None) -> t
     definitions.append((FILM_FORCE, _scaled(laws[F_n], INERTIA)))
     if structure.bridge:
         definitions.append((BRIDGE_FORCE, _scaled(laws[F_c], INERTIA)))
+    if structure.attraction:
+        definitions.append((ATTRACTION_FORCE, _scaled(laws[F_w], INERTIA)))
     if structure.strings:
         pull, sideways, swing = scaled_strings(structure.oblique)
         definitions.append((offset_squared, swing))
         definitions.append((STRING_PULL, pull))
         if structure.oblique:
             definitions.append((STRING_SIDEWAYS, sideways))
-    if structure.oblique and not structure.reduced:
+    if structure.oblique and not structure.reduced and not structure.partner:
         definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
     return tuple(definitions)
 

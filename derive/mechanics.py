@@ -17,6 +17,7 @@ from .quantities import t as time
 
 # Generalised forces as the laws define them: attraction and film resist opening, F_t pulls omega and xi together.
 F_n, F_c, F_t, arm = sp.symbols("F_n F_c F_t arm", real=True)
+F_w = sp.Symbol("F_w", real=True)  # another attraction along the line of centres than the bridge's
 S_n, S_t = sp.symbols("S_n S_t", real=True)
 
 
@@ -70,13 +71,13 @@ def kinetic_energy() -> sp.Expr:
 def generalised_forces() -> dict[str, sp.Expr]:
     """Virtual work of the film, the bridge and the strings, coordinate by coordinate.
 
-    On the sphere at +r/2 acts -(F_n + F_c) along the line and -F_t across it, the opposite on the other; the
+    On the sphere at +r/2 acts -(F_n + F_c + F_w) along the line and -F_t across it, the opposite on the other; the
     tangential pair acts at a distance `arm` from either centre and so turns each sphere with F_t arm.
     """
     q = coordinates()
     n = sp.Matrix([sp.cos(q.beta), sp.sin(q.beta)])
     across = sp.Matrix([-sp.sin(q.beta), sp.cos(q.beta)])
-    force = -(F_n + F_c + S_n) * n - (F_t + S_t) * across
+    force = -(F_n + F_c + F_w + S_n) * n - (F_t + S_t) * across
     position = (4 * a + q.x) / 2 * n
     work = {}
     for name, coordinate in (("x", q.x), ("beta", q.beta)):

@@ -26,7 +26,9 @@ from .observables import (
     restitution_ceiling,
     rigid_rotation,
 )
+from .partners import rotation
 from .quantities import (
+    adhesion,
     aspect,
     beta,
     capillary,
@@ -35,9 +37,11 @@ from .quantities import (
     elastic_gap,
     gap,
     glass_number,
+    mass_ratio,
     obliquity,
     opening,
     orbit,
+    radius_ratio,
     rough_gap,
     rupture_gap,
     spin,
@@ -104,12 +108,12 @@ def derive(structure: Structure) -> Model:
 
 def _tethered(structure: Structure) -> bool:
     """Whether the stick proof of `tethered` is about this structure: strings that turn, and a film alone."""
-    return structure.oblique and structure.strings and not structure.bridge
+    return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
 
 
 _GROUP_ORDER = (
-    stokes, aspect, obliquity, capillary, volume, contact_angle, weight, string_ratio,
-    glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
+    stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
+    radius_ratio, mass_ratio, glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
 )  # fmt: skip
 
 
@@ -120,11 +124,13 @@ def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
         NoInvariantError: the full equations do not conserve it.
     """
     invariant = conserved_momentum(derive(replace(structure, reduced=False)), {"arm": LAWS["arm"]["midgap"]})
-    return invariant, invariant.at(start())
+    return invariant, invariant.at(start(structure))
 
 
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
     states = [gap, opening]
+    if structure.partner:
+        return (*states, *rotation(structure.partner).states)
     if structure.oblique:
         states += [orbit] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
     return tuple(states)
@@ -133,8 +139,8 @@ def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
 def _slots(structure: Structure) -> tuple[str, ...]:
     slots = ["film", "glass"]
     if structure.oblique:
-        slots += ["shear"] + ([] if structure.reduced else ["arm"])
-    slots += (["bridge"] if structure.bridge else []) + (["strings"] if structure.strings else [])
+        slots += ["shear"] + ([] if structure.reduced or structure.partner == "wall" else ["arm"])
+    slots += [slot for slot in ("bridge", "strings", "attraction") if getattr(structure, slot)]
     return tuple(slots)
 
 
@@ -166,12 +172,16 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 of_states(resting_rates(structure)),
                 regional=True,
             ),
-            ModelFunction(
-                "turning_rate",
-                "Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).",
-                ((beta.name, turning_rate()),),
-            ),
         ]
+        turning = turning_rate(structure)
+        if turning is not None:
+            functions.append(
+                ModelFunction(
+                    "turning_rate",
+                    "Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).",
+                    ((beta.name, turning),),
+                )
+            )
     functions += [
         ModelFunction(
             "inward_force",
@@ -189,7 +199,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             "State just after a reversal by the solids: u -> -e_dry u, all else continues.",
             of_states(reversal(states)),
         ),
-        ModelFunction("start", "State at first touch.", of_states(start())),
+        ModelFunction("start", "State at first touch.", of_states(start(structure))),
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
         ModelFunction(
             "energy_rates",
@@ -203,12 +213,13 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             (("dry_contact", reversal_loss()),),
         ),
     ]
-    if structure.oblique and not structure.reduced:
+    momentum = angular_momentum(structure) if structure.oblique and not structure.reduced else None
+    if momentum is not None:
         functions.append(
             ModelFunction(
                 "angular_momentum",
                 "Angular momentum over its start value.",
-                (("angular_momentum", angular_momentum()),),
+                (("angular_momentum", momentum),),
             )
         )
     functions.append(
@@ -242,12 +253,20 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 of_states(rigid_rotation(structure)),
             )
         )
-    if not structure.strings:
+    if structure.partner == "wall":  # what moves along the wall never comes to help
+        functions.append(
+            ModelFunction(
+                "escape_energy",
+                "Energy over m v0^2 of the motion along the line of centres, which alone can part the two.",
+                (("kinetic", opening**2 / 2),),
+            )
+        )
+    if not structure.strings and not structure.partner:
         functions.append(
             ModelFunction(
                 "restitution_ceiling",
                 "Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; "
-                "the bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.",
+                "the work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.",
                 tuple(restitution_ceiling(structure).items()),
             )
         )

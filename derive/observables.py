@@ -7,6 +7,7 @@ import sympy as sp
 from .events import start
 from .forces import TANGENTIAL
 from .intermediates import (
+    ATTRACTION_FORCE,
     BRIDGE_FORCE,
     FILM_FORCE,
     INERTIA_RATIO,
@@ -21,6 +22,7 @@ from .invariants import angular_momentum as angular_momentum_invariant
 from .laws import slot_call
 from .laws.strings import offset_squared
 from .mechanics import doublet_inertia, equations_of_motion
+from .partners import rotation
 from .quantities import a, aspect, g, gap, m, omega, omega0, opening, orbit, r, spin, string_ratio, v0, x, x0, xi
 from .scaling import DISTANCE, nondimensional
 from .structure import Structure
@@ -35,6 +37,8 @@ def energies(structure: Structure) -> dict[str, sp.Expr]:
 
 
 def _kinetic(structure: Structure) -> sp.Expr:
+    if structure.partner:
+        return opening**2 / 2 + rotation(structure.partner).kinetic
     energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
     if not structure.oblique:
         energy = energy.subs({omega: 0, xi: 0})
@@ -57,20 +61,28 @@ def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
     taken = {"normal_lubrication": FILM_FORCE * opening}
     if structure.bridge:
         taken["capillary"] = BRIDGE_FORCE * opening
-    if structure.oblique and not structure.reduced:
+    if structure.attraction:
+        taken["attraction"] = ATTRACTION_FORCE * opening
+    if structure.partner:
+        taken["tangential_lubrication"] = rotation(structure.partner).power
+    elif structure.oblique and not structure.reduced:
         power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * omega0 * ORBITAL_RATE - 2 * a * LEVER * xi)
         taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
     return taken
 
 
-def angular_momentum() -> sp.Expr:
-    """Angular momentum over its start value."""
+def angular_momentum(structure: Structure) -> sp.Expr | None:
+    """Angular momentum over its start value; None where there is none to be conserved."""
+    if structure.partner:
+        return rotation(structure.partner).momentum
     return MOMENTUM / (4 + aspect) ** 2
 
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
     """What a separated doublet shows: restitutions, and rates over omega0."""
     shown: dict[str, sp.Expr] = {"restitution": opening}
+    if structure.partner:
+        return shown | dict(rotation(structure.partner).outputs)
     if structure.oblique:
         shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / (4 + aspect)
         shown["final_rotation_rate"] = ORBITAL_RATE
@@ -81,13 +93,17 @@ def outputs(structure: Structure) -> dict[str, sp.Expr]:
 def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
     """Pieces of the stick certificate: least energy at a gap for the state's angular momentum, and its slope."""
     energy, slope = sp.Integer(0), sp.Integer(0)
-    if structure.oblique:
+    if structure.partner:
+        energy, slope = rotation(structure.partner).least
+    elif structure.oblique:
         square = (m * a**2 * omega0 * MOMENTUM) ** 2
         energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
         body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
         slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
     if structure.bridge:
         slope += BRIDGE_FORCE
+    if structure.attraction:
+        slope += ATTRACTION_FORCE
     if structure.strings:
         energy += _lifted()
         slope += STRING_PULL
@@ -96,6 +112,8 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
 
 def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
+    if structure.partner:
+        return {gap: gap, opening: sp.Integer(0), **rotation(structure.partner).rigid}
     rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
     return {gap: gap, opening: sp.Integer(0), orbit: DISTANCE**2 * rate, spin: rate}
 
@@ -105,10 +123,11 @@ def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
 
     Twice the energy at the start less the least rotational energy at this gap for the L of the start.
     """
-    at_start = {ORBITAL_RATE: start()[orbit] / DISTANCE**2, opening: start()[opening], spin: start()[spin]}
+    first = start(structure)
+    at_start = {ORBITAL_RATE: first[orbit] / DISTANCE**2, opening: first[opening], spin: first[spin]}
     initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + aspect)
     least = sp.Integer(0)
     if structure.oblique:
-        momentum = (m * a**2 * omega0 * angular_momentum_invariant().subs(start())) ** 2
+        momentum = (m * a**2 * omega0 * angular_momentum_invariant().subs(first)) ** 2
         least = nondimensional(momentum / (2 * m * a**2) / (m * v0**2)) / INERTIA_RATIO
     return {"squared": 2 * initial - 2 * least}

@@ -14,6 +14,8 @@ import sympy as sp
 from .dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, RATE, SPEED, TIME, Dimension
 
 PAPER = "Donahue et al. 2012"
+HAMAKER = "Hamaker 1937"
+PAIR = "two unequal spheres, or a wall"
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,7 @@ x0 = _quantity("film_thickness", "x_0", LENGTH, "m", "film thickness: the gap at
 p_gt = _quantity("glass_transition_pressure", "p_{gt}", PRESSURE, "Pa", "glass-transition pressure of the liquid")
 rho = _quantity("density", r"\rho", MASS / LENGTH**3, "kg/m^3", "density of the liquid")
 sigma = _quantity("surface_tension", r"\sigma", FORCE / LENGTH, "N/m", "surface tension of the liquid")
+A_H = _quantity("hamaker", "A_H", FORCE * LENGTH, "J", "Hamaker constant of the spheres across the liquid", HAMAKER)
 l_s = _quantity("string_length", "l", LENGTH, "m", "length of the pendulum strings")
 g = _quantity("gravity", "g", LENGTH / TIME**2, "m/s^2", "gravitational acceleration")
 v0 = _quantity("speed", "v_{n,0}", SPEED, "m/s", "normal approach speed at first touch")
@@ -73,14 +76,44 @@ x = _quantity("separation", "x", LENGTH, "m", "gap between the surfaces")
 u = _quantity("separation_rate", "u", SPEED, "m/s", "opening velocity dx/dt, negative on approach", real=True)
 omega = _quantity("rotation_rate", r"\omega", RATE, "rad/s", "angular velocity of the line of centres", real=True)
 xi = _quantity("spin_rate", r"\xi", RATE, "rad/s", "angular velocity of each sphere about its own centre", real=True)
+partner_spin_rate = _quantity(
+    "partner_spin_rate",
+    r"\xi_2",
+    RATE,
+    "rad/s",
+    "angular velocity of the partner about its own centre",
+    PAIR,
+    real=True,
+)
+slide_rate = _quantity("slide_rate", "v", SPEED, "m/s", "velocity of the sphere's centre along a wall", PAIR, real=True)
 beta = _quantity("rotation", r"\beta", ONE, "rad", "angle turned by the line of centres", real=True)
 omega0 = _quantity("initial_rate", r"\omega_0", RATE, "rad/s", "initial angular velocity, v0 tan(theta0)/(4a)")
+
+pair_rate = _quantity(
+    "initial_rate_pair",
+    r"\omega_{0,p}",
+    RATE,
+    "rad/s",
+    "initial angular velocity of a pair, v0 tan(theta0)/(R1 + R2)",
+    PAIR,
+)
+wall_rate = _quantity(
+    "initial_rate_wall", r"\xi_0", RATE, "rad/s", "scale of the spin beside a wall, v0 tan(theta0)/a", PAIR
+)
+attraction = _quantity("attraction_force", "F", FORCE, "N", "all that attracts, at a gap: bridge and van der Waals")
 
 # Dimensionless states: gap by x0, velocities by v0, angular velocities by omega0, time by x0/v0
 gap = _quantity("gap", "s", ONE, "x0", "gap over film thickness")
 opening = _quantity("opening", "w", ONE, "v0", "opening velocity over impact speed, negative on approach", real=True)
 orbit = _quantity("orbit", "J", ONE, "a^2 omega0", "orbital angular momentum r^2 omega over a^2 omega0", real=True)
 spin = _quantity("spin", r"\hat\xi", ONE, "omega0", "spin of each sphere over omega0", real=True)
+partner_spin = _quantity(
+    "partner_spin", r"\hat\xi_2", ONE, "omega0", "spin of the partner over omega0", PAIR, real=True
+)
+slide = _quantity(
+    "slide", r"\hat v", ONE, "v0 tan(theta0)", "tangential velocity of centre and wall over its first", PAIR, real=True
+)
+roll = _quantity("roll", r"\hat\xi_w", ONE, "v0 tan(theta0)/a", "spin beside a wall", PAIR, real=True)
 
 # Dimensionless groups
 stokes = _quantity("stokes", "St", ONE, "1", "Stokes number m v0/(6 pi mu a^2)")
@@ -90,10 +123,22 @@ reynolds = _quantity("reynolds", "Re", ONE, "1", "film Reynolds number rho v0 x0
 aspect = _quantity("aspect", r"\varepsilon", ONE, "1", "film thickness over reduced radius, x0/a")
 obliquity = _quantity("obliquity", r"\tan\theta_0", ONE, "1", "tangent of the impact angle", nonnegative=True)
 glass_number = _quantity("glass_number", r"\Pi_{gt}", ONE, "1", "glass-transition pressure over 3 mu a v0/x0^2")
+radius_ratio = _quantity("radius_ratio", r"\lambda", ONE, "1", "radius of the partner over that of the sphere", PAIR)
+mass_ratio = _quantity("mass_ratio", r"\kappa", ONE, "1", "mass of the partner over that of the sphere", PAIR)
 volume = _quantity("volume", "V", ONE, "1", "bridge volume over R^3 (constant)")
 contact_angle = _quantity(
     "contact_angle", r"\phi", ONE, "rad", "contact angle of the liquid on the sphere", nonnegative=True
 )
+pair_centrifugal = _quantity(
+    "centrifugal_pair", "Ce_p", ONE, "1", "centrifugal number of an unequal pair", PAIR, nonnegative=True
+)
+cohesive_centrifugal = _quantity(
+    "generalised_centrifugal", "Ce_F", ONE, "1", "generalised centrifugal number m omega0^2 a/F", nonnegative=True
+)
+adhesion = _quantity(
+    "adhesion", "Ad", ONE, "1", "van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)", HAMAKER,
+    nonnegative=True,
+)  # fmt: skip
 weight = _quantity("weight", r"g x_0/v_0^2", ONE, "1", "gravity over impact deceleration, g x0/v0^2")
 string_ratio = _quantity("string_ratio", "l/a", ONE, "1", "string length over reduced radius")
 elastic_gap = _quantity("elastic_gap", "x_r/x_0", ONE, "x0", "elastic length over film thickness", nonnegative=True)

@@ -8,6 +8,7 @@ import sympy as sp
 
 from .forces import TANGENTIAL
 from .intermediates import (
+    ATTRACTION_FORCE,
     BRIDGE_FORCE,
     CENTRIFUGAL_FORCE,
     FILM_FORCE,
@@ -17,7 +18,8 @@ from .intermediates import (
     STRING_SIDEWAYS,
     by_orbital_rate,
 )
-from .mechanics import F_c, F_n, F_t, S_n, S_t, arm, equations_of_motion
+from .mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, equations_of_motion
+from .partners import rotation
 from .quantities import a, beta, gap, m, omega, omega0, opening, orbit, r, spin, u, v0, x0
 from .scaling import INERTIA, nondimensional
 from .structure import Structure
@@ -30,6 +32,7 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     named = {
         F_n: FILM_FORCE,
         F_c: BRIDGE_FORCE if structure.bridge else 0,
+        F_w: ATTRACTION_FORCE if structure.attraction else 0,
         S_n: STRING_PULL if structure.strings else 0,
     }
     named_tangential = {F_t: SHEAR_FORCE, S_t: STRING_SIDEWAYS if structure.strings else 0}
@@ -40,6 +43,10 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     if not structure.oblique:
         rate[opening] = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
         return rate
+    if structure.partner:
+        beside = rotation(structure.partner)
+        forces = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+        return rate | {opening: beside.centrifugal + forces} | dict(beside.rates)
     # the centrifugal term is named: what is left is minus the forces
     centrifugal = sp.expand(acceleration - acceleration.subs(omega, 0))
     assert sp.expand(centrifugal - r * omega**2) == 0
@@ -59,8 +66,10 @@ def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     return {**rates(structure), gap: sp.Integer(0), opening: sp.Integer(0)}
 
 
-def turning_rate() -> sp.Expr:
-    """Rate of the angle turned by the line of centres."""
+def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
+    """Rate of the angle turned by the line of centres; None if it cannot turn."""
+    if structure is not None and structure.partner:
+        return rotation(structure.partner).turning
     return by_orbital_rate(nondimensional(omega * x0 / v0))
 
 

@@ -11,16 +11,21 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .laws.attraction import van_der_waals_force
 from .laws.reversal import elastic_length
 from .laws.rupture import rupture_distance
 from .laws.start import initial_rate
 from .quantities import (
+    A_H,
     DIMENSIONS,
     R,
     a,
+    adhesion,
     aspect,
+    attraction,
     capillary,
     centrifugal,
+    cohesive_centrifugal,
     elastic_gap,
     g,
     gap,
@@ -34,7 +39,12 @@ from .quantities import (
     opening,
     orbit,
     p_gt,
+    pair_centrifugal,
+    pair_rate,
+    partner_spin,
+    partner_spin_rate,
     r,
+    radius_ratio,
     reynolds,
     rho,
     rough_gap,
@@ -46,6 +56,7 @@ from .quantities import (
     theta0,
     u,
     v0,
+    wall_rate,
     weight,
     x,
     x0,
@@ -78,6 +89,7 @@ INERTIA = m * v0**2 / x0  # m du/dt
 VISCOUS = 6 * sp.pi * mu * a**2 * v0 / x0  # F_n
 CAPILLARY = sp.pi * R * sigma  # F_c
 CENTRIFUGAL = m * a * omega0**2  # m r omega^2
+VAN_DER_WAALS = van_der_waals_force().subs(x, x0)  # F_w at first touch
 LUBRICATION_PRESSURE = 3 * mu * a * v0 / x0**2
 
 
@@ -88,6 +100,7 @@ def group_definitions() -> dict[sp.Symbol, sp.Expr]:
         stokes: INERTIA / VISCOUS,
         capillary: VISCOUS / CAPILLARY,
         centrifugal: (CENTRIFUGAL / (a * sigma)).subs(omega0, initial_rate()),
+        adhesion: VAN_DER_WAALS / VISCOUS,
         reynolds: rho * v0 * x0 / mu,
         aspect: x0 / a,
         obliquity: sp.tan(theta0),
@@ -103,12 +116,37 @@ def group_definitions() -> dict[sp.Symbol, sp.Expr]:
 @cache
 def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
     """Scales that are not themselves quantities of a scene."""
-    return {omega0: initial_rate()}
+    from .partners.bodies import centres  # which builds on this module's neighbours
+
+    apart = centres() * a
+    per_pair = v0 * sp.tan(theta0) / apart
+    return {
+        omega0: initial_rate(),
+        pair_rate: per_pair,
+        wall_rate: sp.limit(per_pair * apart / a, radius_ratio, sp.oo),
+        pair_centrifugal: m * per_pair**2 / sigma,
+        cohesive_centrifugal: generalised_centrifugal(attraction),
+    }
+
+
+def generalised_centrifugal(force: sp.Expr) -> sp.Expr:
+    """Ce_F = m omega0^2 a/F: the centrifugal force's scale over an attraction F, whatever law that follows.
+
+    The paper's Ce = m omega0^2/sigma is this with F = a sigma, so for the constant bridge Ce_F = Ce/(4 pi cos(phi)).
+    """
+    return CENTRIFUGAL / force
+
+
+EQUAL = sp.Integer(4)  # centre distance at contact over a, of equal spheres
 
 
 @cache
-def to_groups() -> dict[sp.Symbol, sp.Expr]:
-    """SI quantities in terms of groups, a, v0 and mu (which must cancel from every dimensionless expression)."""
+def to_groups(centres: sp.Expr = EQUAL) -> dict[sp.Symbol, sp.Expr]:
+    """SI quantities in terms of groups, a, v0 and mu (which must cancel from every dimensionless expression).
+
+    Arguments:
+        centres: the centre distance at contact over a.
+    """
     film = aspect * a
     definitions = group_definitions()
 
@@ -122,12 +160,14 @@ def to_groups() -> dict[sp.Symbol, sp.Expr]:
         sigma: solved(capillary, sigma),
         p_gt: solved(glass_number, p_gt),
         g: solved(weight, g).subs(m, mass),
+        A_H: solved(adhesion, A_H),
         l_s: solved(string_ratio, l_s),
-        omega0: v0 * obliquity / (4 * a),
+        omega0: v0 * obliquity / (centres * a),
         x: film * gap,
         u: v0 * opening,
         omega: omega0 * orbit / DISTANCE**2,
         xi: omega0 * spin,
+        partner_spin_rate: omega0 * partner_spin,
     }
 
 
@@ -136,16 +176,19 @@ class ScalingError(ValueError):
 
 
 @cache
-def nondimensional(expression: sp.Expr) -> sp.Expr:
+def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
     """A dimensionless SI expression in states and groups: arguments of laws in the gap, all else in r/a.
+
+    Arguments:
+        centres: the centre distance at contact over a.
 
     Raises:
         ScalingError: a dimensional quantity is left over; the message names it.
     """
-    rules = to_groups()
+    rules = to_groups(centres)
     calls = {node: _substituted(node, rules) for node in expression.atoms(AppliedUndef)}
     body = sp.sympify(expression).xreplace(calls)
-    result = sp.simplify(_substituted(body, {**rules, x: a * (DISTANCE - 4)}))
+    result = sp.simplify(_substituted(body, {**rules, x: a * (DISTANCE - centres)}))
     left = sorted(s.name for s in result.free_symbols if s in DIMENSIONS and any(DIMENSIONS[s].exponents))
     if left:
         raise ScalingError(f"{', '.join(left)} did not cancel from {expression}")

@@ -373,7 +373,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
-    bridge's work is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+    work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
 
     Total operations: 18
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 9f8f3e863d23bc450ee5011432afc0ee2e84fd7e613815134e4e5bd5146ab6b7
+# Equations sha256 96918df81499d1e64bb7aa21105484fda70a97679cfe9d72868f5c8150535b6c
 """Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.
 
 A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order.
@@ -16,6 +16,7 @@ ARGUMENTS: dict[str, tuple[str, ...]] = {
     "stokes": ("reduced_radius", "reduced_mass", "viscosity", "speed"),
     "capillary": ("reduced_radius", "viscosity", "film_thickness", "surface_tension", "speed"),
     "centrifugal": ("reduced_radius", "reduced_mass", "surface_tension", "speed", "angle"),
+    "adhesion": ("reduced_radius", "viscosity", "film_thickness", "hamaker", "speed"),
     "reynolds": ("viscosity", "film_thickness", "density", "speed"),
     "aspect": ("reduced_radius", "film_thickness"),
     "obliquity": ("angle",),
@@ -26,6 +27,10 @@ ARGUMENTS: dict[str, tuple[str, ...]] = {
     "rough_gap": ("roughness", "film_thickness"),
     "rupture_gap": ("reduced_radius", "film_thickness", "volume", "contact_angle"),
     "initial_rate": ("reduced_radius", "speed", "angle"),
+    "initial_rate_pair": ("reduced_radius", "speed", "angle", "radius_ratio"),
+    "initial_rate_wall": ("reduced_radius", "speed", "angle"),
+    "centrifugal_pair": ("reduced_radius", "reduced_mass", "surface_tension", "speed", "angle", "radius_ratio"),
+    "generalised_centrifugal": ("reduced_radius", "reduced_mass", "initial_rate", "attraction_force"),
 }
 
 
@@ -62,6 +67,18 @@ def centrifugal(reduced_radius: Any, reduced_mass: Any, surface_tension: Any, sp
     - angle [rad]: impact angle, 0 head-on
     """
     return reduced_mass*speed**2*tan(angle)**2/(16*reduced_radius**2*surface_tension)
+
+
+def adhesion(reduced_radius: Any, viscosity: Any, film_thickness: Any, hamaker: Any, speed: Any) -> Any:
+    """van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a) [1].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - viscosity [Pa s]: viscosity of the liquid
+    - film_thickness [m]: film thickness: the gap at first touch
+    - hamaker [J]: Hamaker constant of the spheres across the liquid
+    - speed [m/s]: normal approach speed at first touch
+    """
+    return hamaker/(36*pi*film_thickness*reduced_radius*speed*viscosity)
 
 
 def reynolds(viscosity: Any, film_thickness: Any, density: Any, speed: Any) -> Any:
@@ -164,3 +181,48 @@ def initial_rate(reduced_radius: Any, speed: Any, angle: Any) -> Any:
     - angle [rad]: impact angle, 0 head-on
     """
     return speed*tan(angle)/(4*reduced_radius)
+
+
+def initial_rate_pair(reduced_radius: Any, speed: Any, angle: Any, radius_ratio: Any) -> Any:
+    """initial angular velocity of a pair, v0 tan(theta0)/(R1 + R2) [rad/s].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at first touch
+    - angle [rad]: impact angle, 0 head-on
+    - radius_ratio [1]: radius of the partner over that of the sphere
+    """
+    return radius_ratio*speed*tan(angle)/(reduced_radius*(radius_ratio + 1)**2)
+
+
+def initial_rate_wall(reduced_radius: Any, speed: Any, angle: Any) -> Any:
+    """scale of the spin beside a wall, v0 tan(theta0)/a [rad/s].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at first touch
+    - angle [rad]: impact angle, 0 head-on
+    """
+    return speed*tan(angle)/reduced_radius
+
+
+def centrifugal_pair(reduced_radius: Any, reduced_mass: Any, surface_tension: Any, speed: Any, angle: Any, radius_ratio: Any) -> Any:
+    """centrifugal number of an unequal pair [1].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - reduced_mass [kg]: reduced mass, M/2 for equal spheres
+    - surface_tension [N/m]: surface tension of the liquid
+    - speed [m/s]: normal approach speed at first touch
+    - angle [rad]: impact angle, 0 head-on
+    - radius_ratio [1]: radius of the partner over that of the sphere
+    """
+    return radius_ratio**2*reduced_mass*speed**2*tan(angle)**2/(reduced_radius**2*surface_tension*(radius_ratio + 1)**4)
+
+
+def generalised_centrifugal(reduced_radius: Any, reduced_mass: Any, initial_rate: Any, attraction_force: Any) -> Any:
+    """generalised centrifugal number m omega0^2 a/F [1].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - reduced_mass [kg]: reduced mass, M/2 for equal spheres
+    - initial_rate [rad/s]: initial angular velocity, v0 tan(theta0)/(4a)
+    - attraction_force [N]: all that attracts, at a gap: bridge and van der Waals
+    """
+    return initial_rate**2*reduced_mass*reduced_radius/attraction_force

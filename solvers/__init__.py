@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .bounds import Boundaries, boundary
-    from .errors import CheckFailed, ComputationError, InputError, WetDoubletError
+    from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .many import collide_many
     from .regime_map import regime_map
     from .result import Collision
@@ -23,6 +23,7 @@ _HOMES = {
     "Collision": "result",
     "ComputationError": "errors",
     "InputError": "errors",
+    "ModelWarning": "errors",
     "Scene": "scene",
     "WetDoubletError": "errors",
     "boundary": "bounds",
@@ -37,6 +38,7 @@ __all__ = [
     "Collision",
     "ComputationError",
     "InputError",
+    "ModelWarning",
     "Scene",
     "WetDoubletError",
     "boundary",

@@ -21,6 +21,7 @@ from .probe import Line
 from .requests import checked_numbers
 from .scene import Scene
 from .settings import RTOL, check_rtol
+from .validity import warn
 
 STOKES = (1e-4, 100.0)
 SHARPEST = 1e-13
@@ -107,6 +108,7 @@ def boundary(
     if not low < high:
         raise InputError("stokes", f"{low}:{high}", "LO:HI with LO below HI", "is not ascending")
     rtol = check_rtol(rtol)
+    warn(loaded)
     order = np.argsort(angles, kind="stable")
     cores = min(os.cpu_count() or 1, max(1, angles.size // 30))  # each part starts with a scan of its own
     parts = np.array_split(angles[order], cores)

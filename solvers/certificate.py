@@ -1,9 +1,10 @@
 """Proofs that a doublet never separates, so that a flight can end as soon as its outcome is decided.
 
-With a bridge (or head-on, strings): mechanical energy never increases and angular momentum is conserved, so energy
+With an attraction (or head-on, strings): mechanical energy never increases and angular momentum is conserved, so energy
 below the barrier of the effective potential U_eff = L^2/(2 I) + W_c (+ U_s) on the far side cannot be made up for.
-Head-on with a film alone: the film's momentum integral decides. On strings, turning: the strings outweigh the
-centrifugal force for good, and the film stops every rebound (derive/tethered.py).
+Head-on with a film alone: the film's momentum integral decides. Beside a wall all is as head-on: nothing turns. On
+strings, turning: the strings outweigh the centrifugal force for good, and the film stops every rebound
+(derive/tethered.py).
 """
 
 from __future__ import annotations
@@ -26,12 +27,10 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 class Proof(Protocol):
-    """What a flight asks of a proof. `y` is the locating state: the model's states, then the capillary work."""
+    """What a flight asks of a proof. `y` is the locating state: the model's states, then works against attractions."""
 
     theorem: bool  # a stick found by it is proved, not only certain for practical purposes
-    watches: (
-        str | None
-    )  # what a flight watches for it (`Watch.certificate`); by "energy", `y` carries the capillary work
+    watches: str | None  # what a flight watches for (`Watch.certificate`); by "energy", `y` carries the works
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         """What is watched for: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the
@@ -76,17 +75,30 @@ class FilmProof:
         gap, opening = float(y[0]), float(y[1])
         if phase.resting:
             return True
-        if phase.motion != CLOSING:  # u falls by the film's integral up to its surface, x = x0
-            loss = self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
-            return bool(opening - loss < -self.margin)
+        if phase.motion != CLOSING:
+            return self.held(gap, opening)
         # closing: neither the solids nor the glass pressure are met before the film stops the motion
         grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
-        speed = -opening + self._momentum_loss(grid)  # losses are negative along a falling gap
+        speed = self.slowed(-opening, grid)
         if speed[-1] > -self.margin:
             return False
         # along a panel the speed falls and the pressure per speed rises: its ends bound the pressure from above
-        fastest, nearest = np.maximum(speed[:-1], 0.0), grid[1:]
-        clearance = np.asarray(_glass(self.model)(np.vstack([nearest, -fastest]), self.p).full())
+        return self.clear(grid[1:], np.maximum(speed[:-1], 0.0))
+
+    def held(self, gap: float, opening: float) -> bool:
+        """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""
+        loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
+        return bool(opening - loss < -self.margin)
+
+    def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
+        """Closing speed along a falling gap; losses are negative there. Below zero: it has been stopped before."""
+        found: np.ndarray = speed + self._momentum_loss(grid)
+        return found
+
+    def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
+        """Whether no glass pressure is met at these gaps and closing speeds."""
+        beside = np.zeros((len(self.model.state) - 2, gaps.size))  # what moves across the line of centres
+        clearance = np.asarray(_glass(self.model)(np.vstack([gaps, -speeds, beside]), self.p).full())
         return bool(np.min(clearance) > self.margin * self.glass)
 
     def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
@@ -132,7 +144,7 @@ class BarrierProof:
         self.model, self.p, self.rtol = model, p, rtol
         self.groups = dict(zip(model.groups, p, strict=True))
         self.theorem = model.choice.law("arm") != "surface"
-        self._largest = float(sum(model.values("energies", model.start(p), p).values()))
+        self._largest = float(sum(model.values(model.escape, model.start(p), p).values()))
         self._known: tuple[float, tuple[Barrier, ...]] | None = None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
@@ -148,15 +160,15 @@ class BarrierProof:
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        if phase.resting and not self.model.oblique:
-            return True  # nothing moves, and the force is inward
+        if phase.resting and (not self.model.oblique or self.model.wall):
+            return True  # nothing moves that could part them, and the force is inward
         level = self._level(y, phase, _SAFETY)
         return level is not None and self.energy(y) < level
 
     def energy(self, y: np.ndarray) -> float:
         """Mechanical energy over m v0^2."""
-        work = float(y[-1]) if self.model.bridge else 0.0
-        return float(sum(self.model.values("energies", y, self.p).values())) + work
+        work = sum(y[y.size - len(self.model.works) :])
+        return float(sum(self.model.values(self.model.escape, y, self.p).values()) + work)
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
@@ -263,13 +275,60 @@ def _integrable(model: Model) -> bool:
     return hasattr(model.laws.film, "stopping") and hasattr(model.laws.glass, "reach")
 
 
+class AttractedProof(BarrierProof):
+    """Head-on or beside a wall, film and attraction without a bridge: energy, or the film that stops the approach.
+
+    An attraction too weak to show in the energy still holds what the film has stopped. What would close at w under
+    the film alone closes at most at w + g with the attraction, g^2/2 being its work from x = x0 on: where v = w + g,
+    v >= g, so v grows no faster than w + g does. If w vanishes before the solids are met and w + g meets no glass
+    pressure, the solids are met at no more than g, and e_dry <= 1 gives back less than it takes to get to x0.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        super().__init__(model, p, rtol)
+        self._film = FilmProof(model, p, rtol)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return super().decided(y, phase) or (not phase.resting and self._stopped(y, phase))
+
+    def _stopped(self, y: np.ndarray, phase: Phase) -> bool:
+        film, gap, opening = self._film, float(y[0]), float(y[1])
+        grid = np.geomspace(gap, max(film.contact, gap * np.exp(-100.0)), 801)
+        if phase.motion == CLOSING:
+            speed = film.slowed(-opening, grid)
+            if speed[-1] > -film.margin:
+                return False
+        else:
+            if not film.held(gap, opening):
+                return False
+            speed = np.zeros(grid.size)
+        work = self._fallen(np.geomspace(1.0, gap, 65))[-1] + self._fallen(grid)
+        fastest = np.maximum(speed[:-1], 0.0) + np.sqrt(2 * work[1:])
+        if phase.motion != CLOSING:  # it may rise up to x0 before it falls
+            grid = np.geomspace(1.0, grid[-1], 801)
+            fastest = np.sqrt(2 * self._fallen(grid)[1:])
+        return film.clear(grid[1:], fastest)
+
+    def _fallen(self, grid: np.ndarray) -> np.ndarray:
+        """Work of the attraction from the first gap on, cumulative; the slope of the potential is nothing else here."""
+        low, high = grid[:-1], grid[1:]
+        nodes = low + np.outer(_NODES + 1, high - low) / 2
+        still = np.zeros(len(self.model.state))
+        pull = self._slope(nodes.ravel(), still).reshape(nodes.shape)
+        works: np.ndarray = np.concatenate([[0.0], np.cumsum((_WEIGHTS @ pull) * (low - high) / 2)])
+        return works
+
+
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
     if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
         return TetherProof(model, p, rtol)
-    if model.oblique and (model.strings or not model.bridge):
+    turning = model.oblique and not model.wall
+    if turning and (model.strings or not model.works):
         return NoProof()
-    if model.bridge or model.strings:
+    if model.works == ("attraction",) and not turning and not model.strings:
+        return AttractedProof(model, p, rtol)
+    if model.works or model.strings:
         return BarrierProof(model, p, rtol)
     if any(str(symbol) in model.state for symbol in model.extra("film", "resistance")):
         return NoProof()  # a film whose force is not proportional to u has no momentum integral

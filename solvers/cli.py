@@ -6,6 +6,7 @@ import logging
 import os
 import sys
 import traceback
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import Any
 
 import click
 
-from .errors import InputError, WetDoubletError, did_you_mean
+from .errors import InputError, ModelWarning, WetDoubletError, did_you_mean, one_line
 
 COMMANDS = ("scenes", "collide", "map", "boundary", "reproduce", "generate", "diff", "export", "verify", "bench")
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
@@ -74,7 +75,10 @@ class Commands(click.Group):
         arguments = list(sys.argv[1:] if args is None else args)
         extra["standalone_mode"] = False
         try:
-            status = super().main(arguments, prog_name or "wetdoublet", **extra)
+            with warnings.catch_warnings():
+                warnings.simplefilter("always", ModelWarning)
+                warnings.showwarning = _remark  # type: ignore[assignment]  # of its arguments two are of use
+                status = super().main(arguments, prog_name or "wetdoublet", **extra)
         except WetDoubletError as error:
             status = _report(str(error), error.exit_status, error, arguments)
         except click.UsageError as error:
@@ -97,6 +101,12 @@ def _settle_streams() -> None:
             setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 # open to the end
     # it warns of a home that cannot be written, where it works from a temporary folder, and of slow fonts
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+
+def _remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
+    """A warning as one line on standard error."""
+    said = "warning" if category is ModelWarning else category.__name__
+    click.echo(f"{said}: {one_line(str(message))}", err=True)
 
 
 def _report(line: str, status: int, error: BaseException, arguments: list[str]) -> int:

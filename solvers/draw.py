@@ -115,7 +115,7 @@ def _note(collision: Collision, pictures: Sequence[Frame]) -> str:
 def _caption(frame: Frame, collision: Collision, latest: float) -> str:
     factor, unit = prefix(latest)
     time = "first touch" if frame.time == 0 else f"{_short(frame.time / factor)} {_micro(unit + 's')}"
-    turned = f"\nβ = {_short(math.degrees(frame.angle))}°" if collision.angle else ""
+    turned = f"\nβ = {_short(math.degrees(frame.angle))}°" if collision.angle and not frame.wall else ""
     return f"{time}{turned}" + ("\napart" if frame.free else "")
 
 
@@ -135,7 +135,7 @@ def _time_panels(figure: Figure, place: Any, collision: Collision, rows: int, pi
     for row, letter in ((0, "a"), (2, "b")):
         if row < rows:
             _letter(panels[0][row], letter, -46)
-    if rows == 4:
+    if rows == 4 and not collision.scene.wall:
         shown = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
         whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
 
@@ -167,11 +167,19 @@ def _fill(column: Column, collision: Collision, rows: int, last: bool) -> None:
     if rows == 4:
         rates, angle = column.panels[2:]
         rates.plot(time, data["rotation_rate"], color=GREEN, label="ω, line of centres")
-        rates.plot(time, data["spin"], color=PURPLE, linestyle=(0, (5, 1.5)), label="ξ, each sphere")
+        pair = "spin_partner" in data
+        label = "ξ, sphere" if pair or collision.scene.wall else "ξ, each sphere"
+        rates.plot(time, data["spin"], color=PURPLE, linestyle=(0, (5, 1.5)), label=label)
+        if pair:
+            rates.plot(time, data["spin_partner"], color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner")
         rates.axhline(0, color=GREY, linewidth=0.6)
         rates.set_ylabel("rotation\nrates (rad/s)")
-        angle.plot(time, np.degrees(data["rotation"]), color=INK)
-        angle.set_ylabel("angle β (deg)")
+        if "sliding_velocity" in data:  # beside a wall nothing turns
+            angle.plot(time, data["sliding_velocity"], color=INK)
+            angle.set_ylabel("sliding\nvelocity (m/s)")
+        else:
+            angle.plot(time, np.degrees(data["rotation"]), color=INK)
+            angle.set_ylabel("angle β (deg)")
     margin = 0.02 * (column.end - column.start) / factor
     for panel in column.panels:
         after = 0.2 * margin if column.title == "approach" else margin

@@ -46,6 +46,10 @@ class WetDoubletError(Exception):
     exit_status: ClassVar[int] = 1
 
 
+class ModelWarning(UserWarning):
+    """A law is used outside the range that it was made for; the result is what the law says there."""
+
+
 class InputError(WetDoubletError, ValueError):
     """Bad input: `FIELD: VALUE problem; accepted: ...`.
 

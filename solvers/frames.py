@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle, FancyArrowPatch, Polygon
+from matplotlib.patches import Circle, FancyArrowPatch, Polygon, Rectangle
 
 from .result import Collision
 from .scene import Scene
@@ -29,7 +29,11 @@ class Frame:
     Arguments:
         gap: between the surfaces.
         angle: of the line of centres, counter-clockwise from that at first touch.
-        turned: angle by which each sphere has turned.
+        turned: angle by which the first sphere has turned.
+        radius: of the first sphere.
+        partner: radius of the second; infinite for a wall.
+        partner_turned: angle by which that has turned.
+        share: part of the distance between the centres that the first is away from the centre of mass.
         relative: velocity of the second sphere relative to the first; None where it is not shown.
         free: after rupture, drawn on along straight lines.
     """
@@ -41,30 +45,48 @@ class Frame:
     radius: float
     relative: Vector | None = None
     free: bool = False
+    partner: float = 0.0  # as the first, unless given
+    partner_turned: float | None = None
+    share: float = 0.5
+
+    @property
+    def wall(self) -> bool:
+        return math.isinf(self.partner)
+
+    @property
+    def radii(self) -> Vector:
+        return self.radius, self.partner or self.radius
 
     @property
     def distance(self) -> float:
-        """Distance between the centres, 4a + x."""
-        return 2 * self.radius + self.gap
+        """Distance between the centres, R_1 + R_2 + x; beside a wall, from the first's to the wall."""
+        return self.radius + self.gap if self.wall else sum(self.radii) + self.gap
 
     @property
     def centres(self) -> tuple[Vector, Vector]:
-        x, y = 0.5 * self.distance * math.cos(self.angle), 0.5 * self.distance * math.sin(self.angle)
-        return (-x, -y), (x, y)
+        """Where the two are; of a wall, the point of it that is nearest."""
+        x, y = self.distance * math.cos(self.angle), self.distance * math.sin(self.angle)
+        if self.wall:
+            return (-x / 2, -y / 2), (x / 2, y / 2)
+        return (-self.share * x, -self.share * y), ((1 - self.share) * x, (1 - self.share) * y)
 
     @property
     def half_width(self) -> float:
-        return abs(self.centres[1][0]) + self.radius
+        if self.wall:
+            return abs(self.centres[0][0]) + self.radius
+        return max(abs(centre[0]) + radius for centre, radius in zip(self.centres, self.radii))
 
     @property
     def half_height(self) -> float:
-        return abs(self.centres[1][1]) + self.radius
+        if self.wall:
+            return abs(self.centres[0][1]) + 1.6 * self.radius
+        return max(abs(centre[1]) + radius for centre, radius in zip(self.centres, self.radii))
 
 
 def frames(collision: Collision) -> list[Frame]:
     """Return instants equally spaced in time from first touch on, and for a separated pair one after rupture."""
     flight = _Flight.of(collision)
-    still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.radius
+    still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.first.radius
     instants = np.linspace(0.0, flight.time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
     found = [flight.at(instant) for instant in (instants if flight.time[-1] > 0 else [0.0])]
     found[0] = replace(found[0], relative=flight.approach)
@@ -96,28 +118,33 @@ class _Flight:
     time: np.ndarray
     gap: np.ndarray
     rotation: np.ndarray
-    turned: np.ndarray
-    radius: float
+    turned: tuple[np.ndarray, np.ndarray]  # of the two
+    first: Frame  # at first touch
     approach: Vector  # relative velocity at first touch
-    parting: tuple[float, float]  # opening velocity and rotation rate at the end
-    spin: float  # at the end
+    parting: tuple[float, float]  # opening velocity and velocity across the line of centres at the end
+    spins: tuple[float, float]  # at the end
 
     @classmethod
     def of(cls, collision: Collision) -> _Flight:
         data = collision.trajectory
         if data is None:
             raise ValueError("the collision has no trajectory: pass trajectory=True to collide()")
-        radius = 2 * collision.scene.particles.reduced_radius
         time, gap, rotation = (np.asarray(data[name], dtype=float) for name in ("time", "gap", "rotation"))
-        turned = orientation(time, rotation, np.asarray(data["rotation_rate"]), np.asarray(data["spin"]))
-        approach = (-collision.speed, collision.speed * math.tan(collision.angle) * (1 + gap[0] / (2 * radius)))
-        opening, rate, spin = (float(data[name][-1]) for name in ("opening_velocity", "rotation_rate", "spin"))
-        return cls(time, gap, rotation, turned, radius, approach, (opening, rate), spin)
+        rate, spin = np.asarray(data["rotation_rate"]), np.asarray(data["spin"])
+        other = np.asarray(data["spin_partner"]) if "spin_partner" in data else spin
+        turned = orientation(time, rotation, rate, spin), orientation(time, rotation, rate, other)
+        first = _first(collision.scene, float(gap[0]))
+        sideways = collision.speed * math.tan(collision.angle)
+        approach = (-collision.speed, sideways * (1.0 if first.wall else first.distance / (first.distance - gap[0])))
+        across = float(data["sliding_velocity"][-1]) if first.wall and collision.angle else float(rate[-1])
+        across *= 1.0 if first.wall else first.distance - gap[0] + gap[-1]
+        parting = float(data["opening_velocity"][-1]), across
+        return cls(time, gap, rotation, turned, first, approach, parting, (float(spin[-1]), float(other[-1])))
 
     def at(self, instant: float) -> Frame:
-        known = (self.gap, self.rotation, self.turned)
-        gap, rotation, turned = (float(np.interp(instant, self.time, values)) for values in known)
-        return Frame(float(instant), gap, rotation, turned, self.radius)
+        known = (self.gap, self.rotation, *self.turned)
+        gap, rotation, turned, other = (float(np.interp(instant, self.time, values)) for values in known)
+        return replace(self.first, time=float(instant), gap=gap, angle=rotation, turned=turned, partner_turned=other)
 
     @property
     def last(self) -> Frame:
@@ -126,24 +153,40 @@ class _Flight:
     def before(self, instant: float) -> Frame:
         """The pair on its way to first touch."""
         first = self.at(0.0)
-        x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant
-        gap = math.hypot(x, y) - 2 * self.radius
-        return Frame(float(instant), gap, math.atan2(y, x), 0.0, self.radius, self.approach, free=True)
+        x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant * (not first.wall)
+        gap = math.hypot(x, y) - (first.distance - first.gap)
+        return replace(
+            first, time=float(instant), gap=gap, angle=math.atan2(y, x), turned=0.0, partner_turned=0.0,
+            relative=self.approach, free=True,
+        )  # fmt: skip
 
     def apart(self, wait: float) -> Frame:
         """The pair on straight lines, a time after rupture."""
-        last, (opening, rate) = self.last, self.parting
-        across = last.distance * rate
-        x, y = last.distance + opening * wait, across * wait
+        last, (opening, across) = self.last, self.parting
+        x, y = last.distance + opening * wait, across * wait * (not last.wall)
         along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
         relative = (opening * along[0] + across * side[0], opening * along[1] + across * side[1])
-        gap, angle = math.hypot(x, y) - 2 * self.radius, last.angle + math.atan2(y, x)
-        return Frame(last.time + wait, gap, angle, last.turned + self.spin * wait, self.radius, relative, free=True)
+        gap, angle = math.hypot(x, y) - (last.distance - last.gap), last.angle + math.atan2(y, x)
+        turned, other = last.turned + self.spins[0] * wait, (last.partner_turned or 0.0) + self.spins[1] * wait
+        return replace(
+            last, time=last.time + wait, gap=gap, angle=angle, turned=turned, partner_turned=other, relative=relative,
+            free=True,
+        )  # fmt: skip
 
 
-def _wait(last: Frame, opening: float, rate: float) -> float:
+def _first(scene: Scene, gap: float) -> Frame:
+    """The two at first touch."""
+    radius = 2 * scene.particles.reduced_radius
+    if scene.wall:
+        return Frame(0.0, gap, 0.0, 0.0, radius, partner=math.inf, partner_turned=0.0)
+    radii, masses = scene.radius_ratio or 1.0, scene.mass_ratio or 1.0
+    return Frame(0.0, gap, 0.0, 0.0, radius, partner=radii * radius, share=masses / (1 + masses), partner_turned=0.0)
+
+
+def _wait(last: Frame, opening: float, across: float) -> float:
     """Time after rupture until the pair is as far apart as shows: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
-    speed = math.hypot(opening, last.distance * rate)
+    across *= not last.wall
+    speed = math.hypot(opening, across)
     goal = last.distance + _APART * last.radius
     lead = last.distance * opening
     return (math.sqrt(lead**2 + speed**2 * (goal**2 - last.distance**2)) - lead) / speed**2
@@ -163,14 +206,15 @@ def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarra
 def wetted_radius(scene: Scene, gap: float) -> float:
     """Return the radius of the liquid between the spheres, m: of a bridge, else where the film is filled.
 
-    Surfaces are parabolas, h = x + s^2/R; with a bridge, the volume between them inside s is V R^3.
+    Surfaces are parabolas, h = x + s^2/R, R = 2a; with a bridge, the volume between them inside s is V R^3.
     """
-    radius = 2 * scene.particles.reduced_radius
+    radius = 2 * scene.reduced_radius
     if scene.bridge is None:
         return math.sqrt(radius * max(scene.liquid.film_thickness - gap, 0.0))
     volume = scene.bridge.volume
     square = radius * (math.sqrt(gap**2 + 2 * volume * radius**2 / math.pi) - gap)
-    return min(math.sqrt(square), 0.9 * radius)
+    smallest = 2 * scene.particles.reduced_radius * min(scene.radius_ratio or 1.0, 1.0)
+    return min(math.sqrt(square), 0.9 * smallest)
 
 
 def draw_strip(axes: Axes, collision: Collision, pictures: Sequence[Frame], captions: Sequence[str]) -> None:
@@ -202,21 +246,32 @@ def _draw(axes: Axes, collision: Collision, frame: Frame, place: float, fastest:
     """One frame around (place, 0), lengths in sphere radii."""
     radius, scene = frame.radius, collision.scene
     centres = [(place + x / radius, y / radius) for x, y in frame.centres]
+    radii = [each / radius for each in frame.radii]
     film = scene.liquid.film_thickness / (2 * radius)
-    for centre in centres:
-        axes.add_patch(Circle(centre, 1 + film, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
+    if frame.wall:
+        _draw_wall(axes, centres[1], film)
+    for centre, size in zip(centres, radii):
+        if math.isfinite(size):
+            axes.add_patch(Circle(centre, size + film, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
     half = wetted_radius(scene, frame.gap) / radius
     if half > 0 and not frame.free:
         axes.add_patch(Polygon(_neck(frame, place, half), closed=True, facecolor=LIQUID, edgecolor="none", zorder=2))
-    for centre, shade, start in zip(centres, (FIRST, SECOND), (0.0, math.pi), strict=True):
-        ball = Circle(centre, 1.0, facecolor=shade, edgecolor=INK, linewidth=0.8, zorder=3)
+    turns = frame.turned, frame.turned if frame.partner_turned is None else frame.partner_turned
+    for centre, size, turned, shade, start in zip(centres, radii, turns, (FIRST, SECOND), (0.0, math.pi), strict=True):
+        if not math.isfinite(size):
+            continue
+        ball = Circle(centre, size, facecolor=shade, edgecolor=INK, linewidth=0.8, zorder=3)
         ball.set_gid("sphere")
         axes.add_patch(ball)
-        rim = (centre[0] + math.cos(start + frame.turned), centre[1] + math.sin(start + frame.turned))
+        rim = (centre[0] + size * math.cos(start + turned), centre[1] + size * math.sin(start + turned))
         axes.plot(*zip(centre, rim), color=INK, linewidth=1.2, zorder=4)
         axes.plot(*centre, marker="o", markersize=2.2, color=INK, zorder=4)
     if frame.relative:
-        for centre, length in zip(centres, (-_ARROW / fastest, _ARROW / fastest), strict=True):
+        shares = (-1.0, 0.0) if frame.wall else (-2 * frame.share, 2 * (1 - frame.share))
+        for centre, share in zip(centres, shares, strict=True):
+            if not share:
+                continue
+            length = share * _ARROW / fastest
             # centred, so that the tips of a head-on approach stay apart
             x, y = 0.5 * length * frame.relative[0], 0.5 * length * frame.relative[1]
             ends = (centre[0] - x, centre[1] - y), (centre[0] + x, centre[1] + y)
@@ -225,11 +280,25 @@ def _draw(axes: Axes, collision: Collision, frame: Frame, place: float, fastest:
             axes.add_patch(arrow)
 
 
+def _draw_wall(axes: Axes, nearest: Vector, film: float) -> None:
+    """The wall, at the right, with its film."""
+    high = 1.6  # of R, as the frame's half_height
+    left = nearest[0]
+    axes.add_patch(Rectangle((left - film, -high), film, 2 * high, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
+    solid = Rectangle((left, -high), 0.35, 2 * high, facecolor=SECOND, edgecolor=INK, linewidth=0.8, zorder=3)
+    solid.set_gid("wall")
+    axes.add_patch(solid)
+
+
 def _neck(frame: Frame, place: float, half: float) -> np.ndarray:
     """Outline of the liquid between the spheres: along one surface, and back along the other."""
     rise = np.linspace(-half, half, 25)
-    reach = 0.5 * frame.distance / frame.radius - np.sqrt(1 - rise**2)
-    outline = np.concatenate([np.column_stack([-reach, rise]), np.column_stack([reach, rise])[::-1]])
+    far = frame.distance / frame.radius
+    near = np.sqrt(1 - rise**2)  # from the first's centre
+    other = frame.radii[1] / frame.radius
+    back = np.full(rise.size, far) if frame.wall else far - np.sqrt(other**2 - rise**2)
+    outline = np.concatenate([np.column_stack([near, rise]), np.column_stack([back, rise])[::-1]])
     c, s = math.cos(frame.angle), math.sin(frame.angle)
-    turned: np.ndarray = outline @ np.array([[c, s], [-s, c]]) + [place, 0.0]
+    origin = np.array(frame.centres[0]) / frame.radius
+    turned: np.ndarray = outline @ np.array([[c, s], [-s, c]]) + origin + [place, 0.0]
     return turned

@@ -98,7 +98,7 @@ class Locate:
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
         self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
-        self.extras = extras + (("capillary",) if self.proof.watches == "energy" and model.bridge else ())
+        self.extras = extras + (model.works if self.proof.watches == "energy" else ())
         self.path = Path(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
@@ -225,7 +225,7 @@ class Locate:
             return False
         if event == "turning":
             kind = "turned" if phase.motion == CLOSING else "fell back"
-            self._next(Step(phase, flown, event, (kind,)), phase.with_(motion=-phase.motion))
+            self._next(Step(phase, flown, event, (kind,)), self._towards(-phase.motion))
         elif event == "film_edge":
             shear = 1 - phase.film if self.edge == 1.0 else phase.shear
             self._next(Step(phase, flown, event, ("film edge",)), phase.with_(film=1 - phase.film, shear=shear))
@@ -278,9 +278,14 @@ class Locate:
 
     def _opening(self, phase: Phase) -> Phase:
         """The phase that opens from here; from first touch, beyond the film at once."""
-        film = phase.film if self.y[0] != 1.0 else 0
+        film = phase.film if self.y[0] != 1.0 or not self.model.edged else 0
         shear = phase.shear if self.y[0] != self.edge else 0
-        return phase.with_(motion=OPENING, film=film, shear=shear)
+        return self._towards(OPENING, phase).with_(film=film, shear=shear)
+
+    def _towards(self, motion: int, phase: Phase | None = None) -> Phase:
+        """The phase, the current one unless given, going `motion`."""
+        cavitated = self.model.cavitates and motion == OPENING
+        return (phase or self.phase).with_(motion=motion, cavitated=cavitated)
 
     def _too_weak(self, rebound: float, inward: float) -> bool:
         """A rebound that decides nothing: slower than REST_SPEED, or rising by less than the tolerance of the gap.

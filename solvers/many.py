@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 import signal
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path as FilePath
@@ -16,13 +17,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import ComputationError, WetDoubletError
+from .errors import ComputationError, ModelWarning, WetDoubletError
 from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
 from .settings import RTOL
+from .validity import warn
 
 if TYPE_CHECKING:
     import xarray
@@ -71,6 +73,7 @@ def collide_many(
         array([0, 1], dtype=int8)
     """
     request = requested(scene, stokes, speed, angle, vary or {}, rtol, engine, of)
+    warn(request.scene)
     results = empty(request.size, request.of)
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
     return as_dataset(request, results)
@@ -175,8 +178,9 @@ def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
         if request.engine == "cvodes":
             return _chained(request, scene, speed, angle)
         n = numbers(scene, speed, angle)
-        model = load(choose(scene, n.oblique))
-        quadrature = ("rotation",) if "rotation" in request.of and n.oblique and not model.strings else ()
+        model = load(choose(scene, n.oblique, fold=True))
+        turns = model.has("turning_rate") and not model.strings
+        quadrature = ("rotation",) if "rotation" in request.of and turns else ()
         try:
             path = locate(model, n.groups, request.rtol, quadrature, machine_code)
         except ComputationError as error:
@@ -200,8 +204,8 @@ def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:
         "smallest_gap": path.smallest_gap * n.length,
         "rotation": 0.0,
     }
-    if n.oblique and "rotation" in of:
-        names = (*path.model.state, *path.extras)
+    names = (*path.model.state, *path.extras)
+    if "rotation" in names:
         values["rotation"] = float(path.y[names.index("rotation")])
     return found | {name: value for name, value in values.items() if name in of}
 
@@ -210,7 +214,9 @@ def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict
     """One collision by the reference engine."""
     from .simulate import collide
 
-    one = collide(scene, speed=speed, angle=angle, rtol=request.rtol, engine="cvodes", ledger=False).to_dict()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)  # said once for all
+        one = collide(scene, speed=speed, angle=angle, rtol=request.rtol, engine="cvodes", ledger=False).to_dict()
     found = {name: math.nan if one[name] is None else one[name] for name in QUANTITIES if name in request.of}
     return found | {
         "outcome": OUTCOMES.index(one["outcome"]),

@@ -37,26 +37,38 @@ class Choice:
         return dict(self.laws).get(slot)
 
 
-def choose(scene: Scene, oblique: bool, full: bool = False) -> Choice:
+def choose(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) -> Choice:
     """The smallest structure that has what the scene has.
 
     Arguments:
         oblique: the impact angle is not zero.
         full: keep the spin as a state even where angular momentum would eliminate it (for the ledger).
+        fold: treat a partner that equals the sphere as such; not for derivatives along the partner's size.
     """
-    reduced = oblique and scene.pendulum is None and scene.model.arm == "midgap" and not full
-    parts = ["oblique" if oblique else "head_on"]
-    parts += [word for word, there in (("bridge", scene.bridge), ("strings", scene.pendulum)) if there is not None]
-    parts += ["reduced"] if reduced else []
-    laws = [("film", "finite"), ("glass", scene.model.glass)]
+    equal = scene.partner is None or (fold and scene.radius_ratio == 1 and scene.mass_ratio == 1)
+    partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
+    reduced = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap" and not full
+    spread = scene.model.film == "constant-volume"
+    words = {
+        "bridge": scene.bridge is not None,
+        "strings": scene.pendulum is not None,
+        "attraction": scene.attraction is not None,
+        "spread": spread,
+        "reduced": reduced,
+    }
+    parts = ["oblique" if oblique else "head_on", *([partner] if partner else [])]
+    parts += [word for word, there in words.items() if there]
+    laws = [("film", scene.model.film), ("glass", scene.model.glass)]
     if oblique:
         laws.append(("shear", scene.model.tangential))
-        if not reduced:
+        if not reduced and partner != "wall":
             laws.append(("arm", scene.model.arm))
     if scene.bridge is not None:
         laws.append(("bridge", scene.bridge.law))
     if scene.pendulum is not None:
         laws.append(("strings", scene.pendulum.law))
+    if scene.attraction is not None:
+        laws.append(("attraction", "van-der-waals"))
     if scene.package is None:
         return Choice("_".join(parts), tuple(laws))
     return Choice("_".join(parts), own_laws(scene.package, laws), scene.package)
@@ -111,11 +123,37 @@ class Model:
 
     @property
     def oblique(self) -> bool:
-        return "orbit" in self.state
+        return "orbit" in self.state or self.wall
+
+    @property
+    def wall(self) -> bool:
+        return "slide" in self.state
 
     @property
     def reduced(self) -> bool:
-        return self.oblique and "spin" not in self.state
+        return "orbit" in self.state and "spin" not in self.state
+
+    @property
+    def cavitates(self) -> bool:
+        """Whether the film does not resist opening."""
+        return hasattr(self.laws.film, "suction")
+
+    @property
+    def edged(self) -> bool:
+        """Whether the film ends at x = x0, and not with the bridge."""
+        return not self.bridge or "film_edge" in self.names("events")
+
+    @property
+    def escape(self) -> str:
+        """The function that has the energies which can part the two."""
+        return "escape_energy" if self.wall else "energies"
+
+    @cached_property
+    def works(self) -> tuple[str, ...]:
+        """Works of attractions, by their names in the ledger."""
+        return tuple(
+            work for work, slot in (("capillary", "bridge"), ("attraction", "attraction")) if self.choice.law(slot)
+        )
 
     @property
     def bridge(self) -> bool:

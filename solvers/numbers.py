@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..generated import scaling
+from . import emitted
 from .errors import ComputationError, InputError
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ class Numbers:
     speed: float  # m/s
     length: float  # x0, m
     time: float  # x0/v0, s
-    rate: float  # omega0, rad/s
+    rate: float  # omega0, rad/s; beside a wall v0 tan(theta0)/a
     energy: float  # m v0^2, J
     stokes: float
     centrifugal: float | None
@@ -44,9 +45,14 @@ class Numbers:
         if "gap" in state:
             shown |= {"gap": state["gap"] * self.length, "opening velocity": state["opening"] * self.speed}
         if "orbit" in state:
-            shown["rotation rate"] = state["orbit"] / (4 + self.groups["aspect"] * state["gap"]) ** 2 * self.rate
-        if "spin" in state:
-            shown["spin"] = state["spin"] * self.rate
+            ratio = self.groups.get("radius_ratio", 1.0)
+            distance = (1 + ratio) ** 2 / ratio + self.groups["aspect"] * state["gap"]
+            shown["rotation rate"] = state["orbit"] / distance**2 * self.rate
+        for name, label in (("spin", "spin"), ("partner_spin", "partner's spin"), ("roll", "spin")):
+            if name in state:
+                shown[label] = state[name] * self.rate
+        if "slide" in state:
+            shown["sliding velocity"] = state["slide"] * self.speed * self.groups["obliquity"]
         time = None if error.time is None else error.time * self.time
         return ComputationError(error.message, error.phase, time, shown, error.advice)
 
@@ -55,8 +61,8 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
     """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
     particles, liquid = scene.particles, scene.liquid
     values = {
-        "reduced_radius": particles.reduced_radius,
-        "reduced_mass": particles.reduced_mass,
+        "reduced_radius": scene.reduced_radius,
+        "reduced_mass": scene.reduced_mass,
         "roughness": particles.roughness,
         "dry_restitution": particles.dry_restitution,
         "viscosity": liquid.viscosity,
@@ -75,6 +81,10 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
             "volume": bridge.volume,
             "contact_angle": bridge.contact_angle,
         }
+    if scene.attraction is not None:
+        values["hamaker"] = scene.attraction.hamaker
+    if scene.radius_ratio is not None and scene.mass_ratio is not None:
+        values |= {"radius_ratio": scene.radius_ratio, "mass_ratio": scene.mass_ratio}
     if scene.pendulum is not None:
         values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
     if scene.package is not None:
@@ -83,14 +93,53 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
     return values
 
 
-def group_functions(scene: Scene) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
-    """Every group and scale of a scene: name -> the quantities that it takes, in order, and its emitted formula."""
-    found = {name: (arguments, getattr(scaling, name)) for name, arguments in scaling.ARGUMENTS.items()}
-    return found if scene.package is None else found | scene.package.groups
+Formula = tuple[Callable[..., Any], tuple[str, ...]]
+_VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "generalised_centrifugal")
 
 
-def _finite(name: str, arguments: tuple[str, ...], function: Callable[..., Any], values: Mapping[str, float]) -> float:
+def formulas(scene: Scene) -> dict[str, Formula]:
+    """Group or scale -> its emitted formula and the names of what that takes, for the scene's partner and laws.
+
+    A formula takes floats or CasADi expressions.
+    """
+    found: dict[str, Formula] = {
+        name: (getattr(scaling, name), arguments)
+        for name, arguments in scaling.ARGUMENTS.items()
+        if name not in _VARIANTS
+    }
+    if scene.wall:
+        found["initial_rate"] = scaling.initial_rate_wall, scaling.ARGUMENTS["initial_rate_wall"]
+        found["centrifugal"] = _nothing, ("surface_tension",)
+    elif scene.partner is not None:
+        for name in ("initial_rate", "centrifugal"):
+            found[name] = getattr(scaling, f"{name}_pair"), scaling.ARGUMENTS[f"{name}_pair"]
+    if scene.bridge is not None and scene.bridge.rupture == "own":
+        law = law_module(scene, "bridge", scene.bridge.law)
+
+        def own(reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any) -> Any:
+            return 2 * reduced_radius * law.rupture_distance(volume, contact_angle) / film_thickness
+
+        found["rupture_gap"] = own, scaling.ARGUMENTS["rupture_gap"]
+    if scene.package is not None:
+        found |= {name: (function, arguments) for name, (arguments, function) in scene.package.groups.items()}
+    return found
+
+
+def _nothing(surface_tension: Any) -> Any:
+    """Ce beside a wall: nothing turns."""
+    return 0 * surface_tension
+
+
+def law_module(scene: Scene, slot: str, name: str) -> Any:
+    """The emitted module of a law, the library's or the scene's own."""
+    if scene.package is not None and name in scene.package.laws(slot):
+        return scene.package.law(slot, name)
+    return emitted.law(slot, name)
+
+
+def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     """A group by its emitted formula; InputError where it leaves the range of a double."""
+    function, arguments = formula
     given = [values[argument] for argument in arguments]
     try:
         value = float(function(*given))
@@ -109,15 +158,15 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
     A group exists where the scene has what it is made of; an absent elastic criterion has elastic_gap 0.
     """
     values = si_values(scene, speed, angle)
-    plain = ("dry_restitution", "volume", "contact_angle")
+    plain = ("dry_restitution", "volume", "contact_angle", "radius_ratio", "mass_ratio")
     groups: dict[str, float] = {name: values[name] for name in plain if name in values}
     if scene.package is not None:
         scene.package.demand(scene.entries)
         groups |= {name: values[name] for name in scene.package.plain}
     groups["elastic_gap"] = 0.0
-    for name, (arguments, function) in group_functions(scene).items():
-        if all(argument in values for argument in arguments):
-            groups[name] = _finite(name, arguments, function, values)
+    for name, formula in formulas(scene).items():
+        if all(argument in values for argument in formula[1]):
+            groups[name] = _finite(name, formula, values)
     x0 = scene.liquid.film_thickness
     return Numbers(
         groups=groups,
@@ -126,7 +175,7 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
         length=x0,
         time=x0 / speed,
         rate=groups["initial_rate"],
-        energy=scene.particles.reduced_mass * speed**2,
+        energy=scene.reduced_mass * speed**2,
         stokes=groups["stokes"],
         centrifugal=groups.get("centrifugal"),
         capillary=groups.get("capillary"),

@@ -21,12 +21,14 @@ class Phase:
         shear: 1 inside the edge of the tangential force, else 0.
         motion: CLOSING or OPENING.
         resting: the gap is held in contact.
+        cavitated: the film is there but does not act, since it cavitates while opening.
     """
 
     film: int
     shear: int
     motion: int
     resting: bool = False
+    cavitated: bool = False
 
     def __str__(self) -> str:
         if self.resting:
@@ -38,7 +40,7 @@ class Phase:
 
     @property
     def region(self) -> Region:
-        return Region(self.film, self.shear, self.resting)
+        return Region(self.film, self.shear, self.resting, self.cavitated)
 
 
 @dataclass(frozen=True)
@@ -48,13 +50,20 @@ class Region:
     film: int
     shear: int
     resting: bool
+    cavitated: bool = False
+
+    @property
+    def flags(self) -> dict[str, int]:
+        """What acts, as the structure's functions want it."""
+        return {"film": int(self.film and not self.cavitated), "shear": self.shear}
 
 
 @dataclass(frozen=True)
 class Flow:
     """Equations of a region: the model's states, then `extras` that are integrated along.
 
-    Extras: `rotation` (the angle turned), and the ledger's `normal_lubrication`, `tangential_lubrication`, `capillary`.
+    Extras: `rotation` (the angle turned), and the ledger's `normal_lubrication`, `tangential_lubrication`, `capillary`,
+    `attraction`.
     """
 
     choice: Choice
@@ -79,7 +88,7 @@ class Expressions:
 def expressions(flow: Flow) -> Expressions:
     """Variables and rates of a flow, in time x0/v0."""
     model, region = flow.model, flow.region
-    flags = {"film": region.film, "shear": region.shear}
+    flags = region.flags
     state = {**model.guarded, "opening": SX(0)} if region.resting else model.guarded
     rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, flags)
     if region.resting and not model.oblique:
@@ -87,7 +96,7 @@ def expressions(flow: Flow) -> Expressions:
     extra_rates: dict[str, SX] = {}
     if flow.extras:
         extra_rates = model("energy_rates", state, flags)
-        if model.oblique:
+        if model.has("turning_rate"):
             extra_rates |= model("turning_rate", state)
     extras = {name: SX.sym(name) for name in flow.extras}
     return Expressions(
@@ -139,7 +148,7 @@ def event_table(flow: Flow, watch: Watch, motion: SX, level: SX) -> tuple[Event,
         table.append(Event("glass", model.groups["glass_number"] - closing * pressure, dips=True))
         table.append(Event("contact", model.state["gap"] - model.contact_gap))
         table.append(Event("turning", motion * found["turning"], dips=True))
-        if region.film and model.bridge:
+        if region.film and "film_edge" in found:
             table.append(Event("film_edge", found["film_edge"]))
         else:
             table.append(Event("rupture", found["rupture"]))
@@ -166,6 +175,7 @@ def tethered_margin(model: Model, margin: SX | float) -> SX:
 
 
 def mechanical_energy(flow: Flow) -> SX:
-    """Kinetic energy, capillary work done since first touch and, head-on, the strings' potential, over m v0^2."""
-    energy = sum(flow.model("energies").values(), SX(0))
-    return energy + expressions(flow).extras.get("capillary", SX(0))
+    """Kinetic energy, work against attractions since first touch and, head-on, the strings' potential, over m v0^2."""
+    model, extras = flow.model, expressions(flow).extras
+    energy = sum(model(model.escape).values(), SX(0))
+    return sum((extras[work] for work in model.works if work in extras), energy)

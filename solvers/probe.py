@@ -173,7 +173,9 @@ def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | No
     """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
     size = len(probe.model.state)
     saddle = _saddle_state(probe, barrier, probe.y[:size])
-    region = Region(int(barrier.gap < 1), int(barrier.gap < probe.edge), False)
+    # a doublet that escapes comes by while opening
+    film = int(barrier.gap < 1 or not probe.model.edged)
+    region = Region(film, int(barrier.gap < probe.edge), False, probe.model.cavitates)
     matrix = np.asarray(_jacobian(probe.model, region)(saddle, path.p).full())
     values, vectors = np.linalg.eig(matrix)
     unstable = int(np.argmax(values.real))
@@ -202,7 +204,7 @@ def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=128)
 def _jacobian(model: Model, region: Region) -> Function:
-    rates = model.function("right_hand_side", region.film, region.shear)
+    rates = model.function("right_hand_side", **region.flags)
     y, p = model.column, model.parameters
     return Function("jacobian", [y, p], [jacobian(rates(y, p), y)])
 

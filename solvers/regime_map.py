@@ -20,6 +20,7 @@ from .numbers import si_values
 from .requests import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .scene import Scene
 from .settings import RTOL, check_engine, check_rtol
+from .validity import warn
 
 if TYPE_CHECKING:
     import xarray
@@ -114,6 +115,7 @@ def regime_map(
     grid = _grid(Scene.load(scene), stokes, speed, angle, vary or {})
     request = grid.request(check_rtol(rtol), check_engine(engine) or "rosenbrock", check_of(of))
     check_some_scene(request)
+    warn(grid.scene)
     results = empty(request.size, request.of)
     kept = None if journal is None else Journal(Path(journal), _identity(grid, request))
     for where, block in kept.read() if kept else ():

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 class Energy:
     """The energy ledger of a flight, J.
 
-    `initial` and `final` are kinetic, `strings` is the gain of potential; `residual` is what is left of
-    initial - final - (all losses and works).
+    `initial` and `final` are kinetic, `strings` is the gain of potential, `attraction` the work against van der Waals
+    forces (None without them); `residual` is what is left of initial - final - (all losses and works).
     """
 
     initial: float
@@ -27,11 +27,12 @@ class Energy:
     capillary: float
     dry_contact: float
     strings: float
+    attraction: float | None = None
 
     @property
     def residual(self) -> float:
         spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
-        return self.initial - self.final - spent
+        return self.initial - self.final - spent - (self.attraction or 0.0)
 
     def to_dict(self) -> dict[str, float]:
         names = (
@@ -42,6 +43,7 @@ class Energy:
             "capillary",
             "dry_contact",
             "strings",
+            *(["attraction"] if self.attraction is not None else []),
         )
         return {name: getattr(self, name) for name in (*names, "residual")}
 
@@ -62,10 +64,14 @@ class Collision:
         outcome: "stick", "stick-rotate-separate" or "bounce".
         restitution: normal restitution e_n (0 for a stick).
         tangential_restitution: r_f omega_f/(r_0 omega_0); None head-on.
+        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F all that attracts at first touch; None if nothing does.
+        final_spin: spin of each sphere, of the first if the partner is another one.
+        final_spin_partner: spin of the partner; None without a [partner].
         rotation: angle turned by the line of centres until separation.
         until: for a stick, where integration stopped, s.
         certified: the stick is proved.
         reversal: the first criterion met, if any.
+        warnings: where the scene leaves the range that a law was made for, a sentence each.
         trajectory: Dataset over `time`, if asked for.
     """
 
@@ -91,6 +97,9 @@ class Collision:
     angular_momentum_drift: float | None
     engine: str
     steps: int
+    generalised_centrifugal: float | None = None
+    final_spin_partner: float | None = None
+    warnings: tuple[str, ...] = ()
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
 
@@ -102,6 +111,10 @@ class Collision:
             "reversal", "certified", "until",
         )  # fmt: skip
         result: dict[str, Any] = {name: getattr(self, name) for name in plain}
+        if self.scene.partner is not None:
+            result["final_spin_partner"] = self.final_spin_partner
+        if self.scene.attraction is not None:
+            result["generalised_centrifugal"] = self.generalised_centrifugal
         if self.reynolds is not None:
             result["reynolds"] = self.reynolds
         result["events"] = [{"kind": event.kind, "time": event.time} for event in self.events]

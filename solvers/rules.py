@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import custom
 from .errors import InputError, shown
-from .schema import ALTERNATIVES, FIELDS, REQUIRED_TABLES, TABLES, unknown_entry
-from .tables import Bridge, Pendulum, Table
+from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, ONE_OF_EACH, REQUIRED_TABLES, TABLES, unknown_entry
+from .tables import Attraction, Bridge, Partner, Pendulum, Table
 
 if TYPE_CHECKING:
     from .custom import Package
@@ -66,7 +66,7 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
         if table not in present:
             continue
         missing = [name for name in TABLES[table] if FIELDS[name].required and name not in entries]
-        choices = [ways for ways in ALTERNATIVES if ways[0].startswith(table) and table in REQUIRED_TABLES]
+        choices = [ways for ways in ALTERNATIVES if ways[0].startswith(table) and table in ONE_OF_EACH]
         for ways in choices:
             if not any(name in entries for name in ways):
                 either = " or ".join(f"{name} = {FIELDS[name].example}" for name in ways)
@@ -83,40 +83,58 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
 
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the entries of `Particles`: a = R/2 and m = M/2, M = 4/3 pi R^3 rho, from whichever was given."""
-    of = {name.partition(".")[2]: value for name, value in values.items() if name.startswith("particles.")}
+    of = _of("particles", values)
     if "radius" in of:
         of["reduced_radius"] = of.pop("radius") / 2
     if "density" in of:
-        radius = 2 * of["reduced_radius"]
-        of["mass"] = 4 / 3 * math.pi * radius * radius * radius * of.pop("density")  # inf rather than OverflowError
+        of["mass"] = _weighed(2 * of["reduced_radius"], of.pop("density"))
     if "mass" in of:
         of["reduced_mass"] = of.pop("mass") / 2
     return of
+
+
+def partner(values: Mapping[str, Any]) -> Partner | None:
+    """Return the partner, its mass from whatever was given; None if the spheres are equal."""
+    of = _of("partner", values)
+    if "density" in of:
+        of["mass"] = _weighed(of["radius"], of.pop("density"))
+    return Partner(**of) if of else None
+
+
+def _of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    return {name.partition(".")[2]: value for name, value in values.items() if name.startswith(table + ".")}
+
+
+def _weighed(radius: float, density: float) -> float:
+    return 4 / 3 * math.pi * radius * radius * radius * density  # inf rather than OverflowError
 
 
 def table(kind: type[Table], values: Mapping[str, Any]) -> Table | None:
     """Return a table of its entries; None for a table that means something by its absence."""
     keys = [field.name for field in dataclasses.fields(kind)]
     own = {key: values[f"{kind.name}.{key}"] for key in keys if f"{kind.name}.{key}" in values}
-    return None if not own and kind in (Bridge, Pendulum) else kind.of(own)
+    return None if not own and kind in (Attraction, Bridge, Pendulum) else kind.of(own)
 
 
 def check_together(scene: Scene) -> None:
     """InputError where the entries are right one by one but not together."""
     given = dict(scene.given)
+    _check_partner(scene)
+    _check_laws(scene)
     particles, film, ruptured = scene.particles, scene.liquid.film_thickness, scene.rupture_gap
     if particles.roughness >= film:
         problem = "is not below the film thickness"
         accepted = f"a roughness below liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
         raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
     if scene.bridge is not None and not film < ruptured < math.inf:
-        ratio = film / (2 * particles.reduced_radius * (1 + scene.bridge.contact_angle / 2))
+        ratio = film / (2 * scene.reduced_radius * (1 + scene.bridge.contact_angle / 2))
         least = ratio * ratio * ratio  # ** would raise instead of becoming inf
         problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {film:.4g} m"
-        raise InputError("bridge.volume", given["bridge.volume"], f"a number V/R^3 above {least:.4g}", problem)
+        accepted = f"a number V/R^3 above {least:.4g}" if scene.bridge.rupture == "common" else "a larger number V/R^3"
+        raise InputError("bridge.volume", given["bridge.volume"], accepted, problem)
     if scene.pendulum is not None:
         # the strings lean most at beta = pi, where each pivot is d = (r + 4a)/2 from its sphere
-        least = 4 * particles.reduced_radius + ruptured / 2
+        least = 4 * scene.reduced_radius + ruptured / 2
         if scene.pendulum.length <= least:
             problem = "is too short for two spheres to swing around each other"
             accepted = f"a string length above 4a + x_f/2 = {least:.6g} m"
@@ -124,13 +142,60 @@ def check_together(scene: Scene) -> None:
     _check_speed(scene)
 
 
+def _check_partner(scene: Scene) -> None:
+    """InputError for a partner that cannot be: strings hold equal spheres, and ratios must stay numbers."""
+    if scene.partner is None:
+        return
+    given = dict(scene.given)
+    entry = "partner.radius" if "partner.radius" in given else "partner.wall"
+    if scene.pendulum is not None:
+        raise InputError(entry, given[entry], "no [partner] beside [pendulum]", "is given together with strings")
+    for name, ratio in (("partner.radius", scene.radius_ratio), ("partner.mass", scene.mass_ratio)):
+        if ratio is not None and not _FARTHEST**-1 <= ratio <= _FARTHEST:
+            known = name if name in given else "partner.density"
+            accepted = f"a partner of {_FARTHEST**-1:g} to {_FARTHEST:g} times the sphere's, or wall = true"
+            raise InputError(known, given[known], accepted, "is too far from the sphere's")
+
+
+_FARTHEST = 1e4  # ratio of radii or masses: beyond, the equations of a pair lose digits; a wall is their limit
+
+
+def _check_laws(scene: Scene) -> None:
+    """InputError for laws that do not go together, or with what the scene has."""
+    model, bridge, given = scene.model, scene.bridge, dict(scene.given)
+    if model.film == "constant-volume":
+        if bridge is None:
+            accepted = "a [bridge], whose volume it is, or one of finite, infinite, cavitating"
+            raise InputError("model.film", model.film, accepted, "needs a bridge")
+        for entry, value, fixed in (
+            ("model.glass", model.glass, "film-corrected"),
+            ("model.tangential", model.tangential, "film"),
+        ):
+            if value == fixed:
+                accepted = f"another {entry}, or another model.film"
+                raise InputError(entry, value, accepted, "has its rim at x0, which a film of constant volume has not")
+    if bridge is not None and bridge.rupture == "own" and bridge.law not in OWN_RUPTURE:
+        accepted = f"common, or own with bridge.law one of {', '.join(OWN_RUPTURE)}"
+        problem = f"is not known for the law {bridge.law}"
+        raise InputError("bridge.rupture", bridge.rupture, accepted, problem)
+    no_contact = scene.particles.roughness == 0 and scene.particles.youngs_modulus is None
+    if scene.attraction is not None and scene.attraction.hamaker > 0 and no_contact:
+        accepted = "a roughness above 0, or particles.youngs_modulus and poisson_ratio"
+        problem = "lets the gap close, where the van der Waals attraction is without bounds"
+        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+
+
+OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lambert", "constant"))
+"""Bridge laws whose authors give a rupture distance with them."""
+
+
 def _check_speed(scene: Scene) -> None:
     """InputError if the numbers are so far apart that a Stokes number or speed leaves the range of a double."""
-    given, a = dict(scene.given), scene.particles.reduced_radius
+    given, a = dict(scene.given), scene.reduced_radius
     drag = 6 * math.pi * scene.liquid.viscosity * a * a
     if not 0 < drag < math.inf or not 0 < scene.stokes_per_speed < math.inf:
         accepted = "a mass that makes m/(6 pi mu a^2) a finite number"
-        raise InputError("particles.reduced_mass", scene.particles.reduced_mass, accepted, "is too far off")
+        raise InputError("particles.reduced_mass", scene.reduced_mass, accepted, "is too far off")
     for name, counterpart in (("impact.speed", scene.stokes), ("impact.stokes", scene.speed)):
         if name in given and not (counterpart and counterpart < math.inf):
             raise InputError(name, given[name], FIELDS[name].accepts, "is too far off for this scene")

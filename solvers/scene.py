@@ -12,7 +12,7 @@ from . import rules, scenefile
 from .custom import Package, fields, open_package
 from .errors import InputError
 from .schema import FIELDS, TABLES, Field, Raw
-from .tables import Bridge, Impact, Liquid, Model, Particles, Pendulum
+from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,10 @@ class Scene:
     package: Package | None = field(default=None, repr=False)
 
     particles: Particles = field(init=False, compare=False)
+    partner: Partner | None = field(init=False, compare=False)
     liquid: Liquid = field(init=False, compare=False)
     bridge: Bridge | None = field(init=False, compare=False)
+    attraction: Attraction | None = field(init=False, compare=False)
     pendulum: Pendulum | None = field(init=False, compare=False)
     model: Model = field(init=False, compare=False)
     impact: Impact = field(init=False, compare=False)
@@ -63,7 +65,11 @@ class Scene:
             "comments": tuple((name, text) for name, text in self.comments if name in given),
             "si": tuple(values.items()),
             "particles": Particles(**rules.spheres(values)),
-            **{table.name: rules.table(table, values) for table in (Liquid, Bridge, Pendulum, Model, Impact)},
+            "partner": rules.partner(values),
+            **{
+                table.name: rules.table(table, values)
+                for table in (Liquid, Bridge, Attraction, Pendulum, Model, Impact)
+            },
         }
         for name, value in kept.items():
             object.__setattr__(self, name, value)
@@ -199,6 +205,37 @@ class Scene:
         entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
         return type(self)(self.name, tuple(entries), self.comments, self.package)
 
+    # ---- the pair
+
+    @property
+    def wall(self) -> bool:
+        """Whether the partner is a wall."""
+        return self.partner is not None and self.partner.wall is not None
+
+    @property
+    def radius_ratio(self) -> float | None:
+        """R_2/R_1: 1 without a partner, None for a wall."""
+        if self.partner is None:
+            return 1.0
+        return None if self.partner.radius is None else self.partner.radius / (2 * self.particles.reduced_radius)
+
+    @property
+    def mass_ratio(self) -> float | None:
+        """M_2/M_1: 1 without a partner, None for a wall."""
+        if self.partner is None:
+            return 1.0
+        return None if self.partner.mass is None else self.partner.mass / (2 * self.particles.reduced_mass)
+
+    @property
+    def reduced_radius(self) -> float:
+        """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 beside a wall."""
+        return self.particles.reduced_radius * _shared(self.radius_ratio)
+
+    @property
+    def reduced_mass(self) -> float:
+        """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 beside a wall."""
+        return self.particles.reduced_mass * _shared(self.mass_ratio)
+
     # ---- lengths, and the impact both ways
 
     @property
@@ -264,13 +301,18 @@ def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[s
     return sorted(entries.items(), key=place)
 
 
+def _shared(ratio: float | None) -> float:
+    """A reduced quantity over that of two equal spheres; exactly 1 for a ratio of 1."""
+    return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
+
+
 def _scaled(group: str, scene: Scene, speed: float | None = None) -> float:
     """Return a group by its emitted formula; inf where a double overflows."""
-    from ..generated import scaling
-    from .numbers import si_values
+    from .numbers import formulas, si_values
 
     values = si_values(scene, speed, None)
+    formula, arguments = formulas(scene)[group]
     try:
-        return float(getattr(scaling, group)(*(values[name] for name in scaling.ARGUMENTS[group])))
+        return float(formula(*(values[name] for name in arguments)))
     except (OverflowError, ZeroDivisionError):
         return math.inf

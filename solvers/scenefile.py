@@ -123,6 +123,8 @@ def written(entry: str, value: Raw) -> Raw:
 
 def _value(entry: str, value: Raw) -> str:
     value = written(entry, value)
+    if isinstance(value, bool):
+        return "true"
     return _text(value) if isinstance(value, str) else repr(value)
 
 

@@ -22,6 +22,7 @@ BRIDGE_LAWS = (
     "soulie",
     "constant",
 )
+FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,10 @@ WETTING_ANGLE = Range("from 0 deg to 90 deg", lambda v: 0 <= v <= math.pi / 2)
 
 @dataclass(frozen=True)
 class Field:
-    """One entry: a quantity (with `unit`), a plain number (without) or a choice (with `choices`)."""
+    """One entry: a quantity (with `unit`), a plain number (without), a choice (with `choices`) or a `flag`.
+
+    A flag is there, as true, or left out.
+    """
 
     name: str
     what: str
@@ -51,10 +55,13 @@ class Field:
     unit: str | None = None
     choices: tuple[str, ...] = ()
     required: bool = False
+    flag: bool = False
 
     @property
     def accepts(self) -> str:
         """What is accepted, in words."""
+        if self.flag:
+            return f"true, for {self.what}, or no such entry"
         if self.choices:
             return "one of " + ", ".join(self.choices)
         with_unit = " with its unit" if self.unit else ""
@@ -72,6 +79,10 @@ class Field:
             InputError: anything else, and a number outside the range.
         """
         label = label or self.name
+        if self.flag:
+            if raw is not True and raw != "true":
+                raise InputError(label, raw, self.accepts)
+            return "true"
         if self.choices:
             if not isinstance(raw, str) or raw not in self.choices:
                 raise InputError(label, raw, self.accepts, "is not known" + did_you_mean(raw, self.choices))
@@ -111,6 +122,8 @@ class Field:
 
     def kept(self, raw: object) -> Raw:
         """Return a value that `read` took, in the form a scene keeps it: text as it was given, numbers plain."""
+        if self.flag:
+            return True
         if isinstance(raw, str):
             return raw.strip() if self.unit or self.choices else self.number(raw)
         return self.number(raw)
@@ -138,12 +151,19 @@ FIELDS: dict[str, Field] = _table(
     Field("bridge.volume", "a number V/R^3", "0.1", required=True),
     Field("bridge.contact_angle", "an angle", '"0 deg"', WETTING_ANGLE, unit="rad", required=True),
     Field("bridge.law", "a law", "mikami", choices=BRIDGE_LAWS),
+    Field("bridge.rupture", "a rupture distance", "common", choices=("common", "own")),
+    Field("attraction.hamaker", "a Hamaker constant", '"1e-19 J"', NOT_NEGATIVE, unit="J", required=True),
+    Field("partner.radius", "the radius R of the partner", '"200 um"', unit="m"),
+    Field("partner.mass", "the mass M of the partner", '"8.3e-5 g"', unit="kg"),
+    Field("partner.density", "the density of the partner", '"2500 kg/m^3"', unit="kg/m^3"),
+    Field("partner.wall", "a wall", "true", flag=True),
     Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True),
     Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2"),
     Field("pendulum.law", "a law", "exact", choices=("exact", "small-angle")),
     Field("model.arm", "an arm", "midgap", choices=("midgap", "surface")),
     Field("model.tangential", "a logarithm", "immersed", choices=("immersed", "film")),
     Field("model.glass", "a criterion", "literal", choices=("literal", "film-corrected")),
+    Field("model.film", "a film", "finite", choices=FILM_LAWS),
     Field("impact.stokes", "a Stokes number", "0.03"),
     Field("impact.speed", "a normal approach speed", '"0.54 m/s"', unit="m/s"),
     Field("impact.angle", "an impact angle", '"60 deg"', IMPACT_ANGLE, unit="rad"),
@@ -152,16 +172,20 @@ FIELDS: dict[str, Field] = _table(
 
 TABLES: dict[str, tuple[str, ...]] = {
     table: tuple(name for name in FIELDS if name.startswith(table + "."))
-    for table in ("particles", "liquid", "bridge", "pendulum", "model", "impact")
+    for table in ("particles", "partner", "liquid", "bridge", "attraction", "pendulum", "model", "impact")
 }
 """Table -> dotted names of its entries."""
 
 REQUIRED_TABLES = ("particles", "liquid")
+ONE_OF_EACH = (*REQUIRED_TABLES, "partner")
+"""Tables, where they are there, that need one of each of their alternatives."""
 
 ALTERNATIVES: tuple[tuple[str, ...], ...] = (
     ("particles.reduced_radius", "particles.radius"),
     ("particles.reduced_mass", "particles.mass", "particles.density"),
     ("impact.stokes", "impact.speed"),
+    ("partner.radius", "partner.wall"),
+    ("partner.mass", "partner.density", "partner.wall"),
 )
 """Entries of which one at most may be given."""
 

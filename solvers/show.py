@@ -96,7 +96,7 @@ def _stuck(collision: Collision) -> str:
     when = "" if collision.until else " at first touch"
     if not collision.certified:
         return f"decided{when}, not proved: energy below the barrier"
-    if scene.bridge is None and scene.pendulum is None:
+    if scene.bridge is None and scene.pendulum is None and scene.attraction is None:
         return f"proved{when}: the film stops it"
     if scene.pendulum is not None and collision.angle > 0:
         return f"proved{when}: the strings hold it for good (certificate)"
@@ -107,7 +107,8 @@ def table(collision: Collision) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision.energy, collision.scene), "", *_numerics(collision)]
-    return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene)])
+    remarks = [line for said in collision.warnings for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene), *remarks])
 
 
 def _line(name: str, value: str, note: str = "") -> str:
@@ -119,6 +120,8 @@ def _title(collision: Collision) -> list[str]:
     groups = [f"St {plain(collision.stokes)}", f"angle {degrees(collision.angle)}"]
     if collision.scene.bridge is not None:
         groups += [f"Ce {plain(collision.centrifugal)}", f"Ca {plain(collision.capillary)}"]
+    if collision.scene.attraction is not None and collision.generalised_centrifugal is not None:
+        groups.append(f"Ce_F {plain(collision.generalised_centrifugal)}")
     if collision.reynolds is not None:
         groups.append(f"Re {plain(collision.reynolds)}")
     numbers = ", ".join(groups)
@@ -133,6 +136,8 @@ def _outcome(collision: Collision) -> list[str]:
         lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
     if collision.outcome == "stick" and stopped(collision):
         lines.append(_line("", stopped(collision)))
+    if collision.scene.partner is not None:
+        lines.append(_line("partner", _partner(collision.scene)))
     speed = (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s")
     lines += [
         _line("approach speed", speed, "normal component"),
@@ -149,8 +154,25 @@ def _outcome(collision: Collision) -> list[str]:
         _line("contact time", quantity(collision.contact_time, "s")),
         _line("smallest gap", quantity(collision.smallest_gap, "m")),
         _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
-        _line("final spin", plain(collision.final_spin, "rad/s"), "xi, of each sphere"),
+        *_spins(collision),
     ]
+
+
+def _partner(scene: Scene) -> str:
+    if scene.wall:
+        return "a wall"
+    radius, mass = scene.radius_ratio, scene.mass_ratio
+    return f"a sphere of {plain(radius)} times the radius and {plain(mass)} times the mass"
+
+
+def _spins(collision: Collision) -> list[str]:
+    own = plain(collision.final_spin, "rad/s")
+    if collision.scene.partner is None:
+        return [_line("final spin", own, "xi, of each sphere")]
+    lines = [_line("final spin", own, "xi, of the sphere")]
+    if not collision.scene.wall:
+        lines.append(_line("", plain(collision.final_spin_partner, "rad/s"), "xi, of its partner"))
+    return lines
 
 
 def _events(events: tuple[Event, ...]) -> list[str]:
@@ -175,6 +197,8 @@ def _energy(energy: Energy | None, scene: Scene) -> list[str]:
     ]
     if scene.bridge is not None:
         terms.append(("capillary work", energy.capillary))
+    if energy.attraction is not None:
+        terms.append(("van der Waals work", energy.attraction))
     if scene.pendulum is not None:
         terms.append(("strings", energy.strings))
     rows = [(name, _exponent(value, 3), value) for name, value in terms]
@@ -194,8 +218,10 @@ def _exponent(value: float, digits: int) -> str:
 def _model(scene: Scene) -> list[str]:
     """Which variants of the equations were used, wrapped where they do not fit."""
     used = {"arm": scene.model.arm, "tangential": scene.model.tangential, "glass": scene.model.glass}
+    used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
     if scene.bridge is not None:
         used["bridge"] = scene.bridge.law
+        used |= {"rupture": scene.bridge.rupture} if scene.bridge.rupture != "common" else {}
     if scene.pendulum is not None:
         used["strings"] = scene.pendulum.law
     if scene.package is not None:  # laws of slots that no entry of a scene names
@@ -215,6 +241,8 @@ def _numerics(collision: Collision) -> list[str]:
     lines = []
     if drift is not None:
         lines = [_line("angular momentum", _exponent(drift, 1), "relative drift")]
+    elif collision.scene.wall and collision.energy is not None:
+        lines = [_line("angular momentum", "-", "not conserved: the wall takes from it")]
     elif collision.scene.pendulum is not None:
         lines = [_line("angular momentum", "-", "not conserved: the strings take from it")]
     return [*lines, _line("engine", f"{collision.engine}, {collision.steps} steps")]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
@@ -9,6 +11,7 @@ import numpy as np
 
 from .buffered import LOCK
 from .chain import Flown, Stopped, fly
+from .cohesion import generalised_centrifugal
 from .errors import ComputationError
 from .integrators import tolerance as told
 from .locate import Path, locate
@@ -18,13 +21,14 @@ from .phases import Flow, Region
 from .result import Collision, Energy, Event
 from .scene import Scene
 from .settings import check_engine, check_rtol
+from .validity import warn
 
 if TYPE_CHECKING:
     import xarray
 
 _TIGHTEST = 1e-13
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this part of the largest term, is an error
-_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary")
+_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
 
 
 def collide(
@@ -57,6 +61,9 @@ def collide(
         InputError: a field or option is not acceptable.
         ComputationError: the flight could not be completed; says in which phase, when and at what state.
 
+    Warns:
+        ModelWarning: the scene leaves the range that a law was made for.
+
     Example:
         >>> from wetdoublet.solvers import collide
         >>> collide("granulation", stokes=0.02, angle="75 deg").restitution > 1
@@ -66,9 +73,11 @@ def collide(
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     v0, theta0 = loaded.need_impact()
     dimensionless = numbers(loaded, v0, theta0)
+    said = warn(loaded)
     with LOCK:
         located, flown, flow, used = _compute(loaded, dimensionless, rtol, plugin, ledger, trajectory)
-        return _result(loaded, dimensionless, located, flown, flow, plugin, used, trajectory)
+        result = _result(loaded, dimensionless, located, flown, flow, plugin, used, trajectory)
+    return replace(result, warnings=said) if said else result
 
 
 def _compute(
@@ -78,8 +87,8 @@ def _compute(
 
     Also returns the tolerance that it took.
     """
-    small = load(choose(scene, n.oblique))
-    choice = choose(scene, n.oblique, full=ledger or trajectory)
+    small = load(choose(scene, n.oblique, fold=True))
+    choice = choose(scene, n.oblique, full=ledger or trajectory, fold=True)
     flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
     tolerance = rtol
     while True:
@@ -100,7 +109,7 @@ def _compute(
 
 def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
     """What is integrated along: the rotation where it is not a state, the ledger's terms that the model has."""
-    rotation = ("rotation",) if model.oblique and not model.strings else ()
+    rotation = ("rotation",) if model.has("turning_rate") and not model.strings else ()
     return rotation + (tuple(name for name in model.names("energy_rates") if name in _LEDGER) if ledger else ())
 
 
@@ -138,9 +147,11 @@ def _result(
         contact_time=duration if separated else None,
         smallest_gap=flown.smallest_gap * n.length if separated else None,
         final_spin=rate("final_spin"),
+        final_spin_partner=_partner_spin(scene, rate, outputs),
         final_rotation_rate=rate("final_rotation_rate"),
         stokes=n.stokes,
         centrifugal=n.centrifugal,
+        generalised_centrifugal=generalised_centrifugal(scene, n),
         capillary=n.capillary,
         reynolds=n.reynolds,
         speed=n.speed,
@@ -161,7 +172,16 @@ def _result(
 def _rotation(flown: Flown, model: Model) -> float:
     if model.strings and model.oblique:
         return float(flown.y[list(model.state).index("rotation")])
-    return flown.extra("rotation") if model.oblique else 0.0
+    return flown.extra("rotation") if "rotation" in flown.extras else 0.0
+
+
+def _partner_spin(scene: Scene, rate: Callable[[str], float | None], outputs: dict[str, float]) -> float | None:
+    """Spin of the partner: its own, that of an equal, or none for a wall."""
+    if scene.partner is None:
+        return None
+    if scene.wall:
+        return None if rate("final_spin") is None else 0.0
+    return rate("final_spin_partner" if "final_spin_partner" in outputs else "final_spin")
 
 
 def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
@@ -177,6 +197,7 @@ def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
         normal_lubrication=flown.extra("normal_lubrication") * n.energy,
         tangential_lubrication=taken("tangential_lubrication") * n.energy,
         capillary=taken("capillary") * n.energy,
+        attraction=taken("attraction") * n.energy if "attraction" in model.works else None,
         dry_contact=flown.dry_loss * n.energy,
         strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
     )
@@ -193,8 +214,8 @@ def _demand_closed(energy: Energy, rtol: float) -> None:
 
 
 def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings, which take from L; 0 head-on."""
-    if model.strings:
+    """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
+    if model.strings or model.wall:
         return None
     if not model.oblique:
         return 0.0

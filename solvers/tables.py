@@ -34,7 +34,10 @@ class Table:
 
 @dataclass(frozen=True)
 class Particles(Table):
-    """Two equal spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic criterion)."""
+    """The spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic criterion).
+
+    a = R/2 and m = M/2 of either sphere; with a `Partner`, of the first. `Scene.reduced_radius` is that of the pair.
+    """
 
     name: ClassVar[str] = "particles"
     reduced_radius: float
@@ -58,13 +61,32 @@ class Liquid(Table):
 
 @dataclass(frozen=True)
 class Bridge(Table):
-    """The capillary bridge: sigma (N/m), V/R^3, phi (rad) and the law of its force."""
+    """The capillary bridge: sigma (N/m), V/R^3 with R = 2a, phi (rad), the law of its force and where it ruptures."""
 
     name: ClassVar[str] = "bridge"
     surface_tension: float
     volume: float
     contact_angle: float
     law: str = "mikami"
+    rupture: str = "common"
+
+
+@dataclass(frozen=True)
+class Attraction(Table):
+    """Van der Waals attraction: the Hamaker constant (J)."""
+
+    name: ClassVar[str] = "attraction"
+    hamaker: float
+
+
+@dataclass(frozen=True)
+class Partner(Table):
+    """What the sphere of `Particles` meets: another sphere, R (m) and M (kg), or a wall (`wall` is "true")."""
+
+    name: ClassVar[str] = "partner"
+    radius: float | None = None
+    mass: float | None = None
+    wall: str | None = None
 
 
 @dataclass(frozen=True)
@@ -85,6 +107,7 @@ class Model(Table):
     arm: str = "midgap"
     tangential: str = "immersed"
     glass: str = "literal"
+    film: str = "finite"
 
 
 @dataclass(frozen=True)

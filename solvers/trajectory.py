@@ -23,7 +23,9 @@ _VARIABLES: dict[str, tuple[str, str]] = {
     "gap": ("m", "gap between the surfaces"),
     "opening_velocity": ("m/s", "opening velocity, negative on approach"),
     "rotation_rate": ("rad/s", "angular velocity of the line of centres"),
-    "spin": ("rad/s", "angular velocity of each sphere about its own centre"),
+    "spin": ("rad/s", "angular velocity of each sphere (of a pair: the first) about its own centre"),
+    "spin_partner": ("rad/s", "angular velocity of the partner about its own centre"),
+    "sliding_velocity": ("m/s", "tangential velocity of the sphere's centre and the wall past each other"),
     "rotation": ("rad", "angle turned by the line of centres"),
 }
 
@@ -75,8 +77,14 @@ def dataset(
         values |= {
             "rotation_rate": outputs["final_rotation_rate"] * n.rate,
             "spin": outputs["final_spin"] * n.rate,
-            "rotation": y[names.index("rotation")] - (flown.offset if "rotation" in flown.extras else 0.0),
+            "rotation": y[names.index("rotation")] - (flown.offset if "rotation" in flown.extras else 0.0)
+            if "rotation" in names
+            else zero,
         }
+        if "final_spin_partner" in outputs:
+            values["spin_partner"] = outputs["final_spin_partner"] * n.rate
+        if model.wall:
+            values["sliding_velocity"] = outputs["tangential_restitution"] * n.speed * n.groups["obliquity"]
     else:
         values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
     variables = {

@@ -18,6 +18,23 @@ def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
     return {state: model.expanded(named[state.name]) for state in model.states}
 
 
+SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")  # of an unequal pair, by name
+
+
+def opened(model: Model, expression: sp.Expr) -> sp.Expr:
+    """`Model.expanded`, but for the sizes of an unequal pair: what holds for any, holds for theirs."""
+    for symbol, value in reversed(model.definitions):
+        if symbol.name not in SIZES:
+            expression = expression.subs(symbol, value)
+    return expression
+
+
+def opened_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
+    """`emitted_rates` in the sizes of an unequal pair."""
+    named = dict(model["right_hand_side"].outputs)
+    return {state: opened(model, named[state.name]) for state in model.states}
+
+
 def slope_along(energy: sp.Expr, variable: sp.Symbol) -> sp.Expr:
     """Derivative of an energy, with d rise/d offset_squared = stiffness/2 (which strings_are_conservative checks)."""
     heights = {node: sp.Dummy("height") for node in energy.atoms(AppliedUndef) if is_slot_call(node)}

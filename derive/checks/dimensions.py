@@ -28,6 +28,7 @@ from ..mechanics import (
     F_c,
     F_n,
     F_t,
+    F_w,
     S_n,
     S_t,
     arm,
@@ -93,7 +94,7 @@ def si_equations() -> dict[str, Equations]:
 
 def symbol_dimensions() -> dict[sp.Basic, Dimension]:
     """Dimensions of the vocabulary and of the names that the SI equations use beside it."""
-    forces = dict.fromkeys((F_n, F_c, F_t, S_n, S_t), FORCE)
+    forces = dict.fromkeys((F_n, F_c, F_w, F_t, S_n, S_t), FORCE)
     thicknesses = sp.symbols("h h_outer", positive=True)  # local, and where the tangential logarithm ends
     lengths = dict.fromkeys((arm, strings.r, *thicknesses), LENGTH)
     return {**DIMENSIONS, **forces, **lengths, FILM: ONE, SHEAR: ONE}

@@ -58,7 +58,8 @@ def normalisation_of_the_paper() -> Check:
 def number_of_groups() -> Check:
     """Buckingham: the independent groups are as many as the quantities less the rank of their dimension matrix."""
     motion = {time, x, u, omega, xi, omega0}
-    given = [q.symbol for q in VOCABULARY.values() if any(q.dimension.exponents) and q.symbol not in motion]
+    used = {s for group in group_definitions().values() for s in group.free_symbols}
+    given = [q.symbol for q in VOCABULARY.values() if any(q.dimension.exponents) and q.symbol in used - motion]
     dimensions = dimension_matrix(given)
     # exponent of a quantity in a group: d ln(group)/d ln(quantity)
     powers = sp.Matrix(

@@ -35,8 +35,12 @@ def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     """No film force at the film's rim x = x0, no tangential force at its own edge."""
     checks = []
     for law in films:
-        left = [filled(force_laws()[F_n], {"film": law}).subs(x, x0)]
-        checks.append(vanishing(f"film's rim: {law.name}", "x -> x0: no film force", left))
+        left = filled(force_laws()[F_n], {"film": law}).subs(x, x0)
+        name, statement = f"film's rim: {law.name}", "x -> x0: no film force"
+        if law.name == "infinite":  # its definition: no rim in the pressure
+            checks.append(Check(name, statement, None, f"ends at {left}: known, the film has no rim"))
+        else:
+            checks.append(vanishing(name, statement, [left]))
     for law in shears:
         left = [law["log_factor"](law["edge"](aspect), aspect)]
         checks.append(vanishing(f"shear's edge: {law.name}", "no tangential force at its edge", left))

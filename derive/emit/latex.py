@@ -11,8 +11,8 @@ from contextlib import contextmanager
 
 import sympy as sp
 
-from ..mechanics import F_c, F_n, F_t, S_n, S_t
-from ..quantities import VOCABULARY, a, beta, e_dry, g, m, mu, r, sigma, v0
+from ..mechanics import F_c, F_n, F_t, F_w, S_n, S_t
+from ..quantities import A_H, VOCABULARY, a, beta, e_dry, g, m, mu, r, sigma, v0
 from .printer import EmissionError
 
 NAMES: dict[str, str] = {
@@ -21,9 +21,11 @@ NAMES: dict[str, str] = {
     F_n.name: "F_{L,n}",
     F_t.name: "F_{L,t}",
     F_c.name: "F_c",
+    F_w.name: "F_w",
     S_n.name: "F_{S,n}",
     S_t.name: "F_{S,t}",
     "swing": "d",
+    "rim": "H",
     "compliance": r"\theta_e",
     "decay": "A",
     "offset": "B",
@@ -40,6 +42,7 @@ _FIRST = [  # of the factors, the rest by vocabulary
     *(f"f{k}" for k in range(1, 5)),
     m.name,
     mu.name,
+    A_H.name,
     g.name,
     a.name,
     sigma.name,

@@ -56,7 +56,20 @@ def law_module(law: Law) -> str:
             else [*lines, f"{INDENT}return result", ""]
         )
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
+    body = [*_validity(law), *body]
     return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def _validity(law: Law) -> list[str]:
+    """Where a law holds: quantity to (least, largest), None for no bound known."""
+    known = law.validity
+    if known is None:
+        return []
+    lines = ["", "VALIDITY: dict[str, tuple[float | None, float | None]] = {"]
+    for quantity in ("volume", "contact_angle", "separation"):
+        bounds = ", ".join("None" if bound is None else repr(float(bound)) for bound in getattr(known, quantity))
+        lines.append(f'{INDENT}"{quantity}": ({bounds}),')
+    return [*lines, "}", f'VALIDITY_SOURCE = "{known.source}"', ""]
 
 
 def _casadi(printer: Printer) -> list[str]:
@@ -83,9 +96,12 @@ def _described(name: str, own: Own) -> str:
 
 def _describe(model: Model, own: Own) -> str:
     shape = model.structure
-    what = "Oblique" if shape.oblique else "Head-on"
-    extras = [word for word, there in (("a liquid bridge", shape.bridge), ("pendulum strings", shape.strings)) if there]
-    title = f"{what} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
+    what = {"": "Oblique" if shape.oblique else "Head-on", "pair": "Oblique unequal", "wall": "Oblique sphere-wall"}
+    words = {"a liquid bridge": shape.bridge, "pendulum strings": shape.strings, "another attraction": shape.attraction}
+    extras = [word for word, there in words.items() if there]
+    title = f"{what[shape.partner]} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
+    if shape.spread:
+        title += ", a film whose rim follows the bridge's volume"
     if shape.reduced:
         title += ", spin eliminated through the conserved angular momentum"
     lines = [f"{title}.", "", "Time in x0/v0. States (per unit):"]

@@ -17,7 +17,7 @@ from ..laws.rupture import rupture_distance
 from ..laws.start import initial_rate, start_values
 from ..laws.strings import r as string_distance
 from ..laws.strings import swing_squared
-from ..mechanics import F_c, F_n, F_t, S_n, S_t, arm, doublet_inertia, equations_of_motion, sphere_inertia
+from ..mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, doublet_inertia, equations_of_motion, sphere_inertia
 from ..quantities import (
     a,
     beta,
@@ -52,6 +52,7 @@ DEFAULTS: Mapping[str, str] = {
 """The law of each slot where no other is asked for."""
 
 _SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # d of the strings, theta_e of the spheres
+_RIM = sp.Symbol("rim", positive=True)  # H of a film of constant volume, in SI
 _TWO_FIFTHS = sp.Rational(2, 5)
 
 
@@ -74,7 +75,8 @@ def theory(choice: Mapping[str, str | Law] | None = None) -> tuple[Equation, ...
     """Every line of the theory, with the laws of `choice` (slot to name, or a law in SI) where not the default."""
     chosen = {**DEFAULTS, **(choice or {})}
     laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
-    return (*_motion(laws), *_film(laws), *_bridge(laws["bridge"]), *_strings(laws), *_flight(laws), *_groups())
+    parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _flight(laws))
+    return (*(line for part in parts for line in part), *_groups())
 
 
 def _rate(symbol: sp.Symbol) -> str:
@@ -83,7 +85,8 @@ def _rate(symbol: sp.Symbol) -> str:
 
 def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, motion = "Motion", equations_of_motion()
-    radial = sp.collect(sp.expand(m * motion.separation_acceleration), omega**2, evaluate=False)
+    opened = motion.separation_acceleration if "attraction" in laws else motion.separation_acceleration.subs(F_w, 0)
+    radial = sp.collect(sp.expand(m * opened), omega**2, evaluate=False)
     balance = sum((sp.factor(part) * power if power != 1 else part for power, part in radial.items()), sp.Integer(0))
     lever = sp.expand(fill(force_laws()[arm], laws))
     turning = sp.simplify(sphere_inertia() * motion.spin_acceleration).subs(arm, lever)
@@ -108,13 +111,45 @@ def _square_completed(inertia: sp.Expr) -> sp.Expr:
 def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     inside = {FILM: 1, SHEAR: 1}
     # the film's rim as a factor 1 - x/x0, and not x0 - x
-    normal = sp.factor(sp.simplify(fill(force_laws()[F_n].subs(inside), laws))).subs(x0 - x, x0 * (1 - x / x0))
+    law = laws["film"]
+    resistance, rim = law["resistance"], _rim(law)
+    whole = force_laws(spread=rim is not None)[F_n].subs(inside)
+    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    arguments = dict(zip(resistance.arguments, call.args, strict=True))
+    named = resistance.result.subs({**arguments, _RIM: _RIM / x0}, simultaneous=True)
+    end = x0 if rim is None else _RIM
+    normal = sp.factor(sp.simplify(whole.xreplace({call: named})))
+    normal = normal.subs((x - end) ** 2, (end - x) ** 2).subs(end - x, end * (1 - x / end))
     shear = fill(force_laws()[F_t].subs(inside), laws)
     for call in shear.atoms(sp.log):
         shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x), and not -ln(x/x0)
     edge = sp.simplify(x0 * laws["shear"]["edge"](x0 / a))
-    yield Equation("Lubrication", latex(F_n), normal, _inside(x0) + "; the same on the way in and out")
+    yield Equation("Lubrication", latex(F_n), normal, _where(law))
+    if rim is not None:
+        squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * x0**2)
+        yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
     yield Equation("Lubrication", latex(F_t), shear, _inside(edge))
+
+
+def _where(law: Law) -> str:
+    """Where a film acts, and which way."""
+    functions = {function.name for function in law.functions}
+    if _rim(law) is not None:
+        return "at any gap, the same on the way in and out"
+    return _inside(x0) + ("; 0 on the way out" if "suction" in functions else "; the same on the way in and out")
+
+
+def _rim(law: Law) -> sp.Expr | None:
+    """Where the rim is over x0, if the law has it elsewhere than there."""
+    definitions = law["resistance"].definitions
+    return definitions[0][1] if definitions else None
+
+
+def _attraction(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    if "attraction" not in laws:
+        return
+    law = laws["attraction"]
+    yield Equation("Attraction", latex(F_w), sp.simplify(fill(force_laws()[F_w], laws)), law.source)
 
 
 def _inside(edge: sp.Expr) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..laws import LAWS
 from ..model import derive
-from ..structure import structures
+from ..structure import committed
 from .assemble import ASSEMBLE
 from .modules import (
     _PROVENANCE,
@@ -48,7 +48,7 @@ def emitted() -> dict[str, str]:
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
-    for structure in structures():
+    for structure in committed():
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
         manifest["structures"][structure.name] = model_digest(model)

@@ -7,6 +7,7 @@ laws are eight small modules and not eight copies of the equations.
 from __future__ import annotations
 
 from .arm import ARMS
+from .attraction import ATTRACTIONS
 from .base import Law, LawFunction, fill, slot_call
 from .bridge import BRIDGES
 from .film import FILMS
@@ -23,6 +24,7 @@ LAWS: dict[str, dict[str, Law]] = {
         ("glass", GLASSES),
         ("bridge", BRIDGES),
         ("strings", STRINGS),
+        ("attraction", ATTRACTIONS),
     )
 }
 

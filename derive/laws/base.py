@@ -44,14 +44,32 @@ class LawFunction:
 
 
 @dataclass(frozen=True)
+class Validity:
+    """Where a law was fitted or holds, as its source says: (least, largest) of a quantity, None for no bound known.
+
+    `volume` is V/R^3, `contact_angle` in rad, `separation` the gap over R.
+    """
+
+    source: str
+    volume: tuple[sp.Expr | None, sp.Expr | None] = (None, None)
+    contact_angle: tuple[sp.Expr | None, sp.Expr | None] = (None, None)
+    separation: tuple[sp.Expr | None, sp.Expr | None] = (None, None)
+
+
+@dataclass(frozen=True)
 class Law:
-    """A selectable law: fills the slot `slot` under the name that scene files use."""
+    """A selectable law: fills the slot `slot` under the name that scene files use.
+
+    Arguments:
+        validity: where it holds, if that is known.
+    """
 
     slot: str
     name: str
     meaning: str
     source: str
     functions: tuple[LawFunction, ...]
+    validity: Validity | None = None
 
     @property
     def module(self) -> str:

@@ -9,7 +9,8 @@ import sympy as sp
 
 from ..quantities import contact_angle as phi
 from ..quantities import volume as V
-from .base import Definition, Law, LawFunction
+from .base import Definition, Law, LawFunction, Validity
+from .rupture import own_rupture
 
 h = sp.Symbol("gap_over_radius", positive=True)
 _D = "Capillary attraction over pi R sigma."
@@ -20,11 +21,23 @@ def _n(text: str) -> sp.Rational:
     return sp.Rational(text)
 
 
-def _law(name: str, meaning: str, source: str, result: sp.Expr, definitions: tuple[Definition, ...] = ()) -> Law:
-    return Law("bridge", name, meaning, source, (LawFunction("force", (h, V, phi), result, _D, definitions),))
+def _law(
+    name: str,
+    meaning: str,
+    source: str,
+    result: sp.Expr,
+    definitions: tuple[Definition, ...] = (),
+    rupture: str | None = None,
+    validity: Validity | None = None,
+) -> Law:
+    functions = [LawFunction("force", (h, V, phi), result, _D, definitions)]
+    functions += [own_rupture(rupture)] if rupture else []
+    return Law("bridge", name, meaning, source, tuple(functions), validity)
 
 
-def _exponential(name: str, meaning: str, source: str, slope: str, offset: str, tail: str, logarithm: sp.Expr) -> Law:
+def _exponential(
+    name: str, meaning: str, source: str, slope: str, offset: str, tail: str, logarithm: sp.Expr, rupture: str
+) -> Law:
     """Mikami's form exp(A h + B) + C, with B's and C's coefficients of the logarithm of V as given."""
     log_volume, A, B, C = sp.symbols("log_volume decay offset tail", real=True)
     definitions = (
@@ -33,7 +46,7 @@ def _exponential(name: str, meaning: str, source: str, slope: str, offset: str, 
         (B, (_n(slope) * log_volume - _n("0.96")) * phi**2 + _n(offset) * log_volume + _n("0.48")),
         (C, _n(tail) * log_volume + _n("0.078")),
     )
-    return _law(name, meaning, source, sp.exp(A * h + B) + C, definitions)
+    return _law(name, meaning, source, sp.exp(A * h + B) + C, definitions, rupture)
 
 
 def _willett() -> Law:
@@ -76,6 +89,17 @@ def _willett() -> Law:
         "Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)",
         result,
         tuple(definitions),
+        rupture="willett",
+        validity=_fitted_up_to("0.1"),
+    )
+
+
+def _fitted_up_to(largest: str) -> Validity:
+    """Willett et al.'s ranges: bridges up to a volume, contact angles up to 50 deg."""
+    return Validity(
+        source="Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)",
+        volume=(None, _n(largest)),
+        contact_angle=(None, 5 * sp.pi / 18),
     )
 
 
@@ -116,13 +140,17 @@ def _willett_simple() -> Law:
         "Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)",
         2 * sp.cos(phi) / (1 + _n("1.05") * scaled + _n("2.5") * scaled**2),
         ((scaled, h / sp.sqrt(V)),),
+        rupture="willett",
+        validity=_fitted_up_to("0.001"),
     )
 
 
 _MIKAMI = "Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998)"
 
 BRIDGES = (
-    _exponential("mikami", "regression of Young-Laplace solutions", _MIKAMI, "-0.34", "-0.019", "0.0042", sp.log(V)),
+    _exponential(
+        "mikami", "regression of Young-Laplace solutions", _MIKAMI, "-0.34", "-0.019", "0.0042", sp.log(V), "mikami"
+    ),
     _exponential(
         "mikami-log10",
         "mikami with decimal logarithms in B and C (closer to Young-Laplace for phi > 0)",
@@ -131,6 +159,7 @@ BRIDGES = (
         "-0.019",
         "0.0042",
         sp.log(V) / sp.log(10),
+        "mikami",
     ),
     _willett(),
     _willett_simple(),
@@ -144,6 +173,7 @@ BRIDGES = (
         "-0.0082",
         "0.0018",
         sp.log(V),
+        "lian",
     ),
     _law(
         "constant",

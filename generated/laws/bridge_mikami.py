@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 4f03caa45d5788380806cd88c35fb4048e6588ae50bca83c0bb4567e84e5f228
+# Equations sha256 9fee44d3c6672156e33ea0709e0006e7a2dff93ee5c70a213376d36faf1bded9
 """bridge law `mikami`: regression of Young-Laplace solutions.
 
 Source: Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998).
@@ -22,3 +22,13 @@ def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
     offset = contact_angle**2*(-0.34*log_volume - 0.96) - 0.019*log_volume + 0.48
     tail = 0.0042*log_volume + 0.078
     return tail + exp(decay*gap_over_radius + offset)
+
+
+def rupture_distance(volume: Any, contact_angle: Any) -> Any:
+    """Rupture distance over R that goes with this law.
+
+    Source: Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998).
+
+    Total operations: 7
+    """
+    return volume**0.34*(0.62*contact_angle + 0.99)

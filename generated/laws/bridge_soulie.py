@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 697bb6112b4bdf2568519bf3ad8765235bd8c53be6d4a6a8f49f25340cd9a72b
+# Equations sha256 8ae8f5d0d1f3a56bcd8b692dbaee4bcc8ceb364871fd1fed87a9903744733ff7
 """bridge law `soulie`: mikami's form refitted for polydisperse spheres.
 
 Source: Soulie, Cherblanc, El Youssoufi & Saix, Int. J. Numer. Anal. Meth. Geomech. 30, 213 (2006).
@@ -22,3 +22,13 @@ def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
     offset = contact_angle**2*(-0.148*log_volume - 0.96) - 0.0082*log_volume + 0.48
     tail = 0.0018*log_volume + 0.078
     return tail + exp(decay*gap_over_radius + offset)
+
+
+def rupture_distance(volume: Any, contact_angle: Any) -> Any:
+    """Rupture distance over R that goes with this law.
+
+    Source: Lian, Thornton & Adams, J. Colloid Interface Sci. 161, 138 (1993), which Soulie et al. (2006) use.
+
+    Total operations: 5
+    """
+    return volume**(1/3)*(contact_angle/2 + 1)

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a7d6eff18a7053aafde664ee1d50ffc7ace7f539a0d764ad52176ff611489300
+# Equations sha256 78bfb53e20678b26d8151529924a920f90ec47b44fc2119f83e152eb709d0cb4
 """bridge law `willett`: fit to Young-Laplace solutions over h/(2 sqrt V), full form.
 
 Source: Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000).
@@ -10,6 +10,14 @@ from __future__ import annotations
 from typing import Any
 
 from casadi import exp, log, sqrt
+
+
+VALIDITY: dict[str, tuple[float | None, float | None]] = {
+    "volume": (None, 0.1),
+    "contact_angle": (None, 0.8726646259971648),
+    "separation": (None, None),
+}
+VALIDITY_SOURCE = "Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)"
 
 
 def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
@@ -50,3 +58,13 @@ def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
         - 0.010703
     )
     return 2*exp(f1 - f2*exp(f3*log_scaled_gap + f4*log_scaled_gap**2))
+
+
+def rupture_distance(volume: Any, contact_angle: Any) -> Any:
+    """Rupture distance over R that goes with this law.
+
+    Source: Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000).
+
+    Total operations: 9
+    """
+    return (contact_angle/2 + 1)*(0.1*volume**(2/3) + volume**(1/3))

@@ -55,7 +55,7 @@ def altered(law: Law, **results: sp.Expr) -> Law:
 
 def altered_force(mutate: Mutate, force: sp.Symbol, change: Callable[[sp.Expr], sp.Expr]) -> None:
     right = forces.force_laws()
-    mutate(forces.force_laws, lambda: {**right, force: change(right[force])})
+    mutate(forces.force_laws, lambda *_: {**right, force: change(right[force])})
 
 
 def test_tangential_force_of_the_wrong_sign(mutate: Mutate, healthy: Healthy):
@@ -94,7 +94,7 @@ def test_centrifugal_term_of_the_wrong_sign(mutate: Mutate, healthy: Healthy):
 def test_inertia_of_hollow_spheres_in_one_place(mutate: Mutate, healthy: Healthy):
     """2/3 for 2/5 in I(x) alone contradicts the kinetic energy."""
     hollow = sp.expand(doublet_inertia() + (sp.Rational(2, 3) - sp.Rational(2, 5)) * 16 * q.m * q.a**2)
-    mutate(doublet_inertia, lambda: hollow)
+    mutate(doublet_inertia, lambda *_: hollow)
     caught(inertia_is_rigid_rotation(), healthy, "inertia")
     caught(least_energy(), healthy, "stick certificate")
     caught(least_energy_is_a_minimum(), healthy, "least energy at fixed L")
@@ -162,7 +162,7 @@ def test_a_reversal_that_gains_energy(mutate: Mutate, healthy: Healthy):
 def test_a_reversal_that_books_its_gain(mutate: Mutate, healthy: Healthy):
     """A gain that the ledger knows of balances, and is still a gain."""
     mutate(reversal, lambda states: {s: -(2 - q.e_dry) * q.opening if s == q.opening else s for s in states})
-    mutate(reversal_loss, lambda: q.opening**2 * (1 - (2 - q.e_dry) ** 2) / 2)
+    mutate(reversal_loss, lambda *_: q.opening**2 * (1 - (2 - q.e_dry) ** 2) / 2)
     caught(reversal_dissipates(), healthy, "reversal dissipates")
 
 
@@ -179,7 +179,7 @@ def test_a_reversal_that_books_its_gain(mutate: Mutate, healthy: Healthy):
 def test_a_group_misdefined(mutate: Mutate, healthy: Healthy, group, factor, names):
     """A factor in a group's definition, a pure number or a length, is caught as what it is."""
     right = group_definitions()
-    mutate(group_definitions, lambda: {**right, group: right[group] * factor})
+    mutate(group_definitions, lambda *_: {**right, group: right[group] * factor})
     rooms = {"groups": si_equations()["groups"]}
     found = failed(
         [*dimension_checks(rooms), groups_are_the_papers(), groups_span_the_nullspace(), centrifugal_number()]

@@ -268,6 +268,10 @@ def test_emitted_groups_are_the_published_ones():
             "youngs_modulus": extra["E"],
             "poisson_ratio": extra["nu"],
             "roughness": extra["b"],
+            "hamaker": 1e-19,
+            "radius_ratio": 2.5,
+            "initial_rate": 7.0,
+            "attraction_force": 3e-5,
         }
         theta_e = 2 * (1 - extra["nu"] ** 2) / (pi * extra["E"])
         published = _groups(scene, ("stokes", "aspect", "obliquity", "capillary", "weight", "string_ratio")) | {
@@ -278,6 +282,12 @@ def test_emitted_groups_are_the_published_ones():
             "rough_gap": extra["b"] / x0,
             "initial_rate": v0 * math.tan(scene["theta"]) / (4 * a),
             "rupture_gap": 2 * a * scene["V"] ** (1 / 3) * (1 + scene["phi"] / 2) / x0,
+            "adhesion": 1e-19 * a / (6 * x0**2) / (6 * pi * mu * a**2 * v0 / x0),
+            # R1 = a (1 + ratio)/ratio and R2 = a (1 + ratio)
+            "initial_rate_pair": v0 * math.tan(scene["theta"]) / (1.4 * a + 3.5 * a),
+            "initial_rate_wall": v0 * math.tan(scene["theta"]) / a,
+            "centrifugal_pair": m * (v0 * math.tan(scene["theta"]) / (4.9 * a)) ** 2 / scene["sigma"],
+            "generalised_centrifugal": m * 7.0**2 * a / 3e-5,
         }
         assert published.keys() == scaling.ARGUMENTS.keys()
         for name, expected in published.items():

@@ -15,6 +15,7 @@ from wetdoublet.derive.mechanics import (
     F_c,
     F_n,
     F_t,
+    F_w,
     S_n,
     S_t,
     arm,
@@ -60,8 +61,8 @@ def test_kinetic_energy_of_a_rigid_doublet():
 
 
 def test_normal_equation():
-    """The normal equation is m du/dt = m r omega^2 - F_n - F_c - S_n."""
-    assert same(m * equations_of_motion().separation_acceleration, m * r * omega**2 - F_n - F_c - S_n)
+    """The normal equation is m du/dt = m r omega^2 - F_n - F_c - F_w - S_n, F_w any further attraction."""
+    assert same(m * equations_of_motion().separation_acceleration, m * r * omega**2 - F_n - F_c - F_w - S_n)
 
 
 def test_orbital_equation():
@@ -208,6 +209,7 @@ GROUPS = {
     "stokes": m * v0 / (6 * sp.pi * mu * a**2),
     "capillary": 3 * mu * a * v0 / (sigma * x0),
     "centrifugal": m * (v0 * sp.tan(q.theta0) / (4 * a)) ** 2 / sigma,
+    "adhesion": q.A_H / (36 * sp.pi * mu * v0 * x0 * a),
     "reynolds": q.rho * v0 * x0 / mu,
     "aspect": x0 / a,
     "obliquity": sp.tan(q.theta0),

@@ -143,6 +143,7 @@ def test_every_symbolic_check_holds(healthy):
         "certificate: oblique_bridge, surface arm",
         "certificate: oblique_strings, surface arm",
         "certificate: oblique",
+        "film's rim: infinite",
         "certificate: oblique_bridge_strings",
     }
     assert all(check.statement and check.figure for check in healthy.values())

@@ -86,16 +86,16 @@ print(hashlib.sha256("\\n".join(name + "\\n" + text for name, text in files.item
 
 
 def test_emission_does_not_depend_on_the_hash_seed():
-    """Three fresh interpreters with hash seeds 0, 1 and 2 emit the same bytes as this one."""
+    """Two fresh interpreters with hash seeds 0 and 1 emit the same bytes as this one, whose seed is any."""
     running = [
         subprocess.Popen(
             [sys.executable, "-c", _HASH], env={**os.environ, "PYTHONHASHSEED": seed}, stdout=subprocess.PIPE, text=True
         )
-        for seed in "012"
+        for seed in "01"
     ]
     found = [process.communicate(timeout=120)[0].strip() for process in running]
     here = "\n".join(f"{name}\n{text}" for name, text in texts().items())
-    assert found == [hashlib.sha256(here.encode()).hexdigest()] * 3
+    assert found == [hashlib.sha256(here.encode()).hexdigest()] * 2
 
 
 _BLOCKED = """

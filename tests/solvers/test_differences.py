@@ -84,14 +84,14 @@ def test_foreign_code_is_not_read():
 
 
 def test_the_command_shows_terms_and_what_they_do():
-    """Soulie's fit instead of Mikami's: two coefficients of B and one of C; Ce* falls as MODEL.md's list says."""
+    """Soulie instead of Mikami: two coefficients of B, one of C, the own rupture; Ce* falls as MODEL.md says."""
     done = run("diff", "granulation", "granulation", "--set", "bridge.law=soulie")
     assert done.exit_code == 0, done.output
-    assert "2 equations differ" in done.output
+    assert "3 equations differ" in done.output
     changed = re.findall(r"changed  (.*)\n +to   (.*)", done.output)
     assert ("0.0042*log_volume", "0.0018*log_volume") in changed
     assert ("-0.019*log_volume", "-0.0082*log_volume") in changed
-    assert len(changed) == 3
+    assert len(changed) == 4
     ce = [float(value) for value in re.findall(r"Ce\* ([\d.]+)", done.output.split("stick-rotate-separate")[1])]
     assert ce[0] == pytest.approx(4.121, rel=1e-3)  # midgap arm, MODEL.md section 8
     assert ce[1] < ce[0]

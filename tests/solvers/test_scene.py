@@ -225,7 +225,7 @@ def test_bad_entries(changes, field, says):
 
 
 @pytest.mark.parametrize(
-    "name", [n for n, f in FIELDS.items() if f.required and not n.startswith(("bridge", "pendulum"))]
+    "name", [n for n, f in FIELDS.items() if f.required and not n.startswith(("bridge", "attraction", "pendulum"))]
 )
 def test_missing_entries(name):
     """Every required entry is named when it is missing."""
@@ -338,7 +338,7 @@ def test_an_impact_replaced_keeps_text_and_order():
     ("line", "says"),
     [
         ('reduced_radius = "5 um"', 'reduced_radius: "5 um" has an unknown name, belongs in [particles]; accepted'),
-        ('density = "1 g/cm^3"', "belongs in [particles] or [liquid]; accepted"),
+        ('density = "1 g/cm^3"', "belongs in [particles] or [partner] or [liquid]; accepted"),
         ('liquids = "1 g/cm^3"', "did you mean liquid?; accepted"),
     ],
 )

@@ -1,0 +1,107 @@
+"""Films and attractions: dimensions and limits of the laws beside the paper's, and what a number made of them says."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
+from ..forces import force_laws
+from ..laws import LAWS, attraction, fill, film
+from ..laws.start import initial_rate
+from ..mechanics import F_c
+from ..model import derive
+from ..quantities import DIMENSIONS, centrifugal, contact_angle, gap, omega0, opening, x, x0
+from ..scaling import generalised_centrifugal, group_definitions
+from ..structure import Structure
+from .base import Check, vanishing
+from .closed import opened, slope_along
+
+_H = sp.Symbol("h", positive=True)
+_ATTRACTED = (
+    Structure(False, True, True, attraction=True),
+    Structure(True, False, False, reduced=True, attraction=True),
+    Structure(True, True, False, attraction=True),
+    Structure(True, True, False, attraction=True, partner="pair"),
+    Structure(True, True, False, attraction=True, partner="wall"),
+)
+
+
+def films() -> tuple[Check, ...]:
+    """Each film's force is one, and tends to the unbounded film's where its rim is far."""
+    rim = sp.Symbol("rim", positive=True)
+    lengths = {**DIMENSIONS, rim: LENGTH}
+    forces = (film.normal_force(), film.unbounded_force(), film.sustained_force(), film.constant_volume_force())
+    for force in forces:
+        demand_dimension("film force", force, FORCE, lengths)
+    demand_dimension("rim of constant volume", film.rim_of_constant_volume(), LENGTH, DIMENSIONS)
+    demand_dimension("attraction of half-spaces", attraction.flat_pressure(), PRESSURE, {**DIMENSIONS, _H: LENGTH})
+    demand_dimension("van der Waals force", attraction.van_der_waals_force(), FORCE, DIMENSIONS)
+    demand_dimension("van der Waals potential", attraction.van_der_waals_potential(), ENERGY, DIMENSIONS)
+    unbounded = film.unbounded_force()
+    far = [
+        sp.limit(film.normal_force() / unbounded, x0, sp.oo) - 1,
+        sp.limit(film.constant_volume_force() / unbounded, rim, sp.oo) - 1,
+        film.constant_volume_force().subs(rim, x0) - film.normal_force(),
+        film.sustained_force(),
+    ]
+    potential = attraction.van_der_waals_potential().diff(x) - attraction.van_der_waals_force()
+    return (
+        vanishing("films", "all tend to 6 pi mu a^2 u/x as the rim goes far; without suction no force opposes", far),
+        vanishing("van der Waals", "F_w = dW_w/dx = A a/(6 x^2)", [potential]),
+    )
+
+
+def resistances() -> Check:
+    """Every film resists: its resistance is nowhere negative, so that lubrication only dissipates."""
+    wrong = []
+    for law in LAWS["film"].values():
+        for function in (each for each in law.functions if not each.for_proof):
+            value = function(*function.arguments).subs(gap, sp.Symbol("s", positive=True))
+            if not (sp.factor(value) * sp.Symbol("s", positive=True)).is_nonnegative:
+                wrong.append(f"{law.name} {function.name}")
+    return Check("films dissipate", "resistance >= 0 at every gap", not wrong, ", ".join(wrong) or "4 films")
+
+
+def generalised_number() -> Check:
+    """Ce_F is Ce times a constant for the constant bridge: Ce/(4 pi cos(phi))."""
+    force = fill(force_laws()[F_c], {"bridge": LAWS["bridge"]["constant"]})
+    own = sp.simplify(generalised_centrifugal(force) / _centrifugal())
+    return vanishing(
+        "generalised centrifugal number",
+        "m omega0^2 a/F = Ce/(4 pi cos(phi)) for the constant bridge",
+        [own - 1 / (4 * sp.pi * sp.cos(contact_angle))],
+        f"Ce_F/Ce = {own}",
+    )
+
+
+def _centrifugal() -> sp.Expr:
+    return sp.simplify(group_definitions()[centrifugal] / initial_rate() ** 2) * omega0**2
+
+
+def slopes() -> Check:
+    """The certificate's slope is that of its energy and of the work against every attraction."""
+    left = []
+    for structure in _ATTRACTED:
+        model = derive(structure)
+        outputs, taken = dict(model["effective_potential"].outputs), dict(model["energy_rates"].outputs)
+        value, slope = opened(model, outputs["energy"]), opened(model, outputs["slope"])
+        works = [opened(model, taken[name]) / opening for name in ("capillary", "attraction") if name in taken]
+        left.append(slope - _rises(structure, value) - sum(works))
+    return vanishing("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L", left)
+
+
+def _rises(structure: Structure, value: sp.Expr) -> sp.Expr:
+    """Slope of the least energy along the gap at a fixed angular momentum."""
+    momentum, model = sp.Symbol("L", positive=True), derive(structure)
+    if structure.oblique and structure.partner != "wall":
+        definitions = dict(model.definitions)
+        own = next(opened(model, each) for symbol, each in definitions.items() if symbol.name == "momentum")
+        inertia = next(opened(model, each) for symbol, each in definitions.items() if symbol.name == "inertia_ratio")
+        scale = sp.simplify(value * inertia / own**2)
+        return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
+    return slope_along(value, gap)
+
+
+def law_checks() -> tuple[Check, ...]:
+    """Every check of films and attractions."""
+    return (*films(), resistances(), generalised_number(), slopes())

@@ -1,0 +1,167 @@
+"""Unequal partners: what a general pair conserves (found, not assumed), its friction, its equal and its wall limit."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..laws import LAWS
+from ..model import Model, derive
+from ..partners import bodies, rolling, wall
+from ..quantities import (
+    a,
+    gap,
+    mass_ratio,
+    mu,
+    opening,
+    orbit,
+    partner_spin,
+    radius_ratio,
+    slide_rate,
+    spin,
+    xi,
+)
+from ..structure import Partner, Structure
+from .base import Check, vanishing
+from .closed import emitted_rates, filled, opened, opened_rates
+
+_PARTNERS: tuple[Partner, ...] = ("pair", "wall")
+_MIDGAP = {"arm": LAWS["arm"]["midgap"]}
+_PAIR, _WALL = (Structure(True, True, False, attraction=True, partner=partner) for partner in _PARTNERS)
+
+
+def conserved_momenta() -> list[dict[str, sp.Expr]]:
+    """Every linear combination of the pair's momenta whose rate vanishes whatever the forces, by their coordinates.
+
+    The tangential force is the one that the torques leave: r F_t = T_1 + T_2.
+    """
+    motion = bodies.equations_of_motion()
+    balance = {bodies.F_t: (bodies.T_1 + bodies.T_2) / bodies.r}
+    rates = {name: sp.expand(sp.simplify(rate.subs(balance))) for name, rate in motion.rates.items()}
+    terms = sorted({term for rate in rates.values() for term in rate.as_coefficients_dict()}, key=str)
+    matrix = sp.Matrix([[rate.as_coefficients_dict()[term] for rate in rates.values()] for term in terms if term != 0])
+    return [
+        {name: weight for name, weight in zip(rates, vector, strict=True) if weight != 0}
+        for vector in matrix.nullspace()
+    ]
+
+
+def momenta_are_found() -> Check:
+    """Linear momentum and total angular momentum, and nothing else that is linear in the momenta."""
+    found = conserved_momenta()
+    expected = [{"X": 1}, {"Y": 1}, {"beta": 1, "alpha_1": 1, "alpha_2": 1}]
+    missing = [each for each in expected if each not in found] + [each for each in found if each not in expected]
+    return Check(
+        "pair: conserved momenta",
+        "two unequal spheres that act on each other only keep P_X, P_Y and L = m r^2 omega + I_1 xi_1 + I_2 xi_2",
+        not missing,
+        "; ".join(" + ".join(f"p_{name}" for name in each) for each in found),
+    )
+
+
+def angular_momentum_is_kept() -> Check:
+    """The emitted equations keep the emitted angular momentum, for any laws with the midgap arm."""
+    model = derive(_PAIR)
+    momentum = opened(model, dict(model["angular_momentum"].outputs)["angular_momentum"])
+    rates = opened_rates(model)
+    change = sum((momentum.diff(state) * rates[state] for state in (orbit, spin, partner_spin)), sp.Integer(0))
+    statement = "dL/dt = 0 along the emitted equations (midgap arm, any law)"
+    return vanishing("pair: angular momentum", statement, [filled(change, _MIDGAP)])
+
+
+def energy_is_accounted_for() -> Check:
+    """Kinetic energy changes by what film, shear, bridge and attraction take, beside pair and wall."""
+    left = []
+    for structure in (_PAIR, _WALL):
+        model = derive(structure)
+        stored = opened(model, dict(model["energies"].outputs)["kinetic"])
+        change = sum((stored.diff(state) * rate for state, rate in opened_rates(model).items()), sp.Integer(0))
+        left.append(change + sum(opened(model, rate) for _, rate in model["energy_rates"].outputs))
+    return vanishing("pair, wall: energy", "d(kinetic)/dt = -(film + shear + bridge + attraction power)", left)
+
+
+def friction_dissipates() -> Check:
+    """The torque matrix is symmetric (Lorentz) and positive definite, and no force is left in rigid rotation."""
+    matrix = rolling.torque_matrix()
+    positive = bool(matrix[0, 0].is_positive and sp.expand(matrix.det()).is_positive)
+    left = [matrix[0, 1] - matrix[1, 0]]
+    # the force by stress and pressure on a sphere is what the torques leave of dL/dt = 0
+    reduced = rolling.R_1 * rolling.R_2 / (rolling.R_1 + rolling.R_2)
+    by_torque = (matrix[0, :] + matrix[1, :]) / (rolling.R_1 + rolling.R_2)
+    left += [sp.simplify(each.subs(a, reduced)) for each in by_torque - rolling.force_on_second()]
+    shear, pressed = rolling.stresses(), rolling.pressure_forces()
+    left.append(sp.simplify((sum(shear) + sum(pressed)).subs(a, reduced)))  # action and reaction
+    check = vanishing(
+        "pair: friction",
+        "T_i = A_ij (omega - xi_j) ln(h_outer/x): A symmetric, positive definite; r F_t = T_1 + T_2",
+        left,
+    )
+    return check if positive else Check(check.name, check.statement, False, "not positive definite")
+
+
+def published_logarithms() -> Check:
+    """The leading logarithms of Jeffrey & Onishi (1984) and, beside a wall, of Goldman, Cox & Brenner (1967)."""
+    lam = radius_ratio
+    matrix = rolling.torque_matrix().subs(dict(zip((rolling.R_1, rolling.R_2), bodies.radii(), strict=True)))
+    own, other = bodies.radii()
+    total = (sum(matrix[0, :]) + sum(matrix[1, :])) / (own + other) ** 2  # force per relative velocity, no spins
+    coupling = sum(matrix[0, :]) / (own + other)  # torque on 1 per relative velocity
+    published = [
+        total - 6 * sp.pi * mu * own * sp.Rational(4, 15) * lam * (2 + lam + 2 * lam**2) / (1 + lam) ** 3,  # Y^A_11
+        coupling - 4 * sp.pi * mu * own**2 * lam * (4 + lam) / (5 * (1 + lam) ** 2),  # Y^B_11
+        matrix[0, 0] - 8 * sp.pi * mu * own**3 * sp.Rational(2, 5) * lam / (1 + lam),  # Y^C_11
+        matrix[0, 1] - sp.pi * mu * (own + other) ** 3 * sp.Rational(4, 5) * lam**2 / (1 + lam) ** 4,  # Y^C_12
+    ]
+    torque, force = wall.friction()
+    published += [
+        force - 6 * sp.pi * mu * a * (sp.Rational(8, 15) * slide_rate - sp.Rational(2, 15) * a * xi),
+        torque - 8 * sp.pi * mu * a**2 * (slide_rate / 10 - sp.Rational(2, 5) * a * xi),
+    ]
+    return vanishing(
+        "pair, wall: published logarithms",
+        "Y^A_11, Y^B_11, Y^C_11, Y^C_12 of Jeffrey & Onishi (1984); Goldman, Cox & Brenner (1967) beside a wall",
+        published,
+    )
+
+
+def equal_is_the_doublet() -> Check:
+    """A pair of ratio 1 keeps its spins equal, and is then the doublet of two equal spheres."""
+    left = []
+    pair, equal = derive(_PAIR), derive(Structure(True, True, False, attraction=True))
+    together = {radius_ratio: 1, mass_ratio: 1, partner_spin: spin}
+    for arm in LAWS["arm"].values():
+        rates = {s: filled(rate, {"arm": arm}).subs(together) for s, rate in emitted_rates(pair).items()}
+        expected = {s: filled(rate, {"arm": arm}) for s, rate in emitted_rates(equal).items()}
+        left += [rates[s] - rate for s, rate in expected.items()]
+        left.append(rates[partner_spin] - rates[spin])  # equal spins stay equal
+    left += _outputs_differ(pair, equal, together)
+    return vanishing("pair of ratio 1", "spins stay equal, and every equation is the equal doublet's", left)
+
+
+def _outputs_differ(pair: Model, equal: Model, together: dict[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
+    left = []
+    for name in ("energies", "angular_momentum", "effective_potential", "inward_force", "turning_rate", "outputs"):
+        there = dict(pair[name].outputs)
+        for key, expression in equal[name].outputs:
+            left.append(pair.expanded(there[key]).subs(together) - equal.expanded(expression))
+    return left
+
+
+def wall_is_head_on() -> Check:
+    """Beside a wall the motion along the line of centres is the head-on one, whatever goes on across it."""
+    rates = emitted_rates(derive(_WALL))
+    alone = emitted_rates(derive(Structure(False, True, False, attraction=True)))
+    left = [rates[state] - alone[state] for state in (gap, opening)]
+    return vanishing("wall: normal motion", "the limit of a pair has no centrifugal force: u' is the head-on one", left)
+
+
+def partner_checks() -> tuple[Check, ...]:
+    """Every check of unequal partners."""
+    return (
+        momenta_are_found(),
+        angular_momentum_is_kept(),
+        energy_is_accounted_for(),
+        friction_dissipates(),
+        published_logarithms(),
+        equal_is_the_doublet(),
+        wall_is_head_on(),
+    )

@@ -1,0 +1,244 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 8d741ccdc624bbedad883044fba437dc917afcbc9af2b427eaaba44835bd0e10
+"""Head-on doublet with a liquid bridge, a film whose rim follows the bridge's volume.
+
+Time in x0/v0. States (per unit):
+- gap [x0]: gap over film thickness
+- opening [v0]: opening velocity over impact speed, negative on approach
+
+Groups:
+- stokes [1]: Stokes number m v0/(6 pi mu a^2)
+- aspect [1]: film thickness over reduced radius, x0/a
+- capillary [1]: capillary number 3 mu a v0/(sigma x0)
+- volume [1]: bridge volume over R^3 (constant)
+- contact_angle [rad]: contact angle of the liquid on the sphere
+- glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+- elastic_gap [x0]: elastic length over film thickness
+- rough_gap [x0]: roughness over film thickness
+- rupture_gap [x0]: rupture distance over film thickness
+- dry_restitution [1]: restitution of the dry contact
+
+Law slots: film, glass, bridge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+Values = Mapping[str, Any]
+
+STATES = ("gap", "opening")
+GROUPS = (
+    "stokes",
+    "aspect",
+    "capillary",
+    "volume",
+    "contact_angle",
+    "glass_number",
+    "elastic_gap",
+    "rough_gap",
+    "rupture_gap",
+    "dry_restitution",
+)
+SLOTS = ("film", "glass", "bridge")
+FUNCTIONS = (
+    "right_hand_side",
+    "inward_force",
+    "events",
+    "reversal",
+    "start",
+    "energies",
+    "energy_rates",
+    "reversal_loss",
+    "outputs",
+    "effective_potential",
+    "rigid_rotation",
+    "restitution_ceiling",
+)
+REGIONAL = ("right_hand_side", "energy_rates")
+DIGEST = "8d741ccdc624bbedad883044fba437dc917afcbc9af2b427eaaba44835bd0e10"
+
+
+def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 11
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "gap": opening,
+        "opening": -bridge_force - film_force,
+    }
+
+
+def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+
+    Total operations: 5
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "inward_force": bridge_force,
+    }
+
+
+def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
+    velocity (its sign tells closing from opening), `release` in resting contact.
+
+    Total operations: 6
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    glass_number = groups["glass_number"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    return {
+        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "elastic": gap - elastic_gap,
+        "rough": gap - rough_gap,
+        "turning": opening,
+        "rupture": rupture_gap - gap,
+    }
+
+
+def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+
+    Total operations: 2
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "gap": gap,
+        "opening": -dry_restitution*opening,
+    }
+
+
+def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State at first touch.
+
+    Total operations: 1
+    """
+    return {
+        "gap": 1,
+        "opening": -1,
+    }
+
+
+def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energies of the state over m v0^2.
+
+    Total operations: 2
+    """
+    opening = state["opening"]
+    return {
+        "kinetic": opening**2/2,
+    }
+
+
+def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 11
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "normal_lubrication": film_force*opening,
+        "capillary": bridge_force*opening,
+    }
+
+
+def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a reversal that starts from this state, over m v0^2.
+
+    Total operations: 5
+    """
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+    }
+
+
+def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What a separated doublet shows: restitutions, and rates over omega0.
+
+    Total operations: 0
+    """
+    opening = state["opening"]
+    return {
+        "restitution": opening,
+    }
+
+
+def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+    slope with it.
+
+    Total operations: 5
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "energy": 0,
+        "slope": bridge_force,
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 0
+    """
+    gap = state["gap"]
+    return {
+        "gap": gap,
+        "opening": 0,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 0
+    """
+    return {
+        "squared": 1,
+    }

@@ -1,0 +1,266 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 e1de9ddb535761776b51d5a380160fe9a0fdddbffc818477a53644cd30a549ca
+"""Head-on doublet with a liquid bridge and pendulum strings and another attraction.
+
+Time in x0/v0. States (per unit):
+- gap [x0]: gap over film thickness
+- opening [v0]: opening velocity over impact speed, negative on approach
+
+Groups:
+- stokes [1]: Stokes number m v0/(6 pi mu a^2)
+- aspect [1]: film thickness over reduced radius, x0/a
+- capillary [1]: capillary number 3 mu a v0/(sigma x0)
+- volume [1]: bridge volume over R^3 (constant)
+- contact_angle [rad]: contact angle of the liquid on the sphere
+- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- weight [1]: gravity over impact deceleration, g x0/v0^2
+- string_ratio [1]: string length over reduced radius
+- glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+- elastic_gap [x0]: elastic length over film thickness
+- rough_gap [x0]: roughness over film thickness
+- rupture_gap [x0]: rupture distance over film thickness
+- dry_restitution [1]: restitution of the dry contact
+
+Law slots: film, glass, bridge, strings, attraction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+Values = Mapping[str, Any]
+
+STATES = ("gap", "opening")
+GROUPS = (
+    "stokes",
+    "aspect",
+    "capillary",
+    "volume",
+    "contact_angle",
+    "adhesion",
+    "weight",
+    "string_ratio",
+    "glass_number",
+    "elastic_gap",
+    "rough_gap",
+    "rupture_gap",
+    "dry_restitution",
+)
+SLOTS = ("film", "glass", "bridge", "strings", "attraction")
+FUNCTIONS = (
+    "right_hand_side",
+    "inward_force",
+    "events",
+    "reversal",
+    "start",
+    "energies",
+    "energy_rates",
+    "reversal_loss",
+    "outputs",
+    "effective_potential",
+    "rigid_rotation",
+)
+REGIONAL = ("right_hand_side", "energy_rates")
+DIGEST = "e1de9ddb535761776b51d5a380160fe9a0fdddbffc818477a53644cd30a549ca"
+
+
+def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 24
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    film_force = film*opening*laws.film.resistance(gap)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
+    return {
+        "gap": opening,
+        "opening": -attraction_force - bridge_force - film_force - string_pull,
+    }
+
+
+def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+
+    Total operations: 18
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
+    return {
+        "inward_force": attraction_force + bridge_force + string_pull,
+    }
+
+
+def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
+    velocity (its sign tells closing from opening), `release` in resting contact.
+
+    Total operations: 7
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    glass_number = groups["glass_number"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    return {
+        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "elastic": gap - elastic_gap,
+        "rough": gap - rough_gap,
+        "turning": opening,
+        "rupture": rupture_gap - gap,
+        "film_edge": 1 - gap,
+    }
+
+
+def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+
+    Total operations: 2
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "gap": gap,
+        "opening": -dry_restitution*opening,
+    }
+
+
+def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State at first touch.
+
+    Total operations: 1
+    """
+    return {
+        "gap": 1,
+        "opening": -1,
+    }
+
+
+def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energies of the state over m v0^2.
+
+    Total operations: 10
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    aspect = groups["aspect"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    offset_squared = aspect**2*gap**2/4
+    return {
+        "kinetic": opening**2/2,
+        "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
+    }
+
+
+def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 15
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    film_force = film*opening*laws.film.resistance(gap)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    return {
+        "normal_lubrication": film_force*opening,
+        "capillary": bridge_force*opening,
+        "attraction": attraction_force*opening,
+    }
+
+
+def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a reversal that starts from this state, over m v0^2.
+
+    Total operations: 5
+    """
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+    }
+
+
+def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What a separated doublet shows: restitutions, and rates over omega0.
+
+    Total operations: 0
+    """
+    opening = state["opening"]
+    return {
+        "restitution": opening,
+    }
+
+
+def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+    slope with it.
+
+    Total operations: 22
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    offset_squared = aspect**2*gap**2/4
+    string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
+    return {
+        "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
+        "slope": attraction_force + bridge_force + string_pull,
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 0
+    """
+    gap = state["gap"]
+    return {
+        "gap": gap,
+        "opening": 0,
+    }

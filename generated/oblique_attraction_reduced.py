@@ -1,0 +1,335 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 45fbf0975bf1b0e2f10b7eb2c3898ad8bc6b958c5a8667519df841d82d0dafb5
+"""Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
+
+Time in x0/v0. States (per unit):
+- gap [x0]: gap over film thickness
+- opening [v0]: opening velocity over impact speed, negative on approach
+- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+
+Groups:
+- stokes [1]: Stokes number m v0/(6 pi mu a^2)
+- aspect [1]: film thickness over reduced radius, x0/a
+- obliquity [1]: tangent of the impact angle
+- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+- elastic_gap [x0]: elastic length over film thickness
+- rough_gap [x0]: roughness over film thickness
+- dry_restitution [1]: restitution of the dry contact
+
+Law slots: film, glass, shear, attraction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+Values = Mapping[str, Any]
+
+STATES = ("gap", "opening", "orbit")
+GROUPS = (
+    "stokes",
+    "aspect",
+    "obliquity",
+    "adhesion",
+    "glass_number",
+    "elastic_gap",
+    "rough_gap",
+    "dry_restitution",
+)
+SLOTS = ("film", "glass", "shear", "attraction")
+FUNCTIONS = (
+    "right_hand_side",
+    "resting_rates",
+    "turning_rate",
+    "inward_force",
+    "events",
+    "reversal",
+    "start",
+    "energies",
+    "energy_rates",
+    "reversal_loss",
+    "outputs",
+    "effective_potential",
+    "rigid_rotation",
+    "restitution_ceiling",
+)
+REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
+DIGEST = "45fbf0975bf1b0e2f10b7eb2c3898ad8bc6b958c5a8667519df841d82d0dafb5"
+
+
+def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 36
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    slip = orbital_rate - spin
+    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
+    film_force = film*opening*laws.film.resistance(gap)/stokes
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    return {
+        "gap": opening,
+        "opening": centrifugal_force - attraction_force - film_force,
+        "orbit": -distance*shear_force,
+    }
+
+
+def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 21
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    slip = orbital_rate - spin
+    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    return {
+        "gap": 0,
+        "opening": 0,
+        "orbit": -distance*shear_force,
+    }
+
+
+def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).
+
+    Total operations: 7
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    return {
+        "rotation": aspect*obliquity*orbital_rate/4,
+    }
+
+
+def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+
+    Total operations: 14
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    return {
+        "inward_force": attraction_force - centrifugal_force,
+    }
+
+
+def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
+    velocity (its sign tells closing from opening), `release` in resting contact.
+
+    Total operations: 22
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    glass_number = groups["glass_number"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    return {
+        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "elastic": gap - elastic_gap,
+        "rough": gap - rough_gap,
+        "turning": opening,
+        "rupture": 1 - gap,
+        "tangential_edge": laws.shear.edge(aspect) - gap,
+        "release": attraction_force - centrifugal_force,
+    }
+
+
+def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+
+    Total operations: 2
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "gap": gap,
+        "opening": -dry_restitution*opening,
+        "orbit": orbit,
+    }
+
+
+def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State at first touch.
+
+    Total operations: 3
+    """
+    aspect = groups["aspect"]
+    return {
+        "gap": 1,
+        "opening": -1,
+        "orbit": (aspect + 4)**2,
+    }
+
+
+def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energies of the state over m v0^2.
+
+    Total operations: 25
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    return {
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+    }
+
+
+def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 9
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    stokes = groups["stokes"]
+    adhesion = groups["adhesion"]
+    film_force = film*opening*laws.film.resistance(gap)/stokes
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    return {
+        "normal_lubrication": film_force*opening,
+        "attraction": attraction_force*opening,
+    }
+
+
+def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a reversal that starts from this state, over m v0^2.
+
+    Total operations: 5
+    """
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+    }
+
+
+def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What a separated doublet shows: restitutions, and rates over omega0.
+
+    Total operations: 14
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    return {
+        "restitution": opening,
+        "tangential_restitution": distance*orbital_rate/(aspect + 4),
+        "final_rotation_rate": orbital_rate,
+        "final_spin": spin,
+    }
+
+
+def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+    slope with it.
+
+    Total operations: 24
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    distance = aspect*gap + 4
+    momentum = (aspect + 4)**2
+    inertia_ratio = distance**2 + 6.4
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    return {
+        "energy": momentum**2*obliquity**2/(32*inertia_ratio),
+        "slope": attraction_force - aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2),
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 10
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    momentum = (aspect + 4)**2
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "gap": gap,
+        "opening": 0,
+        "orbit": distance**2*momentum/inertia_ratio,
+    }
+
+
+def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
+    work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+
+    Total operations: 18
+    """
+    gap = state["gap"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    inertia_ratio = distance**2 + 6.4
+    return {
+        "squared": obliquity**2*(aspect + 4)**2/16 + 1 - obliquity**2*(aspect + 4)**4/(16*inertia_ratio),
+    }

@@ -1,0 +1,381 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 cdc54e9d8e0d38fded138b2324a14e8bdb0b8f2f93ada13ea5b25a3be2f63600
+"""Oblique doublet with a liquid bridge and pendulum strings and another attraction, a film whose rim follows the
+bridge's volume.
+
+Time in x0/v0. States (per unit):
+- gap [x0]: gap over film thickness
+- opening [v0]: opening velocity over impact speed, negative on approach
+- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- spin [omega0]: spin of each sphere over omega0
+- rotation [rad]: angle turned by the line of centres
+
+Groups:
+- stokes [1]: Stokes number m v0/(6 pi mu a^2)
+- aspect [1]: film thickness over reduced radius, x0/a
+- obliquity [1]: tangent of the impact angle
+- capillary [1]: capillary number 3 mu a v0/(sigma x0)
+- volume [1]: bridge volume over R^3 (constant)
+- contact_angle [rad]: contact angle of the liquid on the sphere
+- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- weight [1]: gravity over impact deceleration, g x0/v0^2
+- string_ratio [1]: string length over reduced radius
+- glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+- elastic_gap [x0]: elastic length over film thickness
+- rough_gap [x0]: roughness over film thickness
+- rupture_gap [x0]: rupture distance over film thickness
+- dry_restitution [1]: restitution of the dry contact
+
+Law slots: film, glass, shear, arm, bridge, strings, attraction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from casadi import pi, sin
+
+
+Values = Mapping[str, Any]
+
+STATES = ("gap", "opening", "orbit", "spin", "rotation")
+GROUPS = (
+    "stokes",
+    "aspect",
+    "obliquity",
+    "capillary",
+    "volume",
+    "contact_angle",
+    "adhesion",
+    "weight",
+    "string_ratio",
+    "glass_number",
+    "elastic_gap",
+    "rough_gap",
+    "rupture_gap",
+    "dry_restitution",
+)
+SLOTS = ("film", "glass", "shear", "arm", "bridge", "strings", "attraction")
+FUNCTIONS = (
+    "right_hand_side",
+    "resting_rates",
+    "turning_rate",
+    "inward_force",
+    "events",
+    "reversal",
+    "start",
+    "energies",
+    "energy_rates",
+    "reversal_loss",
+    "angular_momentum",
+    "outputs",
+)
+REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
+DIGEST = "cdc54e9d8e0d38fded138b2324a14e8bdb0b8f2f93ada13ea5b25a3be2f63600"
+
+
+def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 69
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    slip = orbital_rate - spin
+    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
+    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_pull = (
+        weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
+    )
+    string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
+    lever = laws.arm.lever(distance)
+    return {
+        "gap": opening,
+        "opening": centrifugal_force - attraction_force - bridge_force - film_force - string_pull,
+        "orbit": -distance*(shear_force + string_sideways),
+        "spin": 5*lever*shear_force/16,
+        "rotation": aspect*obliquity*orbital_rate/4,
+    }
+
+
+def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 38
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    slip = orbital_rate - spin
+    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
+    lever = laws.arm.lever(distance)
+    return {
+        "gap": 0,
+        "opening": 0,
+        "orbit": -distance*(shear_force + string_sideways),
+        "spin": 5*lever*shear_force/16,
+        "rotation": aspect*obliquity*orbital_rate/4,
+    }
+
+
+def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).
+
+    Total operations: 7
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    return {
+        "rotation": aspect*obliquity*orbital_rate/4,
+    }
+
+
+def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+
+    Total operations: 40
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_pull = (
+        weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
+    )
+    return {
+        "inward_force": attraction_force + bridge_force - centrifugal_force + string_pull,
+    }
+
+
+def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
+    velocity (its sign tells closing from opening), `release` in resting contact.
+
+    Total operations: 49
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    glass_number = groups["glass_number"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    string_pull = (
+        weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
+    )
+    return {
+        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "elastic": gap - elastic_gap,
+        "rough": gap - rough_gap,
+        "turning": opening,
+        "rupture": rupture_gap - gap,
+        "tangential_edge": laws.shear.edge(aspect) - gap,
+        "release": attraction_force + bridge_force - centrifugal_force + string_pull,
+        "half_turn": pi - rotation,
+        "unwinding": orbit,
+    }
+
+
+def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+
+    Total operations: 2
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "gap": gap,
+        "opening": -dry_restitution*opening,
+        "orbit": orbit,
+        "spin": spin,
+        "rotation": rotation,
+    }
+
+
+def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State at first touch.
+
+    Total operations: 3
+    """
+    aspect = groups["aspect"]
+    return {
+        "gap": 1,
+        "opening": -1,
+        "orbit": (aspect + 4)**2,
+        "spin": 0,
+        "rotation": 0,
+    }
+
+
+def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energies of the state over m v0^2.
+
+    Total operations: 32
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
+    return {
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
+    }
+
+
+def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 36
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    slip = orbital_rate - spin
+    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    attraction_force = adhesion*laws.attraction.force(gap)/stokes
+    lever = laws.arm.lever(distance)
+    return {
+        "normal_lubrication": film_force*opening,
+        "capillary": bridge_force*opening,
+        "attraction": attraction_force*opening,
+        "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
+    }
+
+
+def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a reversal that starts from this state, over m v0^2.
+
+    Total operations: 5
+    """
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+    }
+
+
+def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Angular momentum over its start value.
+
+    Total operations: 6
+    """
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    momentum = orbit + 6.4*spin
+    return {
+        "angular_momentum": momentum/(aspect + 4)**2,
+    }
+
+
+def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What a separated doublet shows: restitutions, and rates over omega0.
+
+    Total operations: 7
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    return {
+        "restitution": opening,
+        "tangential_restitution": distance*orbital_rate/(aspect + 4),
+        "final_rotation_rate": orbital_rate,
+        "final_spin": spin,
+    }

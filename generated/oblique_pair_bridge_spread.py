@@ -1,0 +1,446 @@
+# Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+# Equations sha256 4b4e7d7d1e2d2d218189b1ccfee1c28005300792444521e936349b92533fa491
+"""Oblique unequal doublet with a liquid bridge, a film whose rim follows the bridge's volume.
+
+Time in x0/v0. States (per unit):
+- gap [x0]: gap over film thickness
+- opening [v0]: opening velocity over impact speed, negative on approach
+- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- spin [omega0]: spin of each sphere over omega0
+- partner_spin [omega0]: spin of the partner over omega0
+
+Groups:
+- stokes [1]: Stokes number m v0/(6 pi mu a^2)
+- aspect [1]: film thickness over reduced radius, x0/a
+- obliquity [1]: tangent of the impact angle
+- capillary [1]: capillary number 3 mu a v0/(sigma x0)
+- volume [1]: bridge volume over R^3 (constant)
+- contact_angle [rad]: contact angle of the liquid on the sphere
+- radius_ratio [1]: radius of the partner over that of the sphere
+- mass_ratio [1]: mass of the partner over that of the sphere
+- glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+- elastic_gap [x0]: elastic length over film thickness
+- rough_gap [x0]: roughness over film thickness
+- rupture_gap [x0]: rupture distance over film thickness
+- dry_restitution [1]: restitution of the dry contact
+
+Law slots: film, glass, shear, arm, bridge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+Values = Mapping[str, Any]
+
+STATES = ("gap", "opening", "orbit", "spin", "partner_spin")
+GROUPS = (
+    "stokes",
+    "aspect",
+    "obliquity",
+    "capillary",
+    "volume",
+    "contact_angle",
+    "radius_ratio",
+    "mass_ratio",
+    "glass_number",
+    "elastic_gap",
+    "rough_gap",
+    "rupture_gap",
+    "dry_restitution",
+)
+SLOTS = ("film", "glass", "shear", "arm", "bridge")
+FUNCTIONS = (
+    "right_hand_side",
+    "resting_rates",
+    "turning_rate",
+    "inward_force",
+    "events",
+    "reversal",
+    "start",
+    "energies",
+    "energy_rates",
+    "reversal_loss",
+    "angular_momentum",
+    "outputs",
+    "effective_potential",
+    "rigid_rotation",
+)
+REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
+DIGEST = "4b4e7d7d1e2d2d218189b1ccfee1c28005300792444521e936349b92533fa491"
+
+
+def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 79
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    radius = (radius_ratio + 1)/radius_ratio
+    partner_radius = radius_ratio + 1
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    slip = orbital_rate - spin
+    partner_slip = orbital_rate - partner_spin
+    drag = aspect*shear*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    lever = laws.arm.lever(4*distance/centres)/2
+    torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
+    partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
+    shear_force = (partner_torque + torque)/(centres*lever)
+    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "gap": opening,
+        "opening": aspect*distance*obliquity**2*orbital_rate**2/centres**2 - bridge_force - film_force,
+        "orbit": -distance*shear_force,
+        "spin": torque/spin_inertia,
+        "partner_spin": partner_torque/partner_inertia,
+    }
+
+
+def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 61
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    radius = (radius_ratio + 1)/radius_ratio
+    partner_radius = radius_ratio + 1
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    slip = orbital_rate - spin
+    partner_slip = orbital_rate - partner_spin
+    drag = aspect*shear*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    lever = laws.arm.lever(4*distance/centres)/2
+    torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
+    partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
+    shear_force = (partner_torque + torque)/(centres*lever)
+    return {
+        "gap": 0,
+        "opening": 0,
+        "orbit": -distance*shear_force,
+        "spin": torque/spin_inertia,
+        "partner_spin": partner_torque/partner_inertia,
+    }
+
+
+def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).
+
+    Total operations: 10
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    radius_ratio = groups["radius_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    return {
+        "rotation": aspect*obliquity*orbital_rate/centres,
+    }
+
+
+def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+
+    Total operations: 20
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    radius_ratio = groups["radius_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "inward_force": bridge_force - aspect*distance*obliquity**2*orbital_rate**2/centres**2,
+    }
+
+
+def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
+    velocity (its sign tells closing from opening), `release` in resting contact.
+
+    Total operations: 28
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    radius_ratio = groups["radius_ratio"]
+    glass_number = groups["glass_number"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "elastic": gap - elastic_gap,
+        "rough": gap - rough_gap,
+        "turning": opening,
+        "rupture": rupture_gap - gap,
+        "tangential_edge": laws.shear.edge(aspect) - gap,
+        "release": bridge_force - aspect*distance*obliquity**2*orbital_rate**2/centres**2,
+    }
+
+
+def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+
+    Total operations: 2
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "gap": gap,
+        "opening": -dry_restitution*opening,
+        "orbit": orbit,
+        "spin": spin,
+        "partner_spin": partner_spin,
+    }
+
+
+def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State at first touch.
+
+    Total operations: 6
+    """
+    aspect = groups["aspect"]
+    radius_ratio = groups["radius_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    return {
+        "gap": 1,
+        "opening": -1,
+        "orbit": (aspect + centres)**2,
+        "spin": 0,
+        "partner_spin": 0,
+    }
+
+
+def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energies of the state over m v0^2.
+
+    Total operations: 49
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    return {
+        "kinetic": opening**2/2 + distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2),
+    }
+
+
+def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+
+    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
+
+    Total operations: 66
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    radius_ratio = groups["radius_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    radius = (radius_ratio + 1)/radius_ratio
+    partner_radius = radius_ratio + 1
+    slip = orbital_rate - spin
+    partner_slip = orbital_rate - partner_spin
+    drag = aspect*shear*laws.shear.log_factor(gap, aspect)/(3*stokes)
+    lever = laws.arm.lever(4*distance/centres)/2
+    torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
+    partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
+    shear_force = (partner_torque + torque)/(centres*lever)
+    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "normal_lubrication": film_force*opening,
+        "capillary": bridge_force*opening,
+        "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
+    }
+
+
+def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a reversal that starts from this state, over m v0^2.
+
+    Total operations: 5
+    """
+    opening = state["opening"]
+    dry_restitution = groups["dry_restitution"]
+    return {
+        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+    }
+
+
+def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Angular momentum over its start value.
+
+    Total operations: 25
+    """
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    aspect = groups["aspect"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    return {
+        "angular_momentum": momentum/(aspect + centres)**2,
+    }
+
+
+def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """What a separated doublet shows: restitutions, and rates over omega0.
+
+    Total operations: 10
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    aspect = groups["aspect"]
+    radius_ratio = groups["radius_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbit/distance**2
+    return {
+        "restitution": opening,
+        "tangential_restitution": distance*orbital_rate/(aspect + centres),
+        "final_rotation_rate": orbital_rate,
+        "final_spin": spin,
+        "final_spin_partner": partner_spin,
+    }
+
+
+def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+    slope with it.
+
+    Total operations: 49
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    inertia_ratio = distance**2 + partner_inertia + spin_inertia
+    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
+    return {
+        "energy": momentum**2*obliquity**2/(2*centres**2*inertia_ratio),
+        "slope": bridge_force - aspect*distance*momentum**2*obliquity**2/(centres**2*inertia_ratio**2),
+    }
+
+
+def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """The state that has this least energy: at rest in the gap, turning as one body.
+
+    Total operations: 32
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    aspect = groups["aspect"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    inertia_ratio = distance**2 + partner_inertia + spin_inertia
+    return {
+        "gap": gap,
+        "opening": 0,
+        "orbit": distance**2*momentum/inertia_ratio,
+        "spin": momentum/inertia_ratio,
+        "partner_spin": momentum/inertia_ratio,
+    }

@@ -1,0 +1,110 @@
+"""Bridge laws as parts: the critical centrifugal number of each, own rupture distances, ranges that are left."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+
+import pytest
+from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide, collide_many
+from wetdoublet.solvers.probe import Line
+from wetdoublet.solvers.schema import BRIDGE_LAWS
+
+# MODEL.md, section 9: Ce* at 45 deg with the surface arm, granulation
+CRITICAL = {
+    "willett": 3.95,
+    "willett-simple": 4.70,
+    "soulie": 4.12,
+    "rabinovich": 5.78,
+    "lambert": 4.65,
+    "constant": 6.8,
+    "mikami": 4.205,
+}
+
+
+@pytest.mark.parametrize(("law", "critical"), CRITICAL.items())
+def test_critical_centrifugal_number(law, critical):
+    """At 45 deg a doublet sticks 1 % below the listed Ce* and rotates and separates 1 % above it.
+
+    Below it, the constant force with the surface arm leaves a doublet breathing for ever about a gap beyond the film,
+    which nothing decides: there the traced boundary's function is asked, which follows it until it falls back.
+    """
+    scene = Scene.load("granulation").with_entries({"bridge.law": law, "model.arm": "surface"})
+    at = collide(scene, stokes=0.05, angle="45 deg", ledger=False)  # Ce goes with the square of St
+    outcomes = []
+    for part in (0.99, 1.01):
+        stokes = 0.05 * math.sqrt(part * critical / at.centrifugal)
+        if law == "constant":
+            parts = Line(scene, math.radians(45), 1e-9).escape(stokes, reversed_=False).separates
+            outcomes.append("stick-rotate-separate" if parts else "stick")
+            continue
+        one = collide(scene, stokes=stokes, angle="45 deg", ledger=False, rtol=1e-7)
+        assert one.centrifugal == pytest.approx(part * critical, rel=1e-9)
+        outcomes.append(one.outcome)
+    assert outcomes == ["stick", "stick-rotate-separate"]
+
+
+def test_traced_critical_number():
+    """The traced boundary of the paper's law is there as well, to the digits that are listed."""
+    scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
+    first = boundary(scene, angle=math.radians(45), stokes=(0.03, 0.08)).changes[0][0]
+    assert first.centrifugal == pytest.approx(4.205, abs=5e-4)
+
+
+OWN = {
+    "mikami": lambda v, phi: (0.62 * phi + 0.99) * v**0.34,
+    "mikami-log10": lambda v, phi: (0.62 * phi + 0.99) * v**0.34,
+    "willett": lambda v, phi: (1 + phi / 2) * (v ** (1 / 3) + v ** (2 / 3) / 10),
+    "willett-simple": lambda v, phi: (1 + phi / 2) * (v ** (1 / 3) + v ** (2 / 3) / 10),
+    "soulie": lambda v, phi: (1 + phi / 2) * v ** (1 / 3),
+}
+
+
+@pytest.mark.parametrize("law", BRIDGE_LAWS)
+def test_own_rupture(law):
+    """`own` is the distance that the law's authors give; a law without one says which have."""
+    entries = {"bridge.law": law, "bridge.rupture": "own", "bridge.contact_angle": "20 deg"}
+    scene = Scene.load("granulation")
+    if law not in OWN:
+        with pytest.raises(InputError, match="one of mikami, mikami-log10, willett, willett-simple, soulie"):
+            scene.with_entries(entries)
+        return
+    expected = OWN[law](0.1, math.radians(20)) * 1e-4
+    assert scene.with_entries(entries).rupture_gap == pytest.approx(expected, rel=1e-12)
+
+
+def test_own_rupture_is_where_it_ruptures():
+    """The last gap of a flight is the own distance."""
+    scene = Scene.load("granulation").with_entries({"bridge.law": "willett", "bridge.rupture": "own"})
+    one = collide(scene, stokes=0.1, angle="75 deg", trajectory=True)
+    assert float(one.trajectory.gap[-1]) == pytest.approx(scene.rupture_gap, rel=1e-9)
+
+
+def test_a_range_that_is_left_is_said_once():
+    """Outside a law's range: a ModelWarning, the same sentence with the result and in the table, and never an error."""
+    scene = Scene.load("granulation").with_entries({"bridge.law": "willett-simple", "bridge.contact_angle": "60 deg"})
+    with pytest.warns(ModelWarning) as caught:
+        one = collide(scene)
+    assert [str(each.message) for each in caught] == list(one.warnings)
+    assert len(one.warnings) == 2
+    assert "bridge.volume = 0.1 is above 0.001" in one.warnings[0]
+    assert "bridge.contact_angle = 60 deg is above 50 deg" in one.warnings[1]
+    assert "note: bridge.volume" in str(one)
+    with pytest.warns(ModelWarning, match="above 0.001"):
+        collide_many(scene, stokes=[0.03], angle=[1.0])
+    assert collide("granulation").warnings == ()
+    inside = {"bridge.law": "willett", "bridge.contact_angle": "50 deg"}  # the ends of a range belong to it
+    assert collide(Scene.load("granulation").with_entries(inside)).warnings == ()
+
+
+def test_json_stays_pure():
+    """On the command line the remark is one line on standard error, and standard output is one JSON object."""
+    command = [sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--json"]
+    done = subprocess.run(
+        [*command, "--set", "bridge.law=willett-simple"], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert json.loads(done.stdout)["outcome"] == "stick-rotate-separate"
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("warning: bridge.volume = 0.1")
