@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from .regime_map import regime_map
     from .result import Collision
     from .scene import Scene
+    from .sensitivity.gradients import sensitivities
+    from .sensitivity.result import Sensitivities
     from .simulate import collide
 
 _HOMES = {
@@ -24,11 +26,13 @@ _HOMES = {
     "ComputationError": "errors",
     "InputError": "errors",
     "Scene": "scene",
+    "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
     "boundary": "bounds",
     "collide": "simulate",
     "collide_many": "many",
     "regime_map": "regime_map",
+    "sensitivities": "sensitivity.gradients",
 }
 
 __all__ = [
@@ -38,11 +42,13 @@ __all__ = [
     "ComputationError",
     "InputError",
     "Scene",
+    "Sensitivities",
     "WetDoubletError",
     "boundary",
     "collide",
     "collide_many",
     "regime_map",
+    "sensitivities",
 ]
 
 
