@@ -15,7 +15,7 @@ import click
 
 from .errors import InputError, WetDoubletError, did_you_mean
 
-COMMANDS = ("scenes", "collide", "map", "boundary", "reproduce", "generate", "verify", "bench")
+COMMANDS = ("scenes", "collide", "sensitivity", "map", "boundary", "reproduce", "generate", "verify", "bench")
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}

@@ -24,6 +24,7 @@ from .phases import CLOSING, Flow, Region
 from .scene import Scene
 
 _NEVER = 1e30  # a glass number that no pressure meets
+WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
 _CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
 _DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
 _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
@@ -78,28 +79,35 @@ class Line:
         self.collisions += 1
         groups = self.numbers(stokes).groups
         contact = max(groups["elastic_gap"], groups["rough_gap"])
-        pressure, smallest = _approach(self.model, groups, self.rtol)
+        pressure, smallest = approach(self.model, groups, self.rtol)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
     def escape(self, stokes: float, reversed_: bool) -> Escape:
         """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
         self.collisions += 1
-        groups = self.numbers(stokes).groups
-        if not reversed_:
-            groups = groups | {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
-        probe = _Probe(self.model, groups, self.rtol, machine_code=True)
-        path = probe.run()
-        return Escape(path.separated, _smooth(probe, path))
+        return smooth_escape(self.model, self.numbers(stokes).groups, self.rtol, reversed_)
 
 
-def _approach(model: Model, groups: dict[str, float], rtol: float) -> tuple[float, float]:
+def smooth_escape(
+    model: Model, groups: dict[str, float], rtol: float, reversed_: bool, machine_code: bool = True
+) -> Escape:
+    """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
+    if not reversed_:
+        groups = groups | WITHOUT_SOLIDS
+    probe = _Probe(model, groups, rtol, machine_code=machine_code)
+    path = probe.run()
+    return Escape(path.separated, _smooth(probe, path))
+
+
+def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
     """Largest scaled pressure and smallest gap of the approach, without any criterion.
 
     It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
     """
     deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
-    flight = Locate(model, groups | {"glass_number": 0.0, "elastic_gap": 0.0, "rough_gap": deep}, rtol, (), True)
+    unmet = {"glass_number": 0.0, "elastic_gap": 0.0, "rough_gap": deep}
+    flight = Locate(model, groups | unmet, rtol, (), machine_code)
     y, phase, p = flight.y, flight.phase, flight.p
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
@@ -107,7 +115,7 @@ def _approach(model: Model, groups: dict[str, float], rtol: float) -> tuple[floa
     watch = replace(flight.watch, certificate=None) if flight.watch.certificate == "tethered" else flight.watch
     for _ in range(10 * STRETCHES):
         level = flight.proof.level(y, phase) if watch.certificate else None
-        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, True)
+        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, machine_code)
         try:
             stop = find(y, p, stretch, CLOSING, -_NEVER if level is None else level)
         except IntegrationFailed as error:

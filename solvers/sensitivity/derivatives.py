@@ -1,4 +1,4 @@
-"""Derivatives of a flight's expression, forward and adjoint, first and second: CasADi functions, built once a course."""
+"""Derivatives of a flight's expression, forward and adjoint, first and second: CasADi functions, kept by course."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
 
 @lru_cache(maxsize=256)
 def forward(flight: Flight, count: int) -> Function:
-    """(groups, durations, directions: groups x count) -> quantities, shifts, their derivatives (quantities x count)."""
+    """(groups, durations, directions: groups x count) -> quantities, shifts, derivatives (quantities x count)."""
     p, durations, z, shifts = _symbols(flight)
     seeds = MX.sym("seeds", p.numel(), count)
     with quiet():
@@ -59,7 +59,7 @@ def curvature(flight: Flight, count: int) -> Function:
 
     Forward over adjoint. Rosenbrock only: CasADi's CVODES has no second derivatives of this kind.
     """
-    p, durations, z, shifts = _symbols(flight)
+    p, durations, z, _ = _symbols(flight)
     weights, seeds = MX.sym("weights", z.numel()), MX.sym("seeds", p.numel(), count)
     with quiet():
         gradient = jtimes(z, p, weights, True)

@@ -39,6 +39,7 @@ class Sensitivities:
         gradient: quantity -> parameter -> dy/dp, all others held.
         elasticity: quantity -> parameter -> d ln y/d ln p; None where y or p is zero.
         hessian: quantity -> parameter -> parameter -> d2y/dp dq, if asked for.
+        hessian_times: quantity -> parameter -> the Hessian times the vector that was asked for.
         outcome: the collision's.
         reference: each parameter's own value.
         near: the nearest boundary that the flight itself shows, None if it shows none.
@@ -54,6 +55,7 @@ class Sensitivities:
     hold: str
     near: Near | None = None
     hessian: Mapping[str, Mapping[str, Row]] | None = None
+    hessian_times: Mapping[str, Row] | None = None
     scene: Scene = field(repr=False, compare=False)
 
     @property
@@ -71,6 +73,8 @@ class Sensitivities:
             found["hessian"] = {
                 name: {one: dict(row) for one, row in rows.items()} for name, rows in self.hessian.items()
             }
+        if self.hessian_times is not None:
+            found["hessian_times"] = {name: dict(row) for name, row in self.hessian_times.items()}
         near = self.near and {"boundary": self.near.boundary, "distance": self.near.distance, "of": self.near.of}
         return found | {
             "outcome": self.outcome,
@@ -117,9 +121,7 @@ class Sensitivities:
         return "\n\n".join([*blocks, "\n".join(notes)])
 
     def _block(self, names: list[str]) -> str:
-        largest = {
-            p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters
-        }
+        largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
         order = sorted(self.parameters, key=lambda p: -largest[p])
         head = ["", *names]
         units = ["value", *(_number(self.value[y], QUANTITIES[y].unit) for y in names)]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
-
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.sensitivity.parameters import known
 
@@ -37,7 +37,8 @@ CASES = (
     Case("elastic", GRANULATION, 3.0, "30 deg", ("elastic", "film edge", "rupture"), HARD),
     Case(
         "rough", GRANULATION, 3.0, "30 deg", ("rough", "film edge", "rupture"),
-        HARD | {"particles.roughness": "0.6 um", "particles.youngs_modulus": "7e4 GPa", "bridge.law": "lambert", "bridge.contact_angle": "20 deg"},
+        HARD | {"particles.roughness": "0.6 um", "particles.youngs_modulus": "7e4 GPa"}
+        | {"bridge.law": "lambert", "bridge.contact_angle": "20 deg"},
     ),
     Case("surface arm", GRANULATION, 0.045, "55 deg", ("turned", "film edge", "rupture"), {"model.arm": "surface"}),
     Case("no bridge, turned", DRY, 0.05, "45 deg", ("turned", "rupture"), {"model.tangential": "film"}),
@@ -76,7 +77,7 @@ def differences(scene: Scene, of: tuple[str, ...], names: tuple[str, ...] | None
             found[name] = np.polyfit(parts / step, np.array([value(part) for part in parts]), 6)[-2] / step
             continue
         central = [(value(h) - value(-h)) / (2 * h) for h in (step, step / 2, step / 4)]
-        once = [(4 * fine - coarse) / 3 for coarse, fine in zip(central, central[1:])]
+        once = [(4 * fine - coarse) / 3 for coarse, fine in pairwise(central)]
         found[name] = (16 * once[1] - once[0]) / 15
     return found
 

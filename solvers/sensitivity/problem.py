@@ -1,0 +1,158 @@
+"""A collision and the parameters to differentiate in: located, held against the boundaries, differentiated in theta."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..errors import ComputationError
+from ..integrators import IntegrationFailed, tolerance
+from ..locate import Locate, Path
+from ..model import choose, load
+from ..numbers import Numbers, numbers
+from ..scene import Scene
+from . import nearness
+from .derivatives import LANDED_TWICE, settled
+from .directions import bent, differentiated, landed
+from .flight import course_of, flight, influential
+from .parameters import SCALES, Kind, Way, kind_of, references, way
+from .quantities import QUANTITIES
+from .result import Near
+
+_LOOSEST = 1e-8  # the located flight only has to be near: landings take the rest
+
+Along = np.ndarray | Literal["all"] | None
+"""Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Derivatives of quantities in theta, SI: y (q,), dy/dtheta (q, n), along directions d2y (q, n, m) if asked for."""
+
+    value: np.ndarray
+    first: np.ndarray
+    second: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A collision, the parameters to differentiate in, and the reference that theta is measured from."""
+
+    scene: Scene
+    n: Numbers
+    wrt: tuple[str, ...]
+    kind: Kind
+    reference: np.ndarray
+
+    @classmethod
+    def of(cls, scene: Scene, speed: float, angle: float, wrt: tuple[str, ...], hold: str) -> Problem:
+        """The problem of a scene's collision at a normal speed (m/s) and angle (rad)."""
+        kind = kind_of(scene, hold)
+        return cls(scene, numbers(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
+
+    def located(self, of: tuple[str, ...], rtol: float) -> tuple[Path, Near | None]:
+        """The flight and the nearest boundary that it shows; ComputationError if that is too near."""
+        told = min(rtol, _LOOSEST)
+        finder = Locate(load(choose(self.scene, self.n.oblique)), self.n.groups, told)
+        try:
+            path = finder.run()
+        except ComputationError as error:
+            raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
+        near = nearness.checked(self.scene, self.n, finder, path, rtol)
+        if not self.n.oblique and path.separated and self._odd(of):
+            path = Locate(load(choose(self.scene, True)), self.n.groups, told).run()
+        return path, near
+
+    def _odd(self, of: tuple[str, ...]) -> bool:
+        """Whether something asked for begins to depend on the angle at zero."""
+        return "impact.angle" in self.wrt and any(QUANTITIES[name].odd for name in of)
+
+    def defined(self, name: str, path: Path) -> bool:
+        """Whether physics defines a quantity for the collision, as something that varies."""
+        if name == "tangential_restitution" and not self.n.oblique:
+            return False
+        return path.separated or name == "energy.initial"
+
+    def slopes(
+        self, path: Path, of: tuple[str, ...], method: str, plugin: str, rtol: float, along: Along = None
+    ) -> Slopes:
+        """Derivatives of the quantities of a located flight.
+
+        Raises:
+            ComputationError: the engine could not fly or differentiate it.
+        """
+        full = "energy.tangential_lubrication" in of
+        course = course_of(path, choose(self.scene, path.model.oblique, full=full))
+        whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
+        via = way(self.kind, self.wrt, whole.groups)
+        size = len(whole.groups)
+        p, scales = np.split(via.values(self.reference).full().ravel(), [size])
+        slopes = np.asarray(via.slopes(self.reference)[0].full())
+        active = influential(course, self.n.groups)
+        dp, ds = slopes[:size] * np.array(active)[:, None], slopes[size:]
+        durations = np.array([step.duration for step in path.steps])
+        second = None
+        try:
+            # the bends of the groups take the derivative in every group, not along the parameters only
+            how = method if along is None else "adjoint"
+            durations, z, dz = differentiated(whole, course, p, durations, dp, active, how)
+            if along is not None:
+                right = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
+                durations = settled(whole, p, durations, landed(course), LANDED_TWICE)
+                second = bent(whole, p, durations, dp, dp @ right, active)
+        except IntegrationFailed as failure:
+            raise ComputationError(
+                f"{plugin} could not differentiate the flight ({failure})",
+                phase=str(path.steps[-1].phase),
+                advice="try another --rtol, or the other --engine",
+            ) from None
+        units = _Units(of, scales, ds)
+        first = dz @ dp
+        if second is not None:
+            second = units.second(via, self.reference, z, dz * np.array(active), first, second, right)
+        return Slopes(z * units.scale, first * units.scale[:, None] + z[:, None] * units.slope, second)
+
+    def units(self) -> np.ndarray:
+        """dp/dtheta of the parameters."""
+        return np.asarray(way(self.kind, self.wrt, ()).slopes(self.reference)[1].full()).ravel()
+
+    def value_of(self, name: str) -> float:
+        """A parameter's own value, SI."""
+        if name == "impact.speed":
+            return self.n.speed
+        if name == "impact.stokes":
+            return self.n.stokes
+        return float(self.reference[self.kind.entries.index(name)])
+
+
+class _Units:
+    """SI scales of quantities, which depend on the parameters as well."""
+
+    def __init__(self, of: tuple[str, ...], scales: np.ndarray, slopes: np.ndarray) -> None:
+        self.where = [SCALES.index(scale) if (scale := QUANTITIES[name].scale) else None for name in of]
+        self.scale = np.array([1.0 if k is None else scales[k] for k in self.where])
+        none = np.zeros(slopes.shape[1])
+        self.slope = np.array([none if k is None else slopes[k] for k in self.where])
+
+    def second(
+        self,
+        via: Way,
+        reference: np.ndarray,
+        z: np.ndarray,
+        dz: np.ndarray,
+        first: np.ndarray,
+        second: np.ndarray,
+        right: np.ndarray,
+    ) -> np.ndarray:
+        """Second derivatives in theta: of the flight in its groups, and of the groups and scales themselves."""
+        found = []
+        for k in range(z.size):
+            weights = np.concatenate([dz[k] * self.scale[k], np.zeros(len(SCALES))])
+            if (at := self.where[k]) is not None:
+                weights[dz.shape[1] + at] = z[k]
+            crossed = np.outer(first[k], self.slope[k])
+            ways = np.asarray(via.bends(reference, weights).full())
+            found.append(second[k] * self.scale[k] + (crossed + crossed.T + ways) @ right)
+        return np.array(found)
