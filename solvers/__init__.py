@@ -15,12 +15,14 @@ if TYPE_CHECKING:
     from .regime_map import regime_map
     from .result import Collision
     from .scene import Scene
+    from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.gradients import sensitivities
     from .sensitivity.result import Sensitivities
     from .simulate import collide
 
 _HOMES = {
     "Boundaries": "bounds",
+    "BoundarySensitivities": "sensitivity.boundaries",
     "CheckFailed": "errors",
     "Collision": "result",
     "ComputationError": "errors",
@@ -29,6 +31,7 @@ _HOMES = {
     "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
     "boundary": "bounds",
+    "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "simulate",
     "collide_many": "many",
     "regime_map": "regime_map",
@@ -37,6 +40,7 @@ _HOMES = {
 
 __all__ = [
     "Boundaries",
+    "BoundarySensitivities",
     "CheckFailed",
     "Collision",
     "ComputationError",
@@ -45,6 +49,7 @@ __all__ = [
     "Sensitivities",
     "WetDoubletError",
     "boundary",
+    "boundary_sensitivities",
     "collide",
     "collide_many",
     "regime_map",

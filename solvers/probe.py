@@ -95,7 +95,7 @@ def smooth_escape(
     """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
     if not reversed_:
         groups = groups | WITHOUT_SOLIDS
-    probe = _Probe(model, groups, rtol, machine_code=machine_code)
+    probe = Probe(model, groups, rtol, machine_code=machine_code)
     path = probe.run()
     return Escape(path.separated, _smooth(probe, path))
 
@@ -138,7 +138,7 @@ def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
     return -model.values("events", y, p)["glass"]
 
 
-class _Probe(Locate):
+class Probe(Locate):
     """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
 
     def _proved(self) -> bool:
@@ -154,7 +154,7 @@ class _Probe(Locate):
 
 
 def _smooth(probe: Locate, path: Path) -> float | None:
-    barrier = _barrier(probe)
+    barrier = barrier_of(probe)
     if barrier is None and isinstance(probe.proof, BarrierProof):
         return None  # nothing holds the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
@@ -169,7 +169,7 @@ def _smooth(probe: Locate, path: Path) -> float | None:
     return -2 * inward * (rim - float(last[0]))
 
 
-def _barrier(probe: Locate) -> Barrier | None:
+def barrier_of(probe: Locate) -> Barrier | None:
     """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
     if not isinstance(probe.proof, BarrierProof):
         return None
@@ -177,29 +177,56 @@ def _barrier(probe: Locate) -> Barrier | None:
     return barriers[0] if barriers else None
 
 
-def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | None:
-    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
-    size = len(probe.model.state)
-    saddle = _saddle_state(probe, barrier, probe.y[:size])
+@dataclass(frozen=True)
+class Saddle:
+    """Rigid rotation at the top of the barrier, and how its neighbourhood moves.
+
+    Arguments:
+        modes: left eigenvectors as rows; times a deviation they give each mode's amplitude, as its part of the gap.
+        rates: their eigenvalues.
+        unstable: index of the one that grows.
+    """
+
+    gap: float
+    state: np.ndarray
+    modes: np.ndarray
+    rates: np.ndarray
+    unstable: int
+
+    def nearest(self, states: np.ndarray) -> tuple[int, np.ndarray]:
+        """Which of the states (columns) is nearest, and its amplitudes."""
+        amplitudes = self.modes @ (states[: self.state.size] - self.state[:, None])
+        k = int(np.argmin(np.sum(np.abs(amplitudes) ** 2, axis=0)))
+        return k, amplitudes[:, k]
+
+
+def saddle_of(probe: Locate, barrier: Barrier) -> Saddle | None:
+    """The saddle at a barrier for the flight's angular momentum; None where nothing grows."""
+    saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
     region = Region(int(barrier.gap < 1), int(barrier.gap < probe.edge), False)
-    matrix = np.asarray(_jacobian(probe.model, region)(saddle, path.p).full())
+    matrix = np.asarray(_jacobian(probe.model, region)(saddle, probe.p).full())
     values, vectors = np.linalg.eig(matrix)
     unstable = int(np.argmax(values.real))
     if values[unstable].real <= 0 or vectors[0, unstable] == 0:
         return None
-    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])  # a mode's amplitude is its part of the gap
-    modes = np.linalg.inv(shapes)
+    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])
+    return Saddle(barrier.gap, saddle, np.linalg.inv(shapes), values, unstable)
+
+
+def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | None:
+    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
+    saddle = saddle_of(probe, barrier)
+    if saddle is None:
+        return None
     try:
         times, states = _sampled(probe, path)
     except IntegrationFailed:
         return None
-    amplitudes = modes @ (states[:size] - saddle[:, None])
-    distance = np.sum(np.abs(amplitudes) ** 2, axis=0)
-    nearest = int(np.argmin(distance))
-    if distance[nearest] > barrier.gap**2 / 4:
+    nearest, amplitudes = saddle.nearest(states)
+    if np.sum(np.abs(amplitudes) ** 2) > barrier.gap**2 / 4:
         return None
-    growth = values[unstable].real * times[nearest]
-    return float(amplitudes[unstable, nearest].real * math.exp(-growth)) if growth < 500 else None
+    growth = saddle.rates[saddle.unstable].real * times[nearest]
+    return float(amplitudes[saddle.unstable].real * math.exp(-growth)) if growth < 500 else None
 
 
 def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:

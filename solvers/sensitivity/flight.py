@@ -72,43 +72,74 @@ class Flight:
     groups: tuple[str, ...]
 
 
+@dataclass
+class _Flown:
+    """What a course leads to, as expressions in its groups and durations."""
+
+    start: MX
+    y: MX
+    time: MX
+    dry: MX
+    nearest: MX
+    shifts: list[MX]
+
+
+def _flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance) -> _Flown:
+    model = course.model
+    size = len(model.state)
+    start = model.function("start")(DM.zeros(size), p)
+    at = _Flown(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
+    for k, leg in enumerate(course.legs):
+        if leg.flown:
+            flow = Flow(course.choice, leg.phase.region, extras)
+            engine = plain(flow, plugin, tolerance).function
+            at.y = engine(x0=at.y, p=vertcat(p, durations[k]))["xf"]
+            at.time += durations[k]
+            if leg.event is not None:
+                land = landing(flow, course.watch, leg.event)
+                at.y, dt, _ = land(at.y, vertcat(p, leg.phase.motion, _NO_LEVEL))
+                at.time += dt
+                at.shifts.append(dt / durations[k])
+        if k == course.nearest:
+            at.nearest = at.y[0]
+        if leg.reverses:
+            at.dry += model.function("reversal_loss")(at.y[:size], p)
+            at.y = vertcat(model.function("reversal")(at.y[:size], p), at.y[size:])
+        if leg.holds:
+            at.y = vertcat(at.y[0], 0, at.y[2:])
+    return at
+
+
+def _symbols(course: Course) -> tuple[MX, MX]:
+    return MX.sym("groups", len(course.model.groups)), MX.sym("durations", len(course.legs))
+
+
 @lru_cache(maxsize=256)
 def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flight:
     """The expression of a course for the quantities asked for; nothing else is integrated."""
     model = course.model
-    extras = _extras(model, of)
-    p, durations = MX.sym("groups", len(model.groups)), MX.sym("durations", len(course.legs))
-    size = len(model.state)
-    start = model.function("start")(DM.zeros(size), p)
-    y = vertcat(start, DM.ones(len(extras)) * tolerance.offset)
-    time, dry, nearest = MX(0), MX(0), start[0]
-    shifts = []
-    for k, leg in enumerate(course.legs):
-        flow = Flow(course.choice, leg.phase.region, extras)
-        if leg.flown:
-            engine = plain(flow, plugin, tolerance).function
-            y = engine(x0=y, p=vertcat(p, durations[k]))["xf"]
-            time += durations[k]
-            if leg.event is not None:
-                land = landing(flow, course.watch, leg.event)
-                y, dt, _ = land(y, vertcat(p, leg.phase.motion, _NO_LEVEL))
-                time += dt
-                shifts.append(dt / durations[k])
-        if k == course.nearest:
-            nearest = y[0]
-        if leg.reverses:
-            dry += model.function("reversal_loss")(y[:size], p)
-            y = vertcat(model.function("reversal")(y[:size], p), y[size:])
-        if leg.holds:
-            y = vertcat(y[0], 0, y[2:])
-    found: dict[str, Any] = {"contact_time": time, "smallest_gap": nearest, "energy.dry_contact": dry}
-    found |= _at_the_end(model, start, y[:size], p)
+    extras, size = _extras(model, of), len(model.state)
+    p, durations = _symbols(course)
+    at = _flown(course, p, durations, extras, plugin, tolerance)
+    found: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
+    found |= _at_the_end(model, at.start, at.y[:size], p)
     for k, name in enumerate(extras):
         key = name if name == "rotation" else f"energy.{name}"
-        found[key] = y[size + k] - tolerance.offset
+        found[key] = at.y[size + k] - tolerance.offset
     column = vertcat(*(found.get(name, MX(0)) for name in of))
-    missed = vertcat(*shifts) if shifts else MX(0, 1)
+    missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
     return Flight(Function("flight", [p, durations], [column, missed]), of, tuple(model.groups))
+
+
+@lru_cache(maxsize=256)
+def ending(course: Course, plugin: str, tolerance: Tolerance) -> Flight:
+    """The expression of the state in which a course ends."""
+    p, durations = _symbols(course)
+    at = _flown(course, p, durations, (), plugin, tolerance)
+    missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
+    return Flight(
+        Function("ending", [p, durations], [at.y, missed]), tuple(course.model.state), tuple(course.model.groups)
+    )
 
 
 def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:

@@ -2,8 +2,8 @@
 
 python tests/benchmarks/sensitivity_reference.py > tests/data/sensitivities.json     (some three minutes)
 
-Central differences of collisions at rtol 1e-13 with steps of 0.4, 0.2 and 0.1 %, extrapolated twice: nothing of the code
-that differentiates takes part. Parameters that are zero, and quantities that are, have no elasticity.
+Central differences of collisions at rtol 1e-13 with steps of 0.4, 0.2 and 0.1 %, extrapolated twice: nothing of the
+code that differentiates takes part. Parameters that are zero, and quantities that are, have no elasticity.
 """  # fmt: skip
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "solvers"))
 
 from sensitive import CASES, differences
-
 from wetdoublet.solvers import collide
 
 OF = ("restitution", "rotation", "contact_time", "smallest_gap", "final_spin", "final_rotation_rate")
