@@ -31,7 +31,7 @@ _LOOK = 30.0  # times the limit: nearer than this by the flight's own measure, t
 _WORTH_SAYING = 0.5  # as a logarithm: what is further away is not mentioned
 _HINT = "v0 squared"  # a suspicion, not a distance: measured or dropped
 _COARSE, _FINE = 1e-6, 1e-11
-_ASIDE = 1e-4  # relative step in the Stokes number of a secant
+_ASIDE, _SECANTS, _FAR = 1e-4, 4, 0.1  # first relative step in the Stokes number of a secant; how many; how far
 _GRID = (*(float(t) for t in np.unique(np.concatenate([np.geomspace(1e-3, 1, 40), np.linspace(0, 1, 41)[1:]]))),)
 
 GLASS = "graze of the glass criterion"
@@ -283,16 +283,14 @@ def _measured(scene: Scene, n: Numbers, near: Near) -> Near:
 
 
 def _secant(function: Callable[[float], float | None], stokes: float) -> float | None:
-    """Relative distance to the nearest root; None where the function is not defined."""
-    here, there = function(stokes), function(stokes * (1 + _ASIDE))
-    if here is None or there is None or here == there or not math.isfinite(here - there):
-        return None
-    first = -here * _ASIDE / (there - here)
-    if not math.isfinite(first) or abs(first) > 0.1:
-        return abs(first)
-    # once more, from the other end of a step as long as the distance
-    again = function(stokes * (1 + first * (1 + 1e-3)))
-    if again is None or again == here:
-        return abs(first)
-    second = -here * first * (1 + 1e-3) / (again - here)
-    return abs(second)
+    """Relative distance to the nearest root, to a percent or so; None where the function is not defined."""
+    before, at = 0.0, _ASIDE
+    f_before, f = function(stokes), function(stokes * (1 + _ASIDE))
+    for _ in range(_SECANTS):
+        if f_before is None or f is None or f == f_before or not math.isfinite(f - f_before):
+            return None
+        before, at, f_before = at, at - f * (at - before) / (f - f_before), f
+        if abs(at) > _FAR or abs(at - before) < 1e-2 * abs(at):
+            break
+        f = function(stokes * (1 + at))
+    return abs(at)
