@@ -125,7 +125,7 @@ def boundary_sensitivities(
     found = boundary(loaded, angle=angle, stokes=stokes, rtol=rtol) if traced is None else traced
     with LOCK:
         lines = tuple(
-            tuple(_moving(loaded, at, change, names, rtol) for change in line)
+            tuple(moving(loaded, at, change, names, rtol) for change in line)
             for at, line in zip(found.angles, found.changes, strict=True)
         )
     return BoundarySensitivities(found, lines, names)
@@ -141,7 +141,8 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
     return tuple(name for name in names if name not in _TRACED)
 
 
-def _moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float) -> Moving:
+def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float = RTOL) -> Moving:
+    """How one change at an angle (rad) moves with the parameters named."""
     try:
         found = slope(scene, angle, change, min(rtol, _SHARPEST))
     except ComputationError as error:

@@ -73,8 +73,8 @@ class Flight:
 
 
 @dataclass
-class _Flown:
-    """What a course leads to, as expressions in its groups and durations."""
+class Flown:
+    """What a course leads to, as expressions in its groups and durations; the state carries the extras."""
 
     start: MX
     y: MX
@@ -84,11 +84,12 @@ class _Flown:
     shifts: list[MX]
 
 
-def _flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance) -> _Flown:
+def flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flown:
+    """Follow a course from first touch."""
     model = course.model
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
-    at = _Flown(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
+    at = Flown(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
     for k, leg in enumerate(course.legs):
         if leg.flown:
             flow = Flow(course.choice, leg.phase.region, extras)
@@ -110,7 +111,8 @@ def _flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin
     return at
 
 
-def _symbols(course: Course) -> tuple[MX, MX]:
+def symbols(course: Course) -> tuple[MX, MX]:
+    """Symbols for a course's groups and durations."""
     return MX.sym("groups", len(course.model.groups)), MX.sym("durations", len(course.legs))
 
 
@@ -119,8 +121,8 @@ def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Toleranc
     """The expression of a course for the quantities asked for; nothing else is integrated."""
     model = course.model
     extras, size = _extras(model, of), len(model.state)
-    p, durations = _symbols(course)
-    at = _flown(course, p, durations, extras, plugin, tolerance)
+    p, durations = symbols(course)
+    at = flown(course, p, durations, extras, plugin, tolerance)
     found: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
     found |= _at_the_end(model, at.start, at.y[:size], p)
     for k, name in enumerate(extras):
@@ -134,8 +136,8 @@ def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Toleranc
 @lru_cache(maxsize=256)
 def ending(course: Course, plugin: str, tolerance: Tolerance) -> Flight:
     """The expression of the state in which a course ends."""
-    p, durations = _symbols(course)
-    at = _flown(course, p, durations, (), plugin, tolerance)
+    p, durations = symbols(course)
+    at = flown(course, p, durations, (), plugin, tolerance)
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
     return Flight(
         Function("ending", [p, durations], [at.y, missed]), tuple(course.model.state), tuple(course.model.groups)

@@ -73,7 +73,7 @@ def test_cvodes_agrees(k: int, method: str) -> None:
 
 
 def test_an_independent_model_has_the_same_derivatives() -> None:
-    """scipy's Radau on equations typed in from the specification, in SI: differences of e_n without a bridge."""
+    """Scipy's Radau on equations typed in from the specification, in SI: differences of e_n without a bridge."""
     scene = DRY.with_impact(stokes=0.3, angle="45 deg")
     names = ("particles.roughness", "liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure")
     found = sensitivities(scene, wrt=names)
@@ -92,7 +92,7 @@ def test_an_independent_model_has_the_same_derivatives() -> None:
 
 
 def test_the_condition_number_of_the_reference(separated_reference: dict[str, Any]) -> None:
-    """d ln e_n/d ln St is the reference's conditioning of every separating collision (80 bits, other code)."""
+    """The slope d ln e_n/d ln St is the reference's conditioning of every separating collision (80-bit code)."""
     case = separated_reference
     scene = Scene.from_dict(case["scene"]).with_impact(**case["impact"])
     found = sensitivities(scene, wrt=["impact.stokes"], rtol=1e-10)
@@ -193,7 +193,7 @@ def test_holding_the_stokes_number(name: str) -> None:
 
 
 def test_parameters_are_the_files_own() -> None:
-    """Given radius and density, these vary: E[R] = E[a] + 3 E[m] and E[rho] = E[m], with a = R/2, m = 2/3 pi R^3 rho."""
+    """Given radius and density, these vary: E[R] = E[a] + 3 E[m], E[rho] = E[m]; a = R/2, m = 2/3 pi R^3 rho."""
     scene = GRANULATION.with_impact(speed=2.0, angle="40 deg")
     tables = scene.to_dict()
     spheres = tables["particles"]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from casadi import Function, jtimes, vertcat
-from wetdoublet.solvers import InputError, Scene, collide, sensitivities
-from wetdoublet.solvers.integrators import IntegrationFailed, Tolerance, plain, tolerance
+from wetdoublet.solvers import InputError, Scene, collide, integrators, sensitivities
+from wetdoublet.solvers.integrators import IntegrationFailed, Tolerance, tolerance
 from wetdoublet.solvers.model import SX, choose, load
 from wetdoublet.solvers.numbers import numbers
 from wetdoublet.solvers.phases import Flow, Region, event_table, expressions
@@ -189,14 +189,22 @@ def test_options_that_derivatives_rest_on() -> None:
 
 
 @pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
-def test_integrators_that_are_differentiated_have_no_events(plugin: str) -> None:
+def test_integrators_that_are_differentiated_have_no_events(plugin: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Events are landed on outside (CVODES' own are silently wrong), and integrals are states, not quadratures."""
-    flow = Flow(choose(GLASS, True), Region(1, 1, False), ("rotation", "capillary"))
-    function = plain(flow, plugin, Tolerance(1e-9, 1e-12)).function
-    assert function.size1_out("xf") == len(flow.model.state) + 2
-    assert function.size1_out("qf") == 0
-    assert function.size1_out("zf") == 0
-    assert function.info().get("nevents", 0) == 0
+    built: list[tuple[str, str, set[str]]] = []
+    usual = integrators.integrator
+
+    def spied(name: str, engine: str, dae: dict[str, Any], *rest: Any) -> Any:
+        built.append((name, engine, set(dae)))
+        return usual(name, engine, dae, *rest)
+
+    monkeypatch.setattr(integrators, "integrator", spied)
+    # a tolerance that nothing else asks for, so that nothing is taken from the caches
+    sensitivities(GLASS, ["rotation", "energy.capillary"], rtol=1.03e-9, engine=plugin)
+    assert {name for name, engine, _ in built if engine == plugin} >= {"flow"}
+    for name, engine, parts in built:
+        assert parts == ({"x", "p", "ode", "zero"} if name == "locate" else {"x", "p", "ode"})
+        assert engine == "rosenbrock" or "zero" not in parts
 
 
 def test_a_failure_is_no_zero() -> None:
@@ -207,8 +215,8 @@ def test_a_failure_is_no_zero() -> None:
     whole = flight.flight(course, ("restitution",), "rosenbrock", Tolerance(1e-9, 1e-12))
     with pytest.raises(IntegrationFailed):
         evaluate(whole.function, path.p * np.nan, np.array([step.duration for step in path.steps]))
+    durations = np.array([step.duration for step in path.steps]) / 3
     with pytest.raises(IntegrationFailed, match="misses"):
-        durations = np.array([step.duration for step in path.steps]) / 3
         derivatives.settled(whole, path.p, durations, np.arange(3), 1e-9)
 
 
