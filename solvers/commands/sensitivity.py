@@ -20,6 +20,13 @@ from . import options
 @click.option("--wrt", metavar="NAMES", help="Parameters, as liquid.viscosity,impact.angle [all of the scene].")
 @click.option("--method", metavar="M", help="forward or adjoint [forward].")
 @click.option("--hold", metavar="WHAT", help="What of the impact stays: speed or stokes [speed].")
+@click.option(
+    "--uncertainty",
+    "uncertain",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help='A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.',
+)
 @click.option("--hessian", is_flag=True, help="Second derivatives as well.")
 @options.impact
 @options.changes
@@ -35,6 +42,7 @@ def command(
     wrt: str | None,
     method: str | None,
     hold: str | None,
+    uncertain: Sequence[str],
     hessian: bool,
     stokes: str | None,
     speed: str | None,
@@ -55,6 +63,7 @@ def command(
     from ..sensitivity.gradients import check_method, sensitivities
     from ..sensitivity.parameters import check_hold, check_wrt
     from ..sensitivity.quantities import check_of
+    from ..sensitivity.uncertainty import deviations, first_order, spoken
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
@@ -69,12 +78,31 @@ def command(
     scene = options.Asked.check(source, changes, stokes, speed, angle).scene()
     names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
     scene.need_impact()
+    deviation = deviations(scene, _assigned(uncertain), "--uncertainty") if uncertain else {}
+    if names is not None:
+        names = tuple(dict.fromkeys((*names, *deviation)))
 
     found = sensitivities(scene, asked, names, method=how, rtol=tolerance, engine=chosen, hold=held, hessian=hessian)
-    options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False) if as_json else str(found), file)
+    spread = first_order(found, deviation) if deviation else {}
+    if as_json:
+        object_ = found.to_dict() | ({"standard_deviation": spread} if deviation else {})
+        text = json.dumps(object_, indent=2, allow_nan=False)
+    else:
+        text = str(found) + ("\n" + spoken(found, spread) if deviation else "")
+    options.put(text, file)
     if picture is not None:
         found.plot(picture)
 
 
 def _names(text: str) -> list[str]:
     return [name.strip() for name in text.split(",") if name.strip()]
+
+
+def _assigned(given: Sequence[str]) -> dict[str, str]:
+    found = {}
+    for text in given:
+        name, equals, value = text.partition("=")
+        if not equals:
+            raise InputError("--uncertainty", text, 'NAME=VALUE, such as liquid.viscosity="5 %"', "has no =")
+        found[name.strip()] = value
+    return found

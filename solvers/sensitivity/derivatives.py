@@ -12,7 +12,7 @@ from casadi import DM, MX, Function, densify, jtimes
 from ..integrators import IntegrationFailed, quiet
 from .flight import Flight
 
-LANDED = 1e-6  # largest landing step over its phase: the error of a first derivative is its square
+LANDED = 3e-6  # largest landing step over its phase: the error of a first derivative is its square
 LANDED_TWICE = 1e-10  # that of a second derivative is the step itself
 _TRIES = 8
 

@@ -21,7 +21,7 @@ from .parameters import SCALES, Kind, Way, kind_of, references, way
 from .quantities import QUANTITIES
 from .result import Near
 
-_LOOSEST = 1e-8  # the located flight only has to be near: landings take the rest
+_LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
 
 Along = np.ndarray | Literal["all"] | None
 """Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
@@ -54,15 +54,14 @@ class Problem:
 
     def located(self, of: tuple[str, ...], rtol: float) -> tuple[Path, Near | None]:
         """The flight and the nearest boundary that it shows; ComputationError if that is too near."""
-        told = min(rtol, _LOOSEST)
-        finder = Locate(load(choose(self.scene, self.n.oblique)), self.n.groups, told)
+        finder = Locate(load(choose(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
         try:
             path = finder.run()
         except ComputationError as error:
             raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
         near = nearness.checked(self.scene, self.n, finder, path, rtol)
         if not self.n.oblique and path.separated and self._odd(of):
-            path = Locate(load(choose(self.scene, True)), self.n.groups, told).run()
+            path = Locate(load(choose(self.scene, True)), self.n.groups, _LOCATED).run()
         return path, near
 
     def _odd(self, of: tuple[str, ...]) -> bool:
