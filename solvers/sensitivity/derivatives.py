@@ -12,8 +12,9 @@ from casadi import DM, MX, Function, densify, jtimes
 from ..integrators import IntegrationFailed, quiet
 from .flight import Flight
 
-LANDED = 3e-6  # largest landing step over its phase: the error of a first derivative is its square
-LANDED_TWICE = 1e-10  # that of a second derivative is the step itself
+# Largest landing step over its phase. The error of a first derivative is of its square, times how much the flight
+# amplifies, which near a saddle is one over the distance; that of a second derivative is of the step itself.
+LANDED, LANDED_WELL = 3e-7, 1e-10
 _TRIES = 8
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .derivatives import LANDED, adjoint, curvature, evaluate, forward, settled
+from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, settled
 from .flight import Course, Flight
 
 Active = list[bool]
@@ -16,22 +16,31 @@ def landed(course: Course) -> np.ndarray:
 
 
 def differentiated(
-    whole: Flight, course: Course, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, active: Active, method: str
+    whole: Flight,
+    course: Course,
+    p: np.ndarray,
+    durations: np.ndarray,
+    dp: np.ndarray,
+    active: Active,
+    method: str,
+    amplified: bool,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Durations at which this engine meets the events, the quantities, and their derivatives in the groups.
 
     Arguments:
         dp: directions (groups, n); the derivatives found are right along these, by `adjoint` along all.
         active: which groups have any influence.
+        amplified: the flight is known to amplify small errors.
 
     Raises:
         IntegrationFailed: the engine gave up, or its solution misses an event.
     """
-    for _ in range(2):
-        z, shifts, dz = _once(whole, p, durations, dp, active, method)
-        if shifts.size == 0 or np.max(np.abs(shifts)) <= LANDED:
-            break
-        durations = settled(whole, p, durations, landed(course), LANDED)
+    if amplified:
+        durations = settled(whole, p, durations, landed(course), LANDED_WELL)
+    z, shifts, dz = _once(whole, p, durations, dp, active, method)
+    if shifts.size and np.max(np.abs(shifts)) > LANDED:
+        durations = settled(whole, p, durations, landed(course), LANDED_WELL)
+        z, _, dz = _once(whole, p, durations, dp, active, method)
     return durations, z, dz
 
 

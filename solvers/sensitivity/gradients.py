@@ -80,7 +80,7 @@ def sensitivities(
         problem = Problem.of(loaded, v0, theta0, names, hold)
         path, near = problem.located(of, rtol)
         todo = tuple(name for name in computed(of) if problem.defined(name, path))
-        slopes = problem.slopes(path, todo, method, plugin, rtol, along) if todo else None
+        slopes = problem.slopes(path, todo, method, plugin, rtol, along, near) if todo else None
     rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
     values = {name: row[0] for name, row in rows.items()}
     reference = {name: problem.value_of(name) for name in names}

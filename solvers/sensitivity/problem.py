@@ -14,7 +14,7 @@ from ..model import choose, load
 from ..numbers import Numbers, numbers
 from ..scene import Scene
 from . import nearness
-from .derivatives import LANDED_TWICE, settled
+from .derivatives import LANDED_WELL, settled
 from .directions import bent, differentiated, landed
 from .flight import course_of, flight, influential
 from .parameters import SCALES, Kind, Way, kind_of, references, way
@@ -22,6 +22,8 @@ from .quantities import QUANTITIES
 from .result import Near
 
 _LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
+_NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
+_SHARPEST = 1e-13
 
 Along = np.ndarray | Literal["all"] | None
 """Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
@@ -75,7 +77,14 @@ class Problem:
         return path.separated or name == "energy.initial"
 
     def slopes(
-        self, path: Path, of: tuple[str, ...], method: str, plugin: str, rtol: float, along: Along = None
+        self,
+        path: Path,
+        of: tuple[str, ...],
+        method: str,
+        plugin: str,
+        rtol: float,
+        along: Along = None,
+        near: Near | None = None,
     ) -> Slopes:
         """Derivatives of the quantities of a located flight.
 
@@ -84,6 +93,8 @@ class Problem:
         """
         full = "energy.tangential_lubrication" in of
         course = course_of(path, choose(self.scene, path.model.oblique, full=full))
+        if _amplifies(near) and near is not None and plugin == "rosenbrock":
+            rtol = min(rtol, max(rtol * near.distance / _NEAR, _SHARPEST))
         whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
         via = way(self.kind, self.wrt, whole.groups)
         size = len(whole.groups)
@@ -96,10 +107,10 @@ class Problem:
         try:
             # the bends of the groups take the derivative in every group, not along the parameters only
             how = method if along is None else "adjoint"
-            durations, z, dz = differentiated(whole, course, p, durations, dp, active, how)
+            durations, z, dz = differentiated(whole, course, p, durations, dp, active, how, _amplifies(near))
             if along is not None:
                 right = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
-                durations = settled(whole, p, durations, landed(course), LANDED_TWICE)
+                durations = settled(whole, p, durations, landed(course), LANDED_WELL)
                 second = bent(whole, p, durations, dp, dp @ right, active)
         except IntegrationFailed as failure:
             raise ComputationError(
@@ -124,6 +135,10 @@ class Problem:
         if name == "impact.stokes":
             return self.n.stokes
         return float(self.reference[self.kind.entries.index(name)])
+
+
+def _amplifies(near: Near | None) -> bool:
+    return near is not None and near.distance < _NEAR
 
 
 class _Units:
