@@ -24,6 +24,7 @@ from .result import Near
 _LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
 _NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
 _SHARPEST = 1e-13
+_SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some flights
 
 Along = np.ndarray | Literal["all"] | None
 """Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
@@ -93,7 +94,9 @@ class Problem:
         """
         full = "energy.tangential_lubrication" in of
         course = course_of(path, choose(self.scene, path.model.oblique, full=full))
-        if _amplifies(near) and near is not None and plugin == "rosenbrock":
+        if plugin == "cvodes":
+            rtol = max(rtol, _SHARPEST_CVODES)
+        elif near is not None and _amplifies(near):
             rtol = min(rtol, max(rtol * near.distance / _NEAR, _SHARPEST))
         whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
         via = way(self.kind, self.wrt, whole.groups)
