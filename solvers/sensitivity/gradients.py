@@ -75,13 +75,23 @@ def sensitivities(
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     names = check_wrt(loaded, wrt)
     along = _along(hessian, names)
-    v0, theta0 = loaded.need_impact()
+    v0, angle_ = loaded.need_impact()
     with LOCK:
-        problem = Problem.of(loaded, v0, theta0, names, hold)
+        problem = Problem.of(loaded, v0, angle_, names, hold)
         path, near = problem.located(of, rtol)
         todo = tuple(name for name in computed(of) if problem.defined(name, path))
         slopes = problem.slopes(path, todo, method, plugin, rtol, along, near) if todo else None
+        turning: dict[str, float] = {}
+        if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
+            if along is not None:
+                accepted = "an oblique impact, or parameters without impact.angle"
+                raise InputError("hessian", hessian, accepted, "head-on with strings has no second derivatives")
+            turning = problem.beside(problem.odd(of), method, plugin, rtol)
     rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
+    for name, slope in turning.items():
+        row = rows[name][1]
+        assert row is not None  # it separates
+        row[names.index("impact.angle")] = slope
     values = {name: row[0] for name, row in rows.items()}
     reference = {name: problem.value_of(name) for name in names}
     return Sensitivities(

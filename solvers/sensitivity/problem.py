@@ -24,6 +24,7 @@ from .result import Near
 _LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
 _NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
 _SHARPEST = 1e-13
+_ASIDE = 1e-5  # rad
 _SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some flights
 
 Along = np.ndarray | Literal["all"] | None
@@ -63,13 +64,23 @@ class Problem:
         except ComputationError as error:
             raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
         near = nearness.checked(self.scene, self.n, finder, path, rtol)
-        if not self.n.oblique and path.separated and self._odd(of):
+        if not self.n.oblique and path.separated and self.odd(of) and self.scene.pendulum is None:
             path = Locate(load(choose(self.scene, True)), self.n.groups, _LOCATED).run()
         return path, near
 
-    def _odd(self, of: tuple[str, ...]) -> bool:
-        """Whether something asked for begins to depend on the angle at zero."""
-        return "impact.angle" in self.wrt and any(QUANTITIES[name].odd for name in of)
+    def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
+        """What is asked for and begins to depend on the angle at zero."""
+        return tuple(name for name in of if QUANTITIES[name].odd) if "impact.angle" in self.wrt else ()
+
+    def beside(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
+        """Derivatives in the angle of quantities that are odd in it, just beside head-on.
+
+        With strings, whose equations are divided by the impact's rotation. The error is of the square of the angle.
+        """
+        aside = Problem.of(self.scene, self.n.speed, _ASIDE, ("impact.angle",), self.kind.hold)
+        path = Locate(load(choose(self.scene, True)), aside.n.groups, _LOCATED).run()
+        slopes = aside.slopes(path, of, method, plugin, rtol)
+        return dict(zip(of, (slopes.first[:, 0] / aside.units()[0]).tolist(), strict=True))
 
     def defined(self, name: str, path: Path) -> bool:
         """Whether physics defines a quantity for the collision, as something that varies."""

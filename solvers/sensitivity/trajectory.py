@@ -79,9 +79,10 @@ def trajectory_sensitivities(
     with LOCK:
         problem = Problem.of(loaded, *loaded.need_impact(), names, hold)
         path, _ = problem.located(("rotation",), rtol)
-        if not path.separated and not problem.n.oblique and "impact.angle" in names:
+        in_line = not problem.n.oblique and "impact.angle" in names
+        if in_line and (not path.separated or loaded.pendulum is not None):
             accepted = "parameters other than impact.angle"
-            raise InputError("wrt", "impact.angle", accepted, "moves a head-on stick out of its line")
+            raise InputError("wrt", "impact.angle", accepted, "moves a head-on collision out of its line")
         pieces, events = _pieces(problem, path, plugin, rtol)
     if not pieces:
         raise ComputationError("no trajectory: the outcome is decided at first touch", advice="try another impact")

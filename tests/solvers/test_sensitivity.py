@@ -177,6 +177,19 @@ def test_head_on() -> None:
     assert found.gradient["tangential_restitution"]["impact.angle"] is None
 
 
+def test_head_on_with_strings() -> None:
+    """As above with strings: rotation and spin by the angle, from a flight at a small one."""
+    found = sensitivities(PENDULUM, ["rotation", "final_spin", "restitution"], ["impact.angle"], stokes=2.0, angle=0.0)
+    near = collide(PENDULUM, stokes=2.0, angle=1e-3, rtol=1e-11, engine="rosenbrock")
+    assert found.value["rotation"] == found.value["final_spin"] == 0.0
+    assert found.gradient["restitution"]["impact.angle"] == 0.0
+    for name in ("rotation", "final_spin"):
+        # odd in the angle: the next term is 1e-6 times a number of order one
+        assert found.gradient[name]["impact.angle"] == pytest.approx(getattr(near, name) / 1e-3, rel=1e-5)
+    with pytest.raises(InputError, match="hessian"):
+        sensitivities(PENDULUM, ["rotation"], stokes=2.0, angle=0.0, hessian=True)
+
+
 def test_speed_and_stokes_are_one_variable() -> None:
     """dy/dSt = dy/dv0 v0/St; elasticities are the same."""
     found = sensitivities(PENDULUM, ["restitution", "contact_time"], ["impact.speed", "impact.stokes"])
