@@ -9,7 +9,6 @@ from dataclasses import asdict
 from typing import Any
 
 from .cold import cold_start
-from .derivatives import gradients
 from .engines import Engine, engines
 from .environment import environment, one_core
 from .features import HORIZON, Cost, costs
@@ -77,15 +76,12 @@ def _task(task: Task, all_engines: Sequence[Engine], tolerances: Sequence[float]
     tell(f"{task.preset}: reference values")
     truths = references(task.scene, task.impacts())
     points = work(task, truths, all_engines, tolerances, repeats, tell)
-    tell(f"{task.preset}: gradients")
-    slopes = gradients(task.preset, repeats)
     tell(f"{task.preset}: certificate, ledger, trajectory")
     return {
         "preset": task.preset,
         "drawn": str(task),
         "collisions": [_truth(each) for each in truths],
         "points": [_point(each) for each in points],
-        "gradients": [asdict(each) for each in slopes],
         "costs": [_cost(each) for each in costs(task, truths, repeats)],
     }
 

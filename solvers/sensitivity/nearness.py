@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
-from ..certificate import BarrierProof, FilmProof
+from ..certificate import BarrierProof
 from ..errors import ComputationError
 from ..integrators import IntegrationFailed, plain, tolerance
 from ..locate import CRITERIA, Locate, Path, Step
@@ -96,7 +96,7 @@ def _refused(near: Near, least: float) -> ComputationError:
 def _stick(scene: Scene, n: Numbers, finder: Locate, path: Path, least: float) -> Near | None:
     """A boundary within `least` in the Stokes number, by the outcome on either side."""
     decided = len(path.steps) == 1 and path.steps[0].duration == 0
-    if decided and not isinstance(finder.proof, FilmProof):
+    if decided and isinstance(finder.proof, BarrierProof):
         return None  # by energy, before the film has taken any: far from every boundary
     for factor in (1 - least, 1 + least):
         aside = _located(scene, n, n.stokes * factor, finder.rtol)

@@ -18,8 +18,7 @@ from wetdoublet.solvers import (
     sobol_indices,
     trajectory_sensitivities,
 )
-from wetdoublet.solvers.benchmarks.derivatives import gradients
-from wetdoublet.solvers.benchmarks.tables import gradient_table
+from wetdoublet.solvers.benchmarks.derivatives import gradient_table, gradients
 from wetdoublet.solvers.sensitivity import uncertainty
 from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 
@@ -166,8 +165,7 @@ def test_cost_is_measured_for_every_method(monkeypatch: pytest.MonkeyPatch) -> N
         assert adjoint.error < 1e-7
         assert adjoint.error < differences.error
         assert by[engine, "collision"].ratio == 1.0
-    text = gradient_table({"tasks": [{"gradients": [vars(row) for row in found]}]})
-    assert text.count("12 parameters") == 6
+    assert gradient_table(found).count("12 parameters") == 6
 
 
 def test_the_scene_given_stays_as_it_is() -> None:
