@@ -15,36 +15,56 @@ if TYPE_CHECKING:
     from .regime_map import regime_map
     from .result import Collision
     from .scene import Scene
+    from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
+    from .sensitivity.gradients import sensitivities
+    from .sensitivity.result import Sensitivities
+    from .sensitivity.trajectory import trajectory_sensitivities
+    from .sensitivity.uncertainty import band
+    from .sensitivity.variance import sobol_indices
     from .simulate import collide
 
 _HOMES = {
     "Boundaries": "bounds",
+    "BoundarySensitivities": "sensitivity.boundaries",
     "CheckFailed": "errors",
     "Collision": "result",
     "ComputationError": "errors",
     "InputError": "errors",
     "ModelWarning": "errors",
     "Scene": "scene",
+    "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
+    "band": "sensitivity.uncertainty",
     "boundary": "bounds",
+    "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "simulate",
     "collide_many": "many",
     "regime_map": "regime_map",
+    "sensitivities": "sensitivity.gradients",
+    "sobol_indices": "sensitivity.variance",
+    "trajectory_sensitivities": "sensitivity.trajectory",
 }
 
 __all__ = [
     "Boundaries",
+    "BoundarySensitivities",
     "CheckFailed",
     "Collision",
     "ComputationError",
     "InputError",
     "ModelWarning",
     "Scene",
+    "Sensitivities",
     "WetDoubletError",
+    "band",
     "boundary",
+    "boundary_sensitivities",
     "collide",
     "collide_many",
     "regime_map",
+    "sensitivities",
+    "sobol_indices",
+    "trajectory_sensitivities",
 ]
 
 

@@ -16,7 +16,9 @@ import click
 
 from .errors import InputError, ModelWarning, WetDoubletError, did_you_mean, one_line
 
-COMMANDS = ("scenes", "collide", "map", "boundary", "reproduce", "generate", "diff", "export", "verify", "bench")
+COMMANDS = (
+    "scenes", "collide", "sensitivity", "map", "boundary", "reproduce", "generate", "diff", "export", "verify", "bench",
+)  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}

@@ -24,6 +24,7 @@ from .phases import CLOSING, Flow, Region
 from .scene import Scene
 
 _NEVER = 1e30  # a glass number that no pressure meets
+WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
 _CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
 _DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
 _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
@@ -78,28 +79,35 @@ class Line:
         self.collisions += 1
         groups = self.numbers(stokes).groups
         contact = max(groups["elastic_gap"], groups["rough_gap"])
-        pressure, smallest = _approach(self.model, groups, self.rtol)
+        pressure, smallest = approach(self.model, groups, self.rtol)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
     def escape(self, stokes: float, reversed_: bool) -> Escape:
         """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
         self.collisions += 1
-        groups = self.numbers(stokes).groups
-        if not reversed_:
-            groups = groups | {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
-        probe = _Probe(self.model, groups, self.rtol, machine_code=True)
-        path = probe.run()
-        return Escape(path.separated, _smooth(probe, path))
+        return smooth_escape(self.model, self.numbers(stokes).groups, self.rtol, reversed_)
 
 
-def _approach(model: Model, groups: dict[str, float], rtol: float) -> tuple[float, float]:
+def smooth_escape(
+    model: Model, groups: dict[str, float], rtol: float, reversed_: bool, machine_code: bool = True
+) -> Escape:
+    """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
+    if not reversed_:
+        groups = groups | WITHOUT_SOLIDS
+    probe = Probe(model, groups, rtol, machine_code=machine_code)
+    path = probe.run()
+    return Escape(path.separated, _smooth(probe, path))
+
+
+def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
     """Largest scaled pressure and smallest gap of the approach, without any criterion.
 
     It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
     """
     deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
-    flight = Locate(model, groups | {"glass_number": 0.0, "elastic_gap": 0.0, "rough_gap": deep}, rtol, (), True)
+    unmet = {"glass_number": 0.0, "elastic_gap": 0.0, "rough_gap": deep}
+    flight = Locate(model, groups | unmet, rtol, (), machine_code)
     y, phase, p = flight.y, flight.phase, flight.p
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
@@ -107,7 +115,7 @@ def _approach(model: Model, groups: dict[str, float], rtol: float) -> tuple[floa
     watch = replace(flight.watch, certificate=None) if flight.watch.certificate == "tethered" else flight.watch
     for _ in range(10 * STRETCHES):
         level = flight.proof.level(y, phase) if watch.certificate else None
-        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, True)
+        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, machine_code)
         try:
             stop = find(y, p, stretch, CLOSING, -_NEVER if level is None else level)
         except IntegrationFailed as error:
@@ -130,7 +138,7 @@ def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
     return -model.values("events", y, p)["glass"]
 
 
-class _Probe(Locate):
+class Probe(Locate):
     """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
 
     def _proved(self) -> bool:
@@ -146,7 +154,7 @@ class _Probe(Locate):
 
 
 def _smooth(probe: Locate, path: Path) -> float | None:
-    barrier = _barrier(probe)
+    barrier = barrier_of(probe)
     if barrier is None and isinstance(probe.proof, BarrierProof):
         return None  # nothing holds the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
@@ -161,7 +169,7 @@ def _smooth(probe: Locate, path: Path) -> float | None:
     return -2 * inward * (rim - float(last[0]))
 
 
-def _barrier(probe: Locate) -> Barrier | None:
+def barrier_of(probe: Locate) -> Barrier | None:
     """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
     if not isinstance(probe.proof, BarrierProof):
         return None
@@ -169,31 +177,58 @@ def _barrier(probe: Locate) -> Barrier | None:
     return barriers[0] if barriers else None
 
 
-def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | None:
-    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
-    size = len(probe.model.state)
-    saddle = _saddle_state(probe, barrier, probe.y[:size])
+@dataclass(frozen=True)
+class Saddle:
+    """Rigid rotation at the top of the barrier, and how its neighbourhood moves.
+
+    Arguments:
+        modes: left eigenvectors as rows; times a deviation they give each mode's amplitude, as its part of the gap.
+        rates: their eigenvalues.
+        unstable: index of the one that grows.
+    """
+
+    gap: float
+    state: np.ndarray
+    modes: np.ndarray
+    rates: np.ndarray
+    unstable: int
+
+    def nearest(self, states: np.ndarray) -> tuple[int, np.ndarray]:
+        """Which of the states (columns) is nearest, and its amplitudes."""
+        amplitudes = self.modes @ (states[: self.state.size] - self.state[:, None])
+        k = int(np.argmin(np.sum(np.abs(amplitudes) ** 2, axis=0)))
+        return k, amplitudes[:, k]
+
+
+def saddle_of(probe: Locate, barrier: Barrier) -> Saddle | None:
+    """The saddle at a barrier for the flight's angular momentum; None where nothing grows."""
+    saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
     # a doublet that escapes comes by while opening
     film = int(barrier.gap < 1 or not probe.model.edged)
     region = Region(film, int(barrier.gap < probe.edge), False, probe.model.cavitates)
-    matrix = np.asarray(_jacobian(probe.model, region)(saddle, path.p).full())
+    matrix = np.asarray(_jacobian(probe.model, region)(saddle, probe.p).full())
     values, vectors = np.linalg.eig(matrix)
     unstable = int(np.argmax(values.real))
     if values[unstable].real <= 0 or vectors[0, unstable] == 0:
         return None
-    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])  # a mode's amplitude is its part of the gap
-    modes = np.linalg.inv(shapes)
+    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])
+    return Saddle(barrier.gap, saddle, np.linalg.inv(shapes), values, unstable)
+
+
+def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | None:
+    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
+    saddle = saddle_of(probe, barrier)
+    if saddle is None:
+        return None
     try:
         times, states = _sampled(probe, path)
     except IntegrationFailed:
         return None
-    amplitudes = modes @ (states[:size] - saddle[:, None])
-    distance = np.sum(np.abs(amplitudes) ** 2, axis=0)
-    nearest = int(np.argmin(distance))
-    if distance[nearest] > barrier.gap**2 / 4:
+    nearest, amplitudes = saddle.nearest(states)
+    if np.sum(np.abs(amplitudes) ** 2) > barrier.gap**2 / 4:
         return None
-    growth = values[unstable].real * times[nearest]
-    return float(amplitudes[unstable, nearest].real * math.exp(-growth)) if growth < 500 else None
+    growth = saddle.rates[saddle.unstable].real * times[nearest]
+    return float(amplitudes[saddle.unstable].real * math.exp(-growth)) if growth < 500 else None
 
 
 def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import click
 
@@ -14,6 +15,11 @@ from ..schema import FIELDS
 from ..settings import RTOL, check_rtol
 from . import options
 
+if TYPE_CHECKING:
+    from ..bounds import Boundaries
+    from ..scene import Scene
+    from ..sensitivity.boundaries import BoundarySensitivities
+
 _ENTRY = FIELDS["impact.angle"]
 
 
@@ -21,6 +27,7 @@ _ENTRY = FIELDS["impact.angle"]
 @options.scene_argument
 @click.option("--angle", metavar="RANGE", help="Impact angles in degrees, as 20:65:10.")
 @click.option("--stokes", metavar="LO:HI", help="Stokes numbers to look between [1e-4:100].")
+@click.option("--wrt", metavar="NAMES", help="Also how each moves, as with bridge.volume,liquid.viscosity, or all.")
 @options.changes
 @options.model
 @options.rtol
@@ -32,6 +39,7 @@ def command(
     source: str | None,
     angle: str | None,
     stokes: str | None,
+    wrt: str | None,
     changes: Sequence[str],
     model: str | None,
     rtol: str | None,
@@ -57,8 +65,14 @@ def command(
     if angles is None:
         raise InputError("--angle", None, "LO:HI:N in degrees, as 20:65:10")
 
+    names = _names(scene, wrt)
     found = boundary(scene, angle=angles, stokes=span, rtol=tolerance)
-    options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False) if as_json else str(found), file)
+    shown: Boundaries | BoundarySensitivities = found
+    if names is not None:
+        from ..sensitivity.boundaries import boundary_sensitivities
+
+        shown = boundary_sensitivities(scene, wrt=names, rtol=tolerance, traced=found)
+    options.put(json.dumps(shown.to_dict(), indent=2, allow_nan=False) if as_json else str(shown), file)
     if picture is not None:
         from ..boundary_plot import draw
 
@@ -68,6 +82,16 @@ def command(
         raise CheckFailed(
             f"{len(found.failed)} of {len(angles)} angles failed, first {math.degrees(at):.6g} deg: {reason}"
         )
+
+
+def _names(scene: Scene, wrt: str | None) -> tuple[str, ...] | None:
+    """The parameters of --wrt; `all` stands for every number of the scene, and the angle."""
+    if wrt is None:
+        return None
+    from ..sensitivity.boundaries import check_boundary_wrt
+
+    names = [name.strip() for name in wrt.split(",") if name.strip()]
+    return check_boundary_wrt(scene, None if names == ["all"] else names, "--wrt")
 
 
 def _degrees(text: str) -> float:

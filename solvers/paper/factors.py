@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..scene import Scene
-from .desk import Desk, outcomes
+from ..sensitivity.boundaries import moving
+from .desk import Desk, Line, outcomes
 from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, Table, degrees, number
 from .printed import PRINTED
@@ -35,7 +36,9 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
     scenes = {(arm, key): _doubled(base, entry) for arm, base in arms.items() for key, entry in DOUBLED.items()}
     scenes |= {(arm, ""): base for arm, base in arms.items()}
     jobs = [near_printed(scene, angle) for scene in scenes.values() for angle in angles]
-    traced = [centrifugal(line) for [line] in desk.many(jobs)]
+    followed = [line for [line] in desk.many(jobs)]
+    traced = [centrifugal(line) for line in followed]
+    lines = {name: followed[k * len(angles) : (k + 1) * len(angles)] for k, name in enumerate(scenes)}
     found = {name: traced[k * len(angles) : (k + 1) * len(angles)] for k, name in enumerate(scenes)}
     plain = {arm: found[arm, ""] for arm in arms}
     factors = {
@@ -61,7 +64,10 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
         + "; ".join(f"{arm} arm {number(values[place])}" for arm, values in plain.items())
         + f". The paper does not say at which angle; nearest to its six numbers is the {_nearest(angles, factors)}.",
         comparisons=rows,
-        tables=[_table(arm, angles, found) for arm, found in factors.items()],
+        tables=[
+            *(_table(arm, angles, found) for arm, found in factors.items()),
+            _predicted(arms, lines, factors, place),
+        ],
         scenes=(BRIDGED,),
     )
 
@@ -97,3 +103,30 @@ def _table(arm: str, angles: Sequence[float], found: dict[str, list[float]]) -> 
         [PRINTED[key].what, PRINTED[key].text, *(f"{value:.3f}" for value in values)] for key, values in found.items()
     ]
     return Table(f"Factors of Ce*, {arm} arm", ["", "paper", *(f"at {degrees(angle)}" for angle in angles)], rows)
+
+
+def _predicted(
+    arms: dict[str, Scene],
+    lines: dict[tuple[str, str], list[Line]],
+    factors: dict[str, dict[str, list[float]]],
+    place: int,
+) -> Table:
+    """What the exact elasticities of Ce* at 45 degrees say of a doubling, beside the doubling itself."""
+    columns = {}
+    for arm, scene in arms.items():
+        change = next(one for one in lines[arm, ""][place] if one.before == "stick")
+        found = moving(scene, _AT, change, tuple(DOUBLED.values())).elasticity["centrifugal"]
+        columns[arm] = [float(found[entry] or 0.0) for entry in DOUBLED.values()]
+    rows = []
+    for k, key in enumerate(DOUBLED):
+        row = [PRINTED[key].what, PRINTED[key].text]
+        for arm, elasticities in columns.items():
+            row += [f"{elasticities[k]:+.4f}", f"{2 ** elasticities[k]:.3f}", f"{factors[arm][key][place]:.3f}"]
+        rows.append(row)
+    head = ["", "paper", *(text for arm in columns for text in (f"d ln Ce*/d ln p, {arm}", "2^it", "doubled"))]
+    return Table(
+        f"Exact elasticities of Ce* at {degrees(_AT)}, and the factors they predict beside those of the doubling: "
+        "a doubling is a large step, along which the elasticity itself changes",
+        head,
+        rows,
+    )

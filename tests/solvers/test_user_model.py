@@ -65,7 +65,7 @@ def test_a_law_is_less_than_thirty_lines():
 
 
 def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
-    """collide, map, boundary and scenes take the model from the command line."""
+    """collide, map, boundary, sensitivity and scenes take the model from the command line."""
     one = run("collide", "granulation", "--model", str(mine), "--set", "custom.yield_stress=2 kPa", "--json")
     assert json.loads(one.output)["outcome"] == "stick"  # the library's flight escapes here
     file = tmp_path / "m.nc"
@@ -75,6 +75,15 @@ def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
     assert file.is_file()
     line = run("boundary", "granulation", "--model", str(mine), "--angle", "45:45:1", "--stokes", "0.03:0.08", "--json")
     assert json.loads(line.output)["changes"][0][0]["centrifugal"] == pytest.approx(4.121, abs=2e-3)  # MODEL.md, 8
+    own = ("--model", str(mine), "--set", "custom.yield_stress=20 Pa", "--stokes", "0.06")
+    slope = run("sensitivity", "granulation", *own, "--wrt", "custom.yield_stress", "--json")
+    derivative = json.loads(slope.output)["gradient"]["restitution"]["custom.yield_stress"]
+    sides = [
+        collide(with_model(mine, custom__yield_stress=f"{20 + step} Pa"), stokes=0.06, rtol=1e-11, ledger=False)
+        for step in (-1, 1)
+    ]
+    # a central difference over 10 % of the stress: its error is of the third derivative, some 1e-3 here
+    assert derivative == pytest.approx((sides[1].restitution - sides[0].restitution) / 2, rel=5e-3)
     shown = run("scenes", "granulation", "--model", str(mine))
     assert 'yield_stress = "0 Pa"' in shown.output
     assert 'law = "yielding"' in shown.output

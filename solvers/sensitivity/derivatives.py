@@ -1,0 +1,95 @@
+"""Derivatives of a flight's expression, forward and adjoint, first and second: CasADi functions, kept by course."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from functools import lru_cache
+
+import numpy as np
+from casadi import DM, MX, Function, densify, jtimes
+
+from ..integrators import IntegrationFailed, quiet
+from .flight import Flight
+
+# Largest landing step over its phase. The error of a first derivative is of its square, times how much the flight
+# amplifies, which near a saddle is one over the distance; that of a second derivative is of the step itself.
+LANDED, LANDED_WELL = 3e-7, 1e-10
+_TRIES = 8
+
+
+def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray]:
+    """A function's results as arrays; IntegrationFailed in one line, and CasADi's pages dropped."""
+    heard = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(heard):
+            found = function.call([DM(each) for each in arguments])
+    except (RuntimeError, SystemError) as error:
+        if "KeyboardInterrupt" in str(error) + heard.getvalue():
+            raise KeyboardInterrupt from None
+        raise IntegrationFailed("the integrator gave up") from None
+    arrays = [np.asarray(each.full()) for each in found]
+    if not all(np.isfinite(each).all() for each in arrays):
+        raise IntegrationFailed("a result is not finite")
+    return arrays
+
+
+@lru_cache(maxsize=256)
+def forward(flight: Flight, count: int) -> Function:
+    """(groups, durations, directions: groups x count) -> quantities, shifts, derivatives (quantities x count)."""
+    p, durations, z, shifts = _symbols(flight)
+    seeds = MX.sym("seeds", p.numel(), count)
+    with quiet():
+        slopes = densify(jtimes(z, p, seeds))
+        return Function("forward", [p, durations, seeds], [z, shifts, slopes])
+
+
+@lru_cache(maxsize=256)
+def adjoint(flight: Flight, count: int) -> Function:
+    """(groups, durations, weights: quantities x count) -> quantities, shifts, gradients (groups x count)."""
+    p, durations, z, shifts = _symbols(flight)
+    seeds = MX.sym("seeds", z.numel(), count)
+    with quiet():
+        slopes = densify(jtimes(z, p, seeds, True))
+        return Function("adjoint", [p, durations, seeds], [z, shifts, slopes])
+
+
+@lru_cache(maxsize=256)
+def curvature(flight: Flight, count: int) -> Function:
+    """(groups, durations, weights, directions: groups x count) -> the weighted sum's Hessian times the directions.
+
+    Forward over adjoint. Rosenbrock only: CasADi's CVODES has no second derivatives of this kind.
+    """
+    p, durations, z, _ = _symbols(flight)
+    weights, seeds = MX.sym("weights", z.numel()), MX.sym("seeds", p.numel(), count)
+    with quiet():
+        gradient = jtimes(z, p, weights, True)
+        bent = densify(jtimes(gradient, p, seeds))
+        return Function("curvature", [p, durations, weights, seeds], [bent])
+
+
+def _symbols(flight: Flight) -> tuple[MX, MX, MX, MX]:
+    p = MX.sym("groups", flight.function.size1_in(0))
+    durations = MX.sym("durations", flight.function.size1_in(1))
+    z, shifts = flight.function(p, durations)
+    return p, durations, z, shifts
+
+
+def settled(flight: Flight, p: np.ndarray, durations: np.ndarray, flown: np.ndarray, within: float) -> np.ndarray:
+    """Durations at which this engine's own solution meets its events within a part `within` of each phase.
+
+    Arguments:
+        flown: indices of the legs that are landed.
+
+    Raises:
+        IntegrationFailed: it does not: its solution misses an event.
+    """
+    durations = durations.copy()
+    for _ in range(_TRIES):
+        shifts = evaluate(flight.function, p, durations)[1].ravel()
+        if shifts.size == 0 or np.max(np.abs(shifts)) <= within:
+            return durations
+        if np.max(np.abs(shifts)) > 0.5:
+            break
+        durations[flown] *= 1 + shifts
+    raise IntegrationFailed("its solution misses an event of the located flight")

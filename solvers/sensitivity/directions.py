@@ -1,0 +1,88 @@
+"""Derivatives of a flight along directions in its groups: as few as are asked for, first and second."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, settled
+from .flight import Course, Flight
+
+Active = list[bool]
+
+
+def landed(course: Course) -> np.ndarray:
+    """Indices of the legs that end on an event's surface."""
+    return np.array([k for k, leg in enumerate(course.legs) if leg.flown and leg.event is not None], dtype=int)
+
+
+def differentiated(
+    whole: Flight,
+    course: Course,
+    p: np.ndarray,
+    durations: np.ndarray,
+    dp: np.ndarray,
+    active: Active,
+    method: str,
+    amplified: bool,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Durations at which this engine meets the events, the quantities, and their derivatives in the groups.
+
+    Arguments:
+        dp: directions (groups, n); the derivatives found are right along these, by `adjoint` along all.
+        active: which groups have any influence.
+        amplified: the flight is known to amplify small errors.
+
+    Raises:
+        IntegrationFailed: the engine gave up, or its solution misses an event.
+    """
+    if amplified:
+        durations = settled(whole, p, durations, landed(course), LANDED_WELL)
+    z, shifts, dz = _once(whole, p, durations, dp, active, method)
+    if shifts.size and np.max(np.abs(shifts)) > LANDED:
+        durations = settled(whole, p, durations, landed(course), LANDED_WELL)
+        z, _, dz = _once(whole, p, durations, dp, active, method)
+    return durations, z, dz
+
+
+def _once(
+    whole: Flight, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, active: Active, method: str
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    if method == "adjoint":
+        z, shifts, gradients = evaluate(adjoint(whole, len(whole.of)), p, durations, np.eye(len(whole.of)))
+        return z.ravel(), shifts.ravel(), gradients.T
+    seeds = spanning(p, dp, active)
+    if seeds.shape[1] == 0:
+        z, shifts = evaluate(whole.function, p, durations)
+        return z.ravel(), shifts.ravel(), np.zeros((z.size, p.size))
+    z, shifts, slopes = evaluate(forward(whole, seeds.shape[1]), p, durations, seeds)
+    return z.ravel(), shifts.ravel(), slopes @ np.linalg.pinv(seeds)
+
+
+def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
+    """Directions in the groups that span `dp`: these themselves, or the groups' own where those are fewer.
+
+    A group moves by its own size, or by one where it is zero.
+    """
+    moving = [k for k in range(p.size) if active[k] and np.any(dp[k])]
+    used = np.unique(dp[:, np.any(dp != 0, axis=0)], axis=1)  # speed and Stokes number are one direction
+    if used.shape[1] < len(moving) and np.linalg.matrix_rank(used) == used.shape[1]:
+        return used
+    own = np.zeros((p.size, len(moving)))
+    own[moving, range(len(moving))] = [p[k] or 1.0 for k in moving]
+    return own
+
+
+def bent(
+    whole: Flight, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, along: np.ndarray, active: Active
+) -> np.ndarray:
+    """Second derivatives of the quantities between directions `dp` (groups, n) and `along` (groups, m): (q, n, m)."""
+    along = along * np.array(active)[:, None]
+    seeds = spanning(p, along, active)
+    back = np.linalg.pinv(seeds) @ along
+    found = []
+    for weights in np.eye(len(whole.of)):
+        product = np.zeros((p.size, seeds.shape[1]))
+        if seeds.shape[1]:
+            [product] = evaluate(curvature(whole, seeds.shape[1]), p, durations, weights, seeds)
+        found.append(dp.T @ product @ back)
+    return np.array(found)

@@ -1,0 +1,207 @@
+"""What a collision depends on: the numbers of its scene by dotted name, and their way into groups and scales.
+
+Everything is differentiated in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0: of order one each.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from casadi import SX, Function, densify, hessian, jacobian, substitute, vertcat
+
+from ...generated import scaling
+from ..errors import InputError, did_you_mean
+from ..numbers import Formula, formulas
+from ..scene import Scene
+from ..schema import FIELDS
+
+IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
+HOLDS = ("speed", "stokes")
+SCALES = ("length", "time", "rate", "energy")
+_ONE_VARIABLE = ("impact.speed", "impact.stokes")
+_BODIES = ("particles", "partner")
+_OWN_NAMES = {  # of the vocabulary, where it differs from the key of the scene file
+    "liquid.density": "density",
+    "pendulum.length": "string_length",
+}
+
+
+def known(scene: Scene) -> tuple[str, ...]:
+    """The parameters of a scene: its numbers as the file gives them, then the impact's three."""
+    fields = scene.fields
+    own = [
+        name for name in scene.entries if not (fields[name].choices or fields[name].flag or name.startswith("impact."))
+    ]
+    return (*own, *IMPACT)
+
+
+def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
+    """The parameters asked for; InputError naming the nearest known for one that the scene has not."""
+    everything = known(scene)
+    if wrt is None:
+        return everything
+    asked = (wrt,) if isinstance(wrt, str) else tuple(dict.fromkeys(wrt))
+    # not in the file, but a number of its own all the same
+    more = ("pendulum.gravity",) if scene.pendulum is not None else ()
+    for name in asked:
+        if name not in everything and name not in more:
+            raise InputError(label, name, ", ".join(everything), "is not known" + did_you_mean(name, everything))
+    if not asked:
+        raise InputError(label, "", ", ".join(everything), "names no parameter")
+    return asked
+
+
+def check_hold(hold: object, label: str = "hold") -> str:
+    """What of the impact is held fixed; InputError if it is neither."""
+    if not isinstance(hold, str) or hold not in HOLDS:
+        raise InputError(label, hold, ", ".join(HOLDS), "is not known" + did_you_mean(hold, HOLDS))
+    return hold
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What the way from parameters to groups depends on: which entries a scene has, and what of the impact is held."""
+
+    entries: tuple[str, ...]  # reference values in this order
+    elastic: bool
+    hold: str
+    shape: tuple[object, ...]  # what chooses among the formulas
+    formulas: Mapping[str, Formula] = field(compare=False, repr=False)
+
+    @property
+    def held(self) -> str:
+        return f"impact.{self.hold}"
+
+
+def kind_of(scene: Scene, hold: str) -> Kind:
+    """The kind of a scene's collision."""
+    own = [name for name in known(scene) if name not in IMPACT]
+    if scene.pendulum is not None and "pendulum.gravity" not in own:
+        own.append("pendulum.gravity")
+    own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
+    return Kind(
+        (*own, f"impact.{hold}", "impact.angle"),
+        scene.particles.youngs_modulus is not None,
+        hold,
+        (scene.wall, scene.partner is not None, own_rupture, scene.package),
+        formulas(scene),
+    )
+
+
+def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarray:
+    """Values of a kind's entries, SI."""
+    values: dict[str, Any] = dict(scene.entries)
+    if scene.pendulum is not None:
+        values["pendulum.gravity"] = scene.pendulum.gravity
+    values |= {"impact.speed": speed, "impact.stokes": scene.stokes_of(speed), "impact.angle": angle}
+    return np.array([float(values[name]) for name in kind.entries])
+
+
+def _shared(half_radius: Any, half_mass: Any, values: Mapping[str, Any], wall: bool) -> dict[str, Any]:
+    """A and m of the pair from R_1/2 and M_1/2, and the ratios of an unequal one."""
+    if wall:
+        return {"reduced_radius": 2 * half_radius, "reduced_mass": 2 * half_mass}
+    if "partner.radius" not in values:
+        return {"radius_ratio": 1.0, "mass_ratio": 1.0}
+    radius = values["partner.radius"]
+    sphere = 4 / 3 * math.pi * radius**3
+    mass = values["partner.mass"] if "partner.mass" in values else sphere * values["partner.density"]
+    ratios = {"radius_ratio": radius / (2 * half_radius), "mass_ratio": mass / (2 * half_mass)}
+    return ratios | {
+        "reduced_radius": 2 * half_radius * radius / (2 * half_radius + radius),
+        "reduced_mass": 2 * half_mass * mass / (2 * half_mass + mass),
+    }
+
+
+def vocabulary(values: Mapping[str, Any], wall: bool = False) -> dict[str, Any]:
+    """Entries by dotted name -> the quantities that the groups are made of; numbers or CasADi expressions."""
+    found = {
+        _OWN_NAMES.get(name, name.partition(".")[2]): value
+        for name, value in values.items()
+        if name.partition(".")[0] not in _BODIES or name.partition(".")[2] not in ("radius", "mass", "density")
+    }
+    found.pop("stokes", None)
+    if "particles.radius" in values:
+        found["reduced_radius"] = values["particles.radius"] / 2
+    if "particles.mass" in values:
+        found["reduced_mass"] = values["particles.mass"] / 2
+    if "particles.density" in values:
+        radius = 2 * found["reduced_radius"]
+        found["reduced_mass"] = 2 / 3 * math.pi * radius**3 * values["particles.density"]
+    found |= _shared(found["reduced_radius"], found["reduced_mass"], values, wall)
+    if "impact.stokes" in values:
+        per_speed = scaling.stokes(found["reduced_radius"], found["reduced_mass"], found["viscosity"], 1.0)
+        found["speed"] = values["impact.stokes"] / per_speed
+    return found
+
+
+def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
+    """What a parameter that is zero is measured in."""
+    return values["liquid.film_thickness"] if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
+
+
+@dataclass(frozen=True)
+class Way:
+    """From parameters to groups and scales: functions of the reference values.
+
+    Arguments:
+        values: (ref,) -> groups, scales of length, time, rate and energy.
+        slopes: (ref,) -> their derivatives in theta, and dp/dtheta.
+        bends: (ref, weights of groups and scales) -> Hessian of the weighted sum in theta.
+    """
+
+    values: Function
+    slopes: Function
+    bends: Function
+
+
+@lru_cache(maxsize=128)
+def way(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> Way:
+    """The way from a kind's parameters to the groups of a model.
+
+    Speed and Stokes number are one variable: either moves whichever of the two the kind holds, by the same part.
+    """
+    reference = SX.sym("ref", len(kind.entries))
+    theta = SX.sym("theta", len(wrt))
+    base = {name: reference[k] for k, name in enumerate(kind.entries)}
+    values, units = dict(base), []
+    wall = bool(kind.shape[0])
+    for k, name in enumerate(wrt):
+        moved = kind.held if name in _ONE_VARIABLE else name
+        zero = base[moved] == 0
+        unit = zero * _scale_of_zero(moved, base) + (1 - zero) * base[moved]
+        values[moved] += theta[k] * unit
+        units.append(_impact(base, wall)[name] if name in _ONE_VARIABLE else unit)
+    known_values = vocabulary(values, wall)
+    numbers: dict[str, Any] = {"elastic_gap": SX(0)}
+    numbers |= {name: known_values[name] for name in groups if name in known_values}
+    for name, (formula, arguments) in kind.formulas.items():
+        if all(argument in known_values for argument in arguments) and (name != "elastic_gap" or kind.elastic):
+            numbers[name] = formula(*(known_values[argument] for argument in arguments))
+    speed, length = known_values["speed"], known_values["film_thickness"]
+    scales = [length, length / speed, numbers["initial_rate"], known_values["reduced_mass"] * speed**2]
+    column = densify(vertcat(*(SX(numbers[name]) for name in groups), *scales))
+
+    def function(name: str, inputs: list[SX], *outputs: SX) -> Function:
+        here = substitute(list(outputs), [theta], [SX.zeros(len(wrt))])
+        return Function(name, [reference, *inputs], [densify(each) for each in here])
+
+    weights = SX.sym("weights", column.numel())
+    weighted = (weights.T @ column)[0]
+    return Way(
+        function("values", [], column),
+        function("slopes", [], jacobian(column, theta), vertcat(*units)),
+        function("bends", [weights], hessian(weighted, theta)[0]),
+    )
+
+
+def _impact(base: Mapping[str, SX], wall: bool) -> dict[str, SX]:
+    """Speed and Stokes number of the reference."""
+    of = vocabulary(base, wall)
+    stokes = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], of["speed"])
+    return {"impact.speed": of["speed"], "impact.stokes": stokes}

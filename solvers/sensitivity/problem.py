@@ -1,0 +1,186 @@
+"""A collision and the parameters to differentiate in: located, held against the boundaries, differentiated in theta."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..errors import ComputationError
+from ..integrators import IntegrationFailed, tolerance
+from ..locate import Locate, Path
+from ..model import choose, load
+from ..numbers import Numbers, numbers
+from ..scene import Scene
+from . import nearness
+from .derivatives import LANDED_WELL, settled
+from .directions import bent, differentiated, landed
+from .flight import course_of, flight, influential
+from .parameters import SCALES, Kind, Way, kind_of, references, way
+from .quantities import QUANTITIES
+from .result import Near
+
+_LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
+_NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
+_SHARPEST = 1e-13
+_ASIDE = 1e-5  # rad
+_SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some flights
+
+Along = np.ndarray | Literal["all"] | None
+"""Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Derivatives of quantities in theta, SI: y (q,), dy/dtheta (q, n), along directions d2y (q, n, m) if asked for."""
+
+    value: np.ndarray
+    first: np.ndarray
+    second: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A collision, the parameters to differentiate in, and the reference that theta is measured from."""
+
+    scene: Scene
+    n: Numbers
+    wrt: tuple[str, ...]
+    kind: Kind
+    reference: np.ndarray
+
+    @classmethod
+    def of(cls, scene: Scene, speed: float, angle: float, wrt: tuple[str, ...], hold: str) -> Problem:
+        """The problem of a scene's collision at a normal speed (m/s) and angle (rad)."""
+        kind = kind_of(scene, hold)
+        return cls(scene, numbers(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
+
+    def located(self, of: tuple[str, ...], rtol: float) -> tuple[Path, Near | None]:
+        """The flight and the nearest boundary that it shows; ComputationError if that is too near."""
+        finder = Locate(load(choose(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
+        try:
+            path = finder.run()
+        except ComputationError as error:
+            raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
+        near = nearness.checked(self.scene, self.n, finder, path, rtol)
+        if not self.n.oblique and path.separated and self.odd(of) and self.scene.pendulum is None:
+            path = Locate(load(choose(self.scene, True)), self.n.groups, _LOCATED).run()
+        return path, near
+
+    def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
+        """What is asked for and begins to depend on the angle at zero."""
+        return tuple(name for name in of if QUANTITIES[name].odd) if "impact.angle" in self.wrt else ()
+
+    def beside(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
+        """Derivatives in the angle of quantities that are odd in it, just beside head-on.
+
+        With strings, whose equations are divided by the impact's rotation. The error is of the square of the angle.
+        """
+        aside = Problem.of(self.scene, self.n.speed, _ASIDE, ("impact.angle",), self.kind.hold)
+        path = Locate(load(choose(self.scene, True)), aside.n.groups, _LOCATED).run()
+        slopes = aside.slopes(path, of, method, plugin, rtol)
+        return dict(zip(of, (slopes.first[:, 0] / aside.units()[0]).tolist(), strict=True))
+
+    def defined(self, name: str, path: Path) -> bool:
+        """Whether physics defines a quantity for the collision, as something that varies."""
+        if name == "tangential_restitution" and not self.n.oblique:
+            return False
+        return path.separated or name == "energy.initial"
+
+    def slopes(
+        self,
+        path: Path,
+        of: tuple[str, ...],
+        method: str,
+        plugin: str,
+        rtol: float,
+        along: Along = None,
+        near: Near | None = None,
+    ) -> Slopes:
+        """Derivatives of the quantities of a located flight.
+
+        Raises:
+            ComputationError: the engine could not fly or differentiate it.
+        """
+        full = "energy.tangential_lubrication" in of
+        course = course_of(path, choose(self.scene, path.model.oblique, full=full))
+        if plugin == "cvodes":
+            rtol = max(rtol, _SHARPEST_CVODES)
+        elif near is not None and _amplifies(near):
+            rtol = min(rtol, max(rtol * near.distance / _NEAR, _SHARPEST))
+        whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
+        via = way(self.kind, self.wrt, whole.groups)
+        size = len(whole.groups)
+        p, scales = np.split(via.values(self.reference).full().ravel(), [size])
+        slopes = np.asarray(via.slopes(self.reference)[0].full())
+        active = influential(course, self.n.groups)
+        dp, ds = slopes[:size] * np.array(active)[:, None], slopes[size:]
+        durations = np.array([step.duration for step in path.steps])
+        second = None
+        try:
+            # the bends of the groups take the derivative in every group, not along the parameters only
+            how = method if along is None else "adjoint"
+            durations, z, dz = differentiated(whole, course, p, durations, dp, active, how, _amplifies(near))
+            if along is not None:
+                right = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
+                durations = settled(whole, p, durations, landed(course), LANDED_WELL)
+                second = bent(whole, p, durations, dp, dp @ right, active)
+        except IntegrationFailed as failure:
+            raise ComputationError(
+                f"{plugin} could not differentiate the flight ({failure})",
+                phase=str(path.steps[-1].phase),
+                advice="try another --rtol, or the other --engine",
+            ) from None
+        units = _Units(of, scales, ds)
+        first = dz @ dp
+        if second is not None:
+            second = units.second(via, self.reference, z, dz * np.array(active), first, second, right)
+        return Slopes(z * units.scale, first * units.scale[:, None] + z[:, None] * units.slope, second)
+
+    def units(self) -> np.ndarray:
+        """dp/dtheta of the parameters."""
+        return np.asarray(way(self.kind, self.wrt, ()).slopes(self.reference)[1].full()).ravel()
+
+    def value_of(self, name: str) -> float:
+        """A parameter's own value, SI."""
+        if name == "impact.speed":
+            return self.n.speed
+        if name == "impact.stokes":
+            return self.n.stokes
+        return float(self.reference[self.kind.entries.index(name)])
+
+
+def _amplifies(near: Near | None) -> bool:
+    return near is not None and near.distance < _NEAR
+
+
+class _Units:
+    """SI scales of quantities, which depend on the parameters as well."""
+
+    def __init__(self, of: tuple[str, ...], scales: np.ndarray, slopes: np.ndarray) -> None:
+        self.where = [SCALES.index(scale) if (scale := QUANTITIES[name].scale) else None for name in of]
+        self.scale = np.array([1.0 if k is None else scales[k] for k in self.where])
+        none = np.zeros(slopes.shape[1])
+        self.slope = np.array([none if k is None else slopes[k] for k in self.where])
+
+    def second(
+        self,
+        via: Way,
+        reference: np.ndarray,
+        z: np.ndarray,
+        dz: np.ndarray,
+        first: np.ndarray,
+        second: np.ndarray,
+        right: np.ndarray,
+    ) -> np.ndarray:
+        """Second derivatives in theta: of the flight in its groups, and of the groups and scales themselves."""
+        found = []
+        for k in range(z.size):
+            weights = np.concatenate([dz[k] * self.scale[k], np.zeros(len(SCALES))])
+            if (at := self.where[k]) is not None:
+                weights[dz.shape[1] + at] = z[k]
+            crossed = np.outer(first[k], self.slope[k])
+            ways = np.asarray(via.bends(reference, weights).full())
+            found.append(second[k] * self.scale[k] + (crossed + crossed.T + ways) @ right)
+        return np.array(found)

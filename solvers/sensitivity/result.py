@@ -1,0 +1,161 @@
+"""Sensitivities of one collision: immutable, labelled, prints well, converts to the JSON object and to a Dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .quantities import QUANTITIES
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..scene import Scene
+
+Row = Mapping[str, float | None]
+_SHOWN = 5  # quantities side by side
+
+
+@dataclass(frozen=True)
+class Near:
+    """The nearest boundary known, and how far the collision is from it, as a part of `of`."""
+
+    boundary: str
+    distance: float
+    of: str
+
+    def __str__(self) -> str:
+        return f"{self.boundary} at a relative distance of {self.distance:.2g} in {self.of}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sensitivities:
+    """Derivatives of a collision's results; SI and radians, None where there is nothing to differentiate.
+
+    Attributes:
+        value: each quantity's value.
+        gradient: quantity -> parameter -> dy/dp, all others held.
+        elasticity: quantity -> parameter -> d ln y/d ln p; None where y or p is zero.
+        hessian: quantity -> parameter -> parameter -> d2y/dp dq, if asked for.
+        hessian_times: quantity -> parameter -> the Hessian times the vector that was asked for.
+        outcome: the collision's.
+        reference: each parameter's own value.
+        near: the nearest boundary that the flight itself shows, None if it shows none.
+    """
+
+    value: Mapping[str, float | None]
+    gradient: Mapping[str, Row]
+    elasticity: Mapping[str, Row]
+    reference: Mapping[str, float]
+    outcome: str
+    method: str
+    engine: str
+    hold: str
+    near: Near | None = None
+    hessian: Mapping[str, Mapping[str, Row]] | None = None
+    hessian_times: Mapping[str, Row] | None = None
+    scene: Scene = field(repr=False, compare=False)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        return tuple(self.reference)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet sensitivity --json`."""
+        found: dict[str, Any] = {
+            "value": dict(self.value),
+            "gradient": {name: dict(row) for name, row in self.gradient.items()},
+            "elasticity": {name: dict(row) for name, row in self.elasticity.items()},
+        }
+        if self.hessian is not None:
+            found["hessian"] = {
+                name: {one: dict(row) for one, row in rows.items()} for name, rows in self.hessian.items()
+            }
+        if self.hessian_times is not None:
+            found["hessian_times"] = {name: dict(row) for name, row in self.hessian_times.items()}
+        near = self.near and {"boundary": self.near.boundary, "distance": self.near.distance, "of": self.near.of}
+        return found | {
+            "outcome": self.outcome,
+            "method": self.method,
+            "engine": self.engine,
+            "hold": self.hold,
+            "nearest": near,
+        }
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Value, gradient and elasticity over `quantity` and `parameter`; NaN where there is None. Imports xarray."""
+        import numpy as np
+        import xarray as xr
+
+        def array(rows: Mapping[str, Row]) -> np.ndarray:
+            return np.array([[np.nan if v is None else v for v in row.values()] for row in rows.values()], dtype=float)
+
+        value = np.array([np.nan if v is None else v for v in self.value.values()], dtype=float)
+        variables: dict[str, Any] = {
+            "value": ("quantity", value),
+            "gradient": (("quantity", "parameter"), array(self.gradient)),
+            "elasticity": (("quantity", "parameter"), array(self.elasticity)),
+        }
+        if self.hessian is not None:
+            bent = np.stack([array(rows) for rows in self.hessian.values()])
+            variables["hessian"] = (("quantity", "parameter", "with_respect_to"), bent)
+        coordinates: dict[str, Any] = {
+            "quantity": list(self.value),
+            "parameter": list(self.parameters),
+            "units": ("quantity", [QUANTITIES[name].unit for name in self.value]),
+            "reference": ("parameter", list(self.reference.values())),
+        }
+        if self.hessian is not None:
+            coordinates["with_respect_to"] = list(self.parameters)
+        attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
+        return xr.Dataset(variables, coordinates, attributes)
+
+    def __str__(self) -> str:
+        names = list(self.value)
+        blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
+        held = {"speed": "the impact's speed", "stokes": "the Stokes number"}[self.hold]
+        notes = [f"{self.outcome}; {self.method} derivatives by {self.engine}; {held} held"]
+        notes += [f"nearest: {self.near}"] if self.near else []
+        return "\n\n".join([*blocks, "\n".join(notes)])
+
+    def _block(self, names: list[str]) -> str:
+        largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
+        order = sorted(self.parameters, key=lambda p: -largest[p])
+        head = ["", *names]
+        units = ["value", *(_number(self.value[y], QUANTITIES[y].unit) for y in names)]
+        rows = [[p, *(self._cell(y, p) for y in names)] for p in order]
+        widths = [max(len(row[k]) for row in (head, units, *rows)) for k in range(len(head))]
+
+        def line(cells: list[str]) -> str:
+            padded = [cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(cells, widths))]
+            return "  ".join(padded).rstrip()
+
+        title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
+        return "\n".join([line(head), line(units), "", title, *(line(row) for row in rows)])
+
+    def _cell(self, y: str, p: str) -> str:
+        elasticity, gradient = self.elasticity[y][p], self.gradient[y][p]
+        if elasticity is not None:
+            return f"{elasticity:.5g}"
+        return "-" if gradient is None else f"* {gradient:.4g}"
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """A tornado chart of the elasticities; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        from .tornado import draw
+
+        figure = draw(self)
+        if path is not None:
+            figure.savefig(path, dpi=150)
+        return figure
+
+
+def _number(value: float | None, unit: str) -> str:
+    if value is None:
+        return "-"
+    return f"{value:.6g}" + ("" if unit == "1" else f" {unit}")

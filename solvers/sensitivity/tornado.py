@@ -1,0 +1,90 @@
+"""A tornado chart: elasticities as bars, the strongest on top."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from .quantities import QUANTITIES
+
+if TYPE_CHECKING:
+    from .result import Sensitivities
+
+_UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
+_MOST = 16  # bars a panel
+_LONG = 6  # columns of panels at most
+
+
+def draw(found: Sensitivities) -> Any:
+    """A panel a quantity, a bar a parameter; those without influence or without elasticity are named below.
+
+    Returns:
+        The matplotlib Figure.
+    """
+    from matplotlib.figure import Figure
+
+    shown = [name for name in found.value if any(found.elasticity[name].values())]
+    panels = shown[:_LONG] or list(found.value)[:1]
+    order = _ranked(found, panels)
+    rows = max(len(order), 1)
+    figure = Figure(figsize=(2.3 + 3.1 * len(panels), 1.5 + 0.3 * rows), layout="constrained")
+    axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+    for axis, name in zip(axes, panels):
+        _panel(axis, found, name, order)
+    left_out = [name for name in found.parameters if name not in order]
+    notes = [f"{found.outcome}, e_n = {found.value['restitution']:.4g}" if _has_value(found) else found.outcome]
+    notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
+    figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", fontsize=11, color=_INK)
+    figure.supxlabel(_wrapped("; ".join(notes), 34 * len(panels) + 30), fontsize=7.5, color="#555555")
+    return figure
+
+
+def _has_value(found: Sensitivities) -> bool:
+    return found.value.get("restitution") is not None
+
+
+def _ranked(found: Sensitivities, names: Sequence[str]) -> list[str]:
+    """Parameters with influence, strongest last (bars are drawn from below); speed and Stokes number once."""
+    strength = {
+        p: max((abs(found.elasticity[y][p] or 0.0) for y in names), default=0.0)
+        for p in found.parameters
+        if not (p == "impact.stokes" and "impact.speed" in found.parameters)
+    }
+    ranked = sorted((p for p, value in strength.items() if value > 0), key=lambda p: strength[p])
+    return ranked[-_MOST:]
+
+
+def _panel(axis: Any, found: Sensitivities, name: str, order: Sequence[str]) -> None:
+    values = [found.elasticity[name][p] or 0.0 for p in order]
+    bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
+    axis.set_yticks(range(len(order)), [_label(p) for p in order], fontsize=8.5)
+    axis.axvline(0, color=_INK, linewidth=0.8)
+    reach = max((abs(v) for v in values), default=1.0) or 1.0
+    axis.set_xlim(-1.45 * reach, 1.45 * reach)
+    for bar, value in zip(bars, values):
+        text = f"{value:.2g}" if abs(value) >= 0.01 else f"{value:.0e}"
+        side = 1 if value >= 0 else -1
+        axis.annotate(
+            text, (value, bar.get_y() + bar.get_height() / 2), (3 * side, 0), textcoords="offset points",
+            ha="left" if side > 0 else "right", va="center", fontsize=7.5, color=_INK,
+        )  # fmt: skip
+    unit = QUANTITIES[name].unit
+    value_ = found.value[name]
+    axis.set_title(f"{name.replace('_', ' ')}\n{value_:.4g}{'' if unit == '1' else ' ' + unit}", fontsize=9, color=_INK)
+    axis.tick_params(axis="x", labelsize=8)
+    axis.spines[["top", "right", "left"]].set_visible(False)
+    axis.tick_params(axis="y", length=0)
+
+
+def _label(name: str) -> str:
+    return "impact speed, Stokes" if name == "impact.speed" else name.partition(".")[2].replace("_", " ")
+
+
+def _short(names: Sequence[str]) -> list[str]:
+    return [name.partition(".")[2].replace("_", " ") for name in names if name != "impact.stokes"]
+
+
+def _wrapped(text: str, width: int) -> str:
+    from textwrap import fill
+
+    return fill(text, width)

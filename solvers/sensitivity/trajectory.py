@@ -1,0 +1,204 @@
+"""How a flight as a function of time moves with the parameters: dy(t)/dp on a grid, as a Dataset.
+
+At a fixed time: where an event moves, a quantity that jumps at it has no derivative there; just before and just after
+it the derivatives differ by the saltation. What an event's own time does is in `d_event_time`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
+
+from ..buffered import LOCK
+from ..errors import ComputationError, InputError
+from ..integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
+from ..locate import Path
+from ..model import choose
+from ..phases import Flow, expressions
+from ..scene import Scene
+from ..settings import check_engine, check_rtol
+from .derivatives import evaluate, settled
+from .directions import landed, spanning
+from .flight import Course, course_of, ending, flown, influential, symbols
+from .parameters import check_hold, check_wrt, way
+from .problem import Problem
+
+if TYPE_CHECKING:
+    import xarray
+
+POINTS = 64  # a phase, crowded at its ends
+_PART = np.linspace(0, 1, POINTS + 1)
+_GRID = tuple(float(part) for part in (_PART**3 * (10 - 15 * _PART + 6 * _PART**2))[1:])
+_TIME, _RATE = 1, 2  # places of the scales
+_VARIABLES = {
+    "gap": ("m", "gap between the surfaces"),
+    "opening_velocity": ("m/s", "opening velocity, negative on approach"),
+    "rotation_rate": ("rad/s", "angular velocity of the line of centres"),
+    "spin": ("rad/s", "angular velocity of each sphere about its own centre"),
+    "rotation": ("rad", "angle turned by the line of centres"),
+}
+
+
+def trajectory_sensitivities(
+    scene: Scene | str | FilePath,
+    wrt: Sequence[str] | str | None = None,
+    *,
+    stokes: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    rtol: float = 1e-9,
+    engine: str | None = None,
+    hold: str = "speed",
+) -> xarray.Dataset:
+    """The flight over time and its derivatives in the parameters, at fixed time, with the jumps at the events.
+
+    Arguments:
+        scene, stokes, speed, angle, rtol, engine, hold: as for `sensitivities`.
+        wrt: parameters by dotted name; None: all.
+
+    Returns:
+        Dataset over `time` (s; 65 points a phase, an event's time twice: before and after it) and `parameter`:
+        gap, opening_velocity, rotation_rate, spin, rotation (SI), each with a `d_NAME` of the same unit per the
+        parameter's (`time`, `parameter`), and `event_time`, `d_event_time` over `event`.
+
+    Raises:
+        InputError: a name or option is not acceptable.
+        ComputationError: as for `sensitivities`. Of a stick: the flight up to where it is decided, if it flies at all.
+    """
+    import xarray as xr
+
+    rtol, plugin, hold = check_rtol(rtol), check_engine(engine) or "rosenbrock", check_hold(hold)
+    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    names = check_wrt(loaded, wrt)
+    with LOCK:
+        problem = Problem.of(loaded, *loaded.need_impact(), names, hold)
+        path, _ = problem.located(("rotation",), rtol)
+        in_line = not problem.n.oblique and "impact.angle" in names
+        if in_line and (not path.separated or loaded.pendulum is not None):
+            accepted = "parameters other than impact.angle"
+            raise InputError("wrt", "impact.angle", accepted, "moves a head-on collision out of its line")
+        pieces, events = _pieces(problem, path, plugin, rtol)
+    if not pieces:
+        raise ComputationError("no trajectory: the outcome is decided at first touch", advice="try another impact")
+    units = problem.units()
+    data: dict[str, Any] = {}
+    for k, (name, (unit, what)) in enumerate(_VARIABLES.items()):
+        value = np.concatenate([piece[1][k] for piece in pieces])
+        slope = np.concatenate([piece[2][k] for piece in pieces]) / units
+        data[name] = ("time", value, {"units": unit, "long_name": what})
+        data[f"d_{name}"] = (("time", "parameter"), slope, {"long_name": f"derivative of the {what}, at fixed time"})
+    data["event_time"] = ("event", np.array([time for _, time, _ in events]), {"units": "s"})
+    moves = np.array([move for *_, move in events]).reshape(len(events), len(names)) / units
+    data["d_event_time"] = (("event", "parameter"), moves)
+    coordinates = {
+        "time": ("time", np.concatenate([piece[0] for piece in pieces]), {"units": "s"}),
+        "phase": ("time", np.concatenate([np.full(piece[0].size, piece[3]) for piece in pieces])),
+        "parameter": list(names),
+        "event": [name for name, *_ in events],
+    }
+    return xr.Dataset(data, coordinates, {"outcome": path.outcome, "engine": plugin, "hold": hold, "rtol": rtol})
+
+
+Piece = tuple[np.ndarray, np.ndarray, np.ndarray, str]
+"""Times (n,), the five variables (5, n), their derivatives in theta (5, n, parameters), the phase's name."""
+
+
+def _pieces(
+    problem: Problem, path: Path, plugin: str, rtol: float
+) -> tuple[list[Piece], list[tuple[str, float, np.ndarray]]]:
+    """The flown phases one by one, and the events with their times and what these do."""
+    told = tolerance(rtol, plugin, problem.n.groups)
+    whole = course_of(path, choose(problem.scene, path.model.oblique, full=True))
+    groups = tuple(whole.model.groups)
+    via = way(problem.kind, problem.wrt, groups)
+    p, scales = np.split(via.values(problem.reference).full().ravel(), [len(groups)])
+    slopes = np.asarray(via.slopes(problem.reference)[0].full())
+    active = influential(whole, problem.n.groups)
+    dp, ds = slopes[: p.size] * np.array(active)[:, None], slopes[p.size :]
+    seeds = spanning(p, dp, active)
+    if not seeds.shape[1]:
+        seeds = np.zeros((p.size, 1))
+    back = np.linalg.pinv(seeds) @ dp
+    durations = np.array([step.duration for step in path.steps])
+    pieces: list[Piece] = []
+    events: list[tuple[str, float, np.ndarray]] = []
+    before, d_before = 0.0, np.zeros(dp.shape[1])
+    try:
+        durations = settled(ending(whole, plugin, told), p, durations, landed(whole), 1e-9)
+        for k, step in enumerate(path.steps):
+            if step.duration > 0:
+                part = replace(whole, legs=whole.legs[: k + 1])
+                leg = _leg(part, seeds.shape[1], plugin, told)
+                y, rates, tangents, clock, d_clock = evaluate(leg, p, durations[: k + 1], seeds)
+                time = before + durations[k] * np.array([0.0, *_GRID])
+                # at a fixed time in seconds, not at one in x0/v0 since the last event
+                delay = d_before + time[:, None] * ds[_TIME] / scales[_TIME]
+                moved = (tangents @ back).reshape(5, time.size, -1) - rates[:, :, None] * delay
+                units = _units(scales, ds)
+                value = y * units[0][:, None]
+                slope = moved * units[0][:, None, None] + y[:, :, None] * units[1][:, None, :]
+                pieces.append((time * scales[_TIME], value, slope, str(step.phase)))
+                before, d_before = float(clock.item()), (d_clock @ back).ravel()
+            happens = before * ds[_TIME] + d_before * scales[_TIME]
+            events += [(kind, before * scales[_TIME], happens) for kind in step.kinds]
+    except IntegrationFailed as failure:
+        raise ComputationError(f"{plugin} could not differentiate the flight ({failure})") from None
+    return pieces, events
+
+
+def _units(scales: np.ndarray, ds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """SI scales of the five variables, and their derivatives in theta: length, speed, rate, rate, none."""
+    length, time, rate, _ = scales
+    speed = length / time
+    d_speed = speed * (ds[0] / length - ds[_TIME] / time)
+    none = np.zeros(ds.shape[1])
+    return np.array([length, speed, rate, rate, 1.0]), np.array([ds[0], d_speed, ds[_RATE], ds[_RATE], none])
+
+
+@lru_cache(maxsize=64)
+def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
+    """(groups, durations, directions) -> the five variables over a course's last leg, their rates, the derivatives of
+    the former along the directions (at a fixed time since the leg began), its end's time, and that one's.
+    """
+    model = course.model
+    extras = ("rotation",) if model.oblique and not model.strings else ()
+    p, durations = symbols(course)
+    seeds = MX.sym("seeds", p.numel(), count)
+    last = course.legs[-1]
+    start = flown(replace(course, legs=course.legs[:-1]), p, durations[:-1], extras, plugin, told).y
+    end = flown(course, p, durations, extras, plugin, told)
+    flow = Flow(course.choice, last.phase.region, extras)
+    with quiet():
+        engine = plain(flow, plugin, told, _GRID).function
+        inside = engine(x0=start, p=vertcat(p, durations[-1]))["xf"]
+        shown = _shown(flow, told.offset)
+        columns = [start, *(inside[:, k] for k in range(POINTS))]
+        y, rates = (horzcat(*each) for each in zip(*(shown(column, p) for column in columns)))
+        # rows of `vec(y.T)`: variable by variable
+        tangents = densify(jtimes(vec(y.T), p, seeds))
+        return Function(
+            "leg", [p, durations, seeds], [y, rates, tangents, end.time, densify(jtimes(end.time, p, seeds))]
+        )
+
+
+@lru_cache(maxsize=64)
+def _shown(flow: Flow, offset: float) -> Function:
+    """(state with extras, groups) -> gap, opening velocity, rotation rate, spin, rotation; and their rates."""
+    model, parts = flow.model, expressions(flow)
+    outputs: dict[str, Any] = model("outputs") if model.oblique else {}
+    turned = parts.extras["rotation"] - offset if "rotation" in parts.extras else model.state.get("rotation", SX(0))
+    column = vertcat(
+        model.state["gap"],
+        model.state["opening"],
+        outputs.get("final_rotation_rate", SX(0)),
+        outputs.get("final_spin", SX(0)),
+        turned,
+    )
+    rates = jtimes(column, parts.variables, parts.rates)
+    return Function("shown", [parts.variables, model.parameters], [densify(column), densify(rates)])

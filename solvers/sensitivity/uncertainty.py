@@ -1,0 +1,234 @@
+"""What uncertain inputs make of a result: standard deviations to first order, and by quasi-random sampling beside."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import ComputationError, InputError
+from ..many import collide_many
+from ..requests import QUANTITIES as MANY
+from ..scene import Scene
+from ..schema import FIELDS
+from .gradients import sensitivities
+from .parameters import check_wrt
+from .result import Sensitivities
+
+if TYPE_CHECKING:
+    import xarray
+
+_LEVELS = (0.025, 0.975)
+_OVER = ("impact.stokes", "impact.speed", "impact.angle")
+
+
+def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncertainty") -> dict[str, float]:
+    """Standard deviations of parameters, SI: `"5 %"` is a part of the value, text with a unit and numbers are absolute.
+
+    Raises:
+        InputError: a name that the scene has not, or a value that is no uncertainty.
+    """
+    check_wrt(scene, tuple(uncertainty), label)
+    found = {}
+    for name, given in uncertainty.items():
+        accepted = f'{name} = "5 %", or a standard deviation with its unit'
+        if isinstance(given, str) and given.strip().endswith("%"):
+            try:
+                value = float(given.strip()[:-1]) / 100 * _value(scene, name)
+            except ValueError:
+                raise InputError(label, given, accepted, "is no percentage") from None
+        else:
+            value = FIELDS[name].number(given, label=f"{label} of {name}")
+        if not 0 < value < np.inf:
+            raise InputError(label, given, accepted, f"is no standard deviation of {name}")
+        found[name] = value
+    return found
+
+
+def _value(scene: Scene, name: str) -> float:
+    if name in ("impact.stokes", "impact.speed"):
+        return float((scene.stokes if name == "impact.stokes" else scene.speed) or 0.0)
+    return float(scene.entries[name])
+
+
+def first_order(found: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:
+    """Standard deviation of each result if the parameters vary independently: sqrt(sum (dy/dp sigma_p)^2)."""
+    return {
+        name: None if found.value[name] is None else float(np.sqrt(sum(
+            (float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items()
+        )))
+        for name, row in found.gradient.items()
+    }  # fmt: skip
+
+
+def spoken(found: Sensitivities, spread: Mapping[str, float | None]) -> str:
+    """The standard deviations in a line each."""
+    known = {name: value for name, value in found.value.items() if value is not None and spread[name] is not None}
+    return "\n".join(f"{name} = {value:.6g} ± {spread[name]:.2g} (first order)" for name, value in known.items())
+
+
+def band(
+    scene: Scene | str | FilePath,
+    uncertainty: Mapping[str, Any],
+    over: str,
+    values: Sequence[float],
+    *,
+    of: str = "restitution",
+    samples: int = 64,
+    rtol: float = 1e-8,
+) -> xarray.Dataset:
+    """A result over the Stokes number, speed or angle, and how uncertain it is.
+
+    Arguments:
+        scene: a Scene with an impact, a path or a preset's name.
+        uncertainty: standard deviations by dotted name, as `deviations` takes them.
+        over: "impact.stokes", "impact.speed" or "impact.angle".
+        values: where, SI and radians. The speed of each is held while other parameters vary.
+        of: restitution, tangential_restitution, rotation, contact_time or smallest_gap.
+        samples: scrambled Sobol points each (a power of two), normal distributions cut off where a value cannot be.
+
+    Returns:
+        Dataset over `over`: the result, `first_order` (its standard deviation; NaN where no derivative exists, with the
+        `reason`), `outcome`, `low` and `high` (2.5 and 97.5 % of the samples) and `sampled` (their standard deviation).
+
+    Raises:
+        InputError: a name or value that cannot be.
+        ComputationError: scipy is not installed.
+    """
+    import xarray as xr
+
+    if over not in _OVER:
+        raise InputError("over", over, ", ".join(_OVER), "is not known")
+    if of not in MANY:
+        raise InputError("of", of, ", ".join(MANY), "is not known")
+    loaded = Scene.load(scene)
+    at = [loaded.with_impact(**{over.partition(".")[2]: float(value)}) for value in values]
+    impacts = [one.need_impact() for one in at]
+    sigma = deviations(at[0], uncertainty)
+    relative = {name: str(given).strip().endswith("%") for name, given in uncertainty.items()}
+    middle, first, reasons, outcomes = [], [], [], []
+    for one, (speed, _) in zip(at, impacts, strict=True):
+        held = one.with_impact(speed=speed)
+        here = deviations(held, uncertainty) if any(relative.values()) else sigma
+        try:
+            found = sensitivities(held, [of], tuple(here), method="adjoint", rtol=rtol)
+        except ComputationError as error:
+            middle.append(np.nan)
+            first.append(np.nan)
+            reasons.append(str(error))
+            outcomes.append("")
+            continue
+        value, spread = found.value[of], first_order(found, here)[of]
+        middle.append(np.nan if value is None else value)
+        first.append(np.nan if spread is None else spread)
+        reasons.append("")
+        outcomes.append(found.outcome)
+    drawn = _sampled(at, impacts, uncertainty, of, samples, rtol)
+    low, high = np.nanquantile(drawn, _LEVELS, axis=1)
+    unit = FIELDS[over].unit or "1"
+    return xr.Dataset(
+        {
+            of: (over, np.array(middle), {"units": MANY[of][0], "long_name": MANY[of][1]}),
+            "first_order": (over, np.array(first)),
+            "low": (over, low),
+            "high": (over, high),
+            "sampled": (over, np.nanstd(drawn, axis=1)),
+            "reason": (over, np.array(reasons)),
+            "outcome": (over, np.array(outcomes)),
+        },
+        {over: (over, np.array([float(value) for value in values]), {"units": unit})},
+        {"uncertainty": ", ".join(f"{name}: {given}" for name, given in uncertainty.items()), "samples": samples},
+    )
+
+
+def _sampled(
+    at: Sequence[Scene],
+    impacts: Sequence[tuple[float, float]],
+    uncertainty: Mapping[str, Any],
+    of: str,
+    samples: int,
+    rtol: float,
+) -> np.ndarray:
+    """The result of every sample (values, samples); a stick has restitution 0, other results of it are NaN."""
+    normal = _normal(samples, len(uncertainty))
+    columns: dict[str, list[np.ndarray]] = {name: [] for name in uncertainty}
+    speeds, angles = [], []
+    for one, (speed, angle) in zip(at, impacts, strict=True):
+        held = one.with_impact(speed=speed)
+        varied = {
+            name: _possible(name, _value(held, name), sigma * normal[:, k])
+            for k, (name, sigma) in enumerate(deviations(held, uncertainty).items())
+        }
+        for name, column in varied.items():
+            columns[name].append(column)
+        moved = varied.get("impact.speed", np.full(samples, speed))
+        if "impact.stokes" in varied:
+            moved = np.array([held.speed_of(float(stokes)) for stokes in varied["impact.stokes"]])
+        speeds.append(moved)
+        angles.append(varied.get("impact.angle", np.full(samples, angle)))
+    vary = {name: np.concatenate(parts) for name, parts in columns.items() if not name.startswith("impact.")}
+    names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
+    speeds_, angles_ = np.concatenate(speeds), np.concatenate(angles)
+    found = collide_many(at[0], speed=speeds_, angle=angles_, vary=vary, rtol=rtol, of=names)
+    return np.asarray(found[of].values, dtype=float).reshape(len(at), samples)
+
+
+def _normal(samples: int, count: int) -> np.ndarray:
+    """Standard normal deviates of a scrambled Sobol sequence, the same every time."""
+    try:
+        from scipy.stats import norm, qmc
+    except ImportError:
+        raise ComputationError("sampling needs scipy", advice="pip install 'wetdoublet[global]'") from None
+    if samples < 2 or samples & (samples - 1):
+        raise InputError("samples", samples, "a power of two", "does not fill a Sobol sequence")
+    return np.asarray(norm.ppf(qmc.Sobol(count, seed=0).random(samples)))
+
+
+def _possible(name: str, value: float, deviation: np.ndarray) -> np.ndarray:
+    """The value and its deviations, these halved until the schema takes them."""
+    holds = FIELDS[name].range.holds
+    moved = np.array(deviation)
+    for _ in range(60):
+        bad = np.array([not holds(float(value + each)) for each in moved])
+        if not bad.any():
+            break
+        moved[bad] /= 2
+    return value + moved
+
+
+def draw(found: xarray.Dataset) -> Any:
+    """The result with a shaded band of two standard deviations to first order, and the samples' 2.5 to 97.5 %.
+
+    Returns:
+        The matplotlib Figure.
+    """
+    from matplotlib.figure import Figure
+
+    over = str(next(iter(found.dims)))
+    of = next(name for name in MANY if name in found)
+    x = np.degrees(found[over].values) if over == "impact.angle" else found[over].values
+    y, spread = found[of].values, 2 * found.first_order.values
+    figure = Figure(figsize=(6.6, 4.2), layout="constrained")
+    axis = figure.subplots()
+    outcomes = found.outcome.values
+    starts = [0, *(k for k in range(1, x.size) if outcomes[k] != outcomes[k - 1]), x.size]
+    for k, (start, stop) in enumerate(pairwise(starts)):  # what jumps is not joined
+        part = slice(start, stop)
+        label, shade = ("as given", "±2σ, first order") if k == 0 else (None, None)
+        axis.fill_between(
+            x[part], (y - spread)[part], (y + spread)[part], color="#2a6f97", alpha=0.25, linewidth=0, label=shade
+        )
+        axis.plot(x[part], y[part], color="#2a6f97", linewidth=1.6, label=label)
+    axis.plot(x, found.low.values, color="#c1554a", linewidth=0.9, linestyle="--",
+              label=f"2.5 and 97.5 % of {found.attrs['samples']} samples")  # fmt: skip
+    axis.plot(x, found.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
+    unit = found[of].attrs["units"]
+    axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
+    axis.set_xlabel({"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "St"))
+    axis.set_title(found.attrs["uncertainty"], fontsize=9)
+    axis.spines[["top", "right"]].set_visible(False)
+    axis.legend(frameon=False, fontsize=8)
+    return figure

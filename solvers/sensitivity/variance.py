@@ -1,0 +1,106 @@
+"""Global sensitivity: Sobol indices over ranges of the parameters, by SALib (an optional extra) on `collide_many`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import ComputationError, InputError
+from ..many import FAILED, collide_many
+from ..requests import QUANTITIES as MANY
+from ..scene import Scene
+from ..schema import FIELDS
+from .parameters import check_wrt
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def sobol_indices(
+    scene: Scene | str | FilePath,
+    ranges: Mapping[str, Sequence[float | str]],
+    *,
+    of: str = "restitution",
+    samples: int = 256,
+    rtol: float = 1e-6,
+    seed: int = 0,
+) -> xarray.Dataset:
+    """First-order and total Sobol indices of a result over a box of parameters, uniformly distributed.
+
+    Arguments:
+        scene: a Scene with an impact, a path or a preset's name.
+        ranges: dotted name -> (low, high), text with its unit or SI. The impact's own speed is held otherwise.
+        of: restitution, or another result of `collide_many` (which a stick leaves undefined: an error then).
+        samples: base samples, a power of two; samples (2 + parameters) collisions are computed.
+
+    Returns:
+        Dataset over `parameter`: `first`, `total`, and half widths of their 95 % intervals; `collisions` in the
+        attributes.
+
+    Raises:
+        InputError: a name or range that cannot be.
+        ComputationError: SALib is not installed, a collision failed, or the result is not defined over the whole box.
+    """
+    import xarray as xr
+
+    loaded = Scene.load(scene)
+    names = check_wrt(loaded, tuple(ranges), "ranges")
+    if of not in MANY:
+        raise InputError("of", of, ", ".join(MANY), "is not known")
+    if samples < 2 or samples & (samples - 1):
+        raise InputError("samples", samples, "a power of two", "does not fill a Sobol sequence")
+    bounds = [_bounds(name, ranges[name]) for name in names]
+    sample, analyze = _salib()
+    problem = {"num_vars": len(names), "names": list(names), "bounds": bounds}
+    points = sample(problem, samples, calc_second_order=False, seed=seed)
+    columns = dict(zip(names, np.asarray(points).T, strict=True))
+    speed, angle = loaded.need_impact()
+    impact: dict[str, Any] = {"speed": columns.pop("impact.speed", speed), "angle": columns.pop("impact.angle", angle)}
+    if "impact.stokes" in columns:
+        del impact["speed"]
+        impact["stokes"] = columns.pop("impact.stokes")
+    keep = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
+    found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep)
+    failed = int((found.outcome.values == FAILED).sum())
+    result = np.asarray(found[of].values, dtype=float)
+    if failed or not np.isfinite(result).all():
+        lost = f"{failed} failed" if failed else f"{of} of {int(np.isnan(result).sum())} sticks is not defined"
+        raise ComputationError(
+            f"no Sobol indices: of {result.size} collisions {lost}", advice="choose narrower ranges, or restitution"
+        )
+    if np.ptp(result) == 0:
+        raise ComputationError(f"no Sobol indices: {of} is the same over the whole box", advice="choose wider ranges")
+    indices = analyze(problem, result, calc_second_order=False, seed=seed)
+    return xr.Dataset(
+        {
+            "first": ("parameter", np.asarray(indices["S1"])),
+            "total": ("parameter", np.asarray(indices["ST"])),
+            "first_within": ("parameter", np.asarray(indices["S1_conf"])),
+            "total_within": ("parameter", np.asarray(indices["ST_conf"])),
+        },
+        {"parameter": list(names)},
+        {"of": of, "collisions": int(result.size), "samples": samples},
+    )
+
+
+def _bounds(name: str, given: Sequence[float | str]) -> list[float]:
+    accepted = f"(low, high) of {name} with low below high"
+    if isinstance(given, str) or len(given) != 2:
+        raise InputError("ranges", given, accepted, "is not a pair")
+    low, high = (FIELDS[name].number(value, label=f"ranges of {name}") for value in given)
+    if not low < high:
+        raise InputError("ranges", f"({given[0]}, {given[1]})", accepted, "is not ascending")
+    return [low, high]
+
+
+def _salib() -> tuple[Any, Any]:
+    """SALib's sampling and analysis."""
+    try:
+        from SALib.analyze.sobol import analyze
+        from SALib.sample.sobol import sample
+    except ImportError:
+        raise ComputationError("Sobol indices need SALib", advice="pip install 'wetdoublet[global]'") from None
+    return sample, analyze

@@ -1,0 +1,94 @@
+"""Twelve collisions through every kind of event, and derivatives by extrapolated differences of accurate values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.sensitivity.parameters import known
+
+GRANULATION, DRY, PENDULUM = (Scene.load(name) for name in ("granulation", "granulation-dry-bridge", "pendulum"))
+HARD = {"liquid.glass_transition_pressure": 1e13}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A collision: scene, what is changed in it, impact; and the events it is there for."""
+
+    name: str
+    base: Scene
+    stokes: float
+    angle: str
+    kinds: tuple[str, ...]
+    changes: dict[str, object] = field(default_factory=dict)
+
+    @property
+    def scene(self) -> Scene:
+        return self.base.with_entries(self.changes).with_impact(stokes=self.stokes, angle=self.angle)
+
+
+CASES = (
+    Case("glass", GRANULATION, 0.14, "40 deg", ("glass", "film edge", "rupture")),
+    Case("turned", GRANULATION, 0.03, "65 deg", ("turned", "film edge", "rupture")),
+    Case("more than it came with", GRANULATION, 0.02, "75 deg", ("turned", "film edge", "rupture")),
+    Case("head-on", GRANULATION, 0.125, "0 deg", ("glass", "film edge", "rupture")),
+    Case("elastic", GRANULATION, 3.0, "30 deg", ("elastic", "film edge", "rupture"), HARD),
+    Case(
+        "rough", GRANULATION, 3.0, "30 deg", ("rough", "film edge", "rupture"),
+        HARD | {"particles.roughness": "0.6 um", "particles.youngs_modulus": "7e4 GPa"}
+        | {"bridge.law": "lambert", "bridge.contact_angle": "20 deg"},
+    ),
+    Case("surface arm", GRANULATION, 0.045, "55 deg", ("turned", "film edge", "rupture"), {"model.arm": "surface"}),
+    Case("no bridge, turned", DRY, 0.05, "45 deg", ("turned", "rupture"), {"model.tangential": "film"}),
+    Case("no bridge, glass", DRY, 0.3, "45 deg", ("glass", "rupture"), {"model.glass": "film-corrected"}),
+    Case("strings", PENDULUM, 1.0, "60 deg", ("turned", "rupture")),
+    Case("strings, glass", PENDULUM, 1.55, "35 deg", ("glass", "rupture")),
+    Case("strings, small angles", PENDULUM, 1.2, "55 deg", ("turned", "rupture"), {"pendulum.law": "small-angle"}),
+)  # fmt: skip
+
+
+def varied(scene: Scene, name: str, value: float) -> Scene:
+    """The scene with one number changed and all others of the file as they are, at its own normal speed."""
+    if name.startswith("impact."):
+        return scene.with_impact(**{name.partition(".")[2]: value})
+    return scene.with_entries({name: value}).with_impact(speed=scene.speed)
+
+
+def differences(scene: Scene, of: tuple[str, ...], names: tuple[str, ...] | None = None, rtol: float = 1e-13,
+                step: float = 4e-3) -> dict[str, np.ndarray]:  # fmt: skip
+    """d(of)/d ln p for every parameter (dp where it is zero), by central differences with three steps, extrapolated.
+
+    Their error is of sixth order in the step, 1e-12 or so, and some 1e-13/step of rounding.
+    """
+    found = {}
+    for name in names or known(scene):
+        p = {"impact.stokes": scene.stokes, "impact.speed": scene.speed}.get(name) or float(scene.entries[name])
+
+        def value(part: float, name: str = name, p: float = p) -> np.ndarray:
+            changed = varied(scene, name, p * (1 + part) if p else part)
+            one = collide(changed, rtol=rtol, engine="rosenbrock", ledger=any("energy" in y for y in of))
+            return np.array([_read(one, y) for y in of])
+
+        low = {"bridge.contact_angle", "impact.angle"}
+        if p == 0 and name in low:  # nothing below zero: forward differences, from one step up
+            parts = step * np.arange(7)
+            found[name] = np.polyfit(parts / step, np.array([value(part) for part in parts]), 6)[-2] / step
+            continue
+        central = [(value(h) - value(-h)) / (2 * h) for h in (step, step / 2, step / 4)]
+        once = [(4 * fine - coarse) / 3 for coarse, fine in pairwise(central)]
+        found[name] = (16 * once[1] - once[0]) / 15
+    return found
+
+
+def _read(one: object, name: str) -> float:
+    for part in name.split("."):
+        one = getattr(one, part)
+    return float(one)  # type: ignore[arg-type]  # an attribute of the result
+
+
+def apart(one: dict[str, float | None], other: dict[str, float | None]) -> float:
+    """Largest difference of two rows of elasticities, over the largest elasticity."""
+    largest = max(abs(v) for v in other.values() if v is not None)
+    return max(abs(one[k] - v) for k, v in other.items() if v is not None) / largest  # type: ignore[operator]
