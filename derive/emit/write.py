@@ -13,10 +13,12 @@ from .assemble import ASSEMBLE
 from .modules import (
     _PROVENANCE,
     law_digest,
+    law_kernel,
     law_module,
     model_digest,
     scaling_digest,
     scaling_module,
+    structure_kernel,
     structure_module,
 )
 
@@ -41,10 +43,12 @@ def emitted() -> dict[str, str]:
     for slot, laws in LAWS.items():
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
+            files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     for structure in structures():
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
+        files[f"taylor/{structure.name}.h"] = structure_kernel(model)
         manifest["structures"][structure.name] = model_digest(model)
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return dict(sorted(files.items()))

@@ -1,0 +1,37 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 9b66da56ca31df20e0735dd2715e9031e78a2c8b43f45ddec99f1e1031fbb191 */
+
+/* film law `finite`: Reynolds film of finite thickness, the same on approach and rebound (no cavitation).
+ *
+ * Source: Kantak & Davis, Powder Technol. 168, 42 (2006); derived: pressure integrated over the disc h < x0. */
+
+typedef struct { char none[0]; } film_resistance_constants;
+
+static inline void film_resistance_prepare(film_resistance_constants *c)
+{
+    (void)c;
+}
+
+typedef struct {
+    vec inverse_gap[TERMS];
+    vec result[TERMS];
+} film_resistance_series;
+
+/* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). Coefficient k of its series;
+ * products of series: 1. */
+static inline void film_resistance_next(film_resistance_series *s, const film_resistance_constants *c, const
+    vec *gap, int k)
+{
+    (void)gap; (void)c;
+    s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);
+    s->result[k] = k == 0 ? gap[k] + s->inverse_gap[k] + (-2.0) : gap[k] + s->inverse_gap[k];
+}
+
+/* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). */
+static inline vec film_resistance_value(const film_resistance_constants *c, vec gap)
+{
+    (void)gap; (void)c;
+    vec inverse_gap = 1.0/gap;
+    vec result = gap + inverse_gap + (-2.0);
+    return result;
+}

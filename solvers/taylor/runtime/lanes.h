@@ -1,0 +1,469 @@
+/* Collisions in lanes: steps of the Taylor series, events by isolation, a finished lane refilled from the queue.
+ *
+ * The rules are those of solvers/locate.py. What is too rare to be fast is handed over to it, named by a status.
+ */
+
+enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
+enum { STICK, SEPARATES, BOUNCES };
+enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER };
+enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+static const double REST_SPEED = 1e-9;
+
+/* What comes back of a collision. */
+typedef struct {
+    double shown[4];    /* restitution, tangential restitution, rotation rate, spin: as far as the model has them */
+    double time, smallest_gap, turned, final_gap;
+    int32_t outcome, certified, status, steps, reversal, events;
+} answer;
+
+typedef struct {
+    double kind, time;
+} happening;
+
+/* What is fixed for a flight. */
+typedef struct {
+    constants c;
+    barrier b;
+    vec tolerance, scale; /* relative error of a step, and the opening velocity that counts as one */
+    vec contact, end, edge;
+} fixed;
+
+typedef struct {
+    vec y[STATES];
+    vec time, smallest, film, shear;
+    mask alive, closing, resting, fresh;
+    long index[LANES];
+    int32_t steps[LANES], phases[LANES], reversal[LANES];
+} flights;
+
+typedef struct {
+    const double *groups, *tolerance, *scale;
+    answer *answers;
+    happening *log;
+    long count, next;
+    int order, budget;
+    long queued, taken; /* collisions that are waiting, of `rows` */
+    long waiting[LANES];
+    double rows[LANES][sizeof(fixed)/sizeof(vec)];
+    double starts[LANES][STATES];
+} queue;
+
+enum { FIXED = sizeof(fixed)/sizeof(vec) };
+
+static void put(queue *q, long index, int status, int outcome, int certified)
+{
+    answer *a = &q->answers[index];
+    a->status = status;
+    a->outcome = outcome;
+    a->certified = certified;
+}
+
+static void note(queue *q, long index, int kind, double time)
+{
+    answer *a = &q->answers[index];
+    if (q->log && a->events < MOST_EVENTS)
+        q->log[index*MOST_EVENTS + a->events] = (happening){kind, time};
+    a->events++;
+}
+
+/* Constants, barrier and start of the next collisions; those proved sticks at first touch never take a lane. */
+static void fill_queue(queue *q)
+{
+    static __thread fixed f;
+    vec y[STATES];
+    q->queued = q->taken = 0;
+    while (q->queued == 0 && q->next < q->count) {
+        long first = q->next;
+        int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
+        q->next += many;
+        vec *groups = (vec *)&f.c;
+        for (int group = 0; group < GROUPS; group++)
+            EACH_LANE(lane) groups[group][lane] = q->groups[(first + (lane < many ? lane : 0))*GROUPS + group];
+        EACH_LANE(lane) f.tolerance[lane] = q->tolerance[first + (lane < many ? lane : 0)];
+        EACH_LANE(lane) f.scale[lane] = q->scale[first + (lane < many ? lane : 0)];
+        prepare(&f.c);
+        memset(y, 0, sizeof y);
+        start(&f.c, y);
+        f.contact = vec_max(f.c.elastic_gap, f.c.rough_gap);
+#if BRIDGE
+        f.end = f.c.rupture_gap;
+#else
+        f.end = splat(1.0);
+#endif
+#if OBLIQUE
+        f.edge = tangential_edge(&f.c);
+#else
+        f.edge = splat(INFINITY);
+#endif
+        unsigned proved = 0;
+#if PROOF_BY_ENERGY
+        find_barriers(&f.c, y, f.contact, f.end, &f.b);
+        f.b.largest = stored_energy(&f.c, y);
+#if BRIDGE && !CAPILLARY_STATE
+        f.b.touch = capillary_work(&f.c, splat(1.0));
+#else
+        f.b.touch = splat(0.0);
+#endif
+        proved = bits(below_barrier(&f.c, y, &f.b, f.tolerance));
+#endif
+        for (int lane = 0; lane < many; lane++) {
+            if (proved >> lane & 1) {
+                put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
+                continue;
+            }
+            q->waiting[q->queued] = first + lane;
+            for (int field = 0; field < FIXED; field++)
+                q->rows[q->queued][field] = ((vec *)&f)[field][lane];
+            for (int state = 0; state < STATES; state++)
+                q->starts[q->queued][state] = y[state][lane];
+            q->queued++;
+        }
+    }
+}
+
+/* Puts the next collision of the queue into a lane; the lane rests if there is none. */
+static void refill(queue *q, flights *l, fixed *f, int lane)
+{
+    if (q->taken == q->queued)
+        fill_queue(q);
+    if (q->taken == q->queued) {
+        l->alive[lane] = 0;
+        return;
+    }
+    long row = q->taken++;
+    for (int field = 0; field < FIXED; field++)
+        ((double *)&((vec *)f)[field])[lane] = q->rows[row][field];
+    for (int state = 0; state < STATES; state++)
+        l->y[state][lane] = q->starts[row][state];
+    l->index[lane] = q->waiting[row];
+    l->time[lane] = 0.0;
+    l->smallest[lane] = 1.0;
+    l->film[lane] = 1.0;
+    l->shear[lane] = f->edge[lane] >= 1.0;
+    l->alive[lane] = l->closing[lane] = l->fresh[lane] = -1;
+    l->resting[lane] = 0;
+    l->steps[lane] = l->phases[lane] = 0;
+    l->reversal[lane] = -1;
+}
+
+/* The flight of a lane is over: what came of it, and the next one. */
+static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+{
+    answer *a = &q->answers[l->index[lane]];
+    put(q, l->index[lane], status, outcome, certified);
+    a->time = l->time[lane];
+    a->smallest_gap = l->smallest[lane];
+    a->final_gap = l->y[GAP][lane];
+    a->steps = l->steps[lane];
+    a->reversal = l->reversal[lane];
+#if TURNING_STATE
+    a->turned = l->y[TURNED][lane];
+#elif OBLIQUE && STRINGS
+    a->turned = l->y[ROTATION][lane];
+#endif
+    if (status == DECIDED && outcome != STICK) {
+        vec shown[OUTPUTS];
+        outputs(&f->c, l->y, shown);
+        for (int k = 0; k < OUTPUTS; k++)
+            a->shown[k] = shown[k][lane];
+    }
+    refill(q, l, f, lane);
+}
+
+static void separated(queue *q, flights *l, fixed *f, int lane)
+{
+    note(q, l->index[lane], RUPTURE, l->time[lane]);
+    finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCES : SEPARATES, 0);
+}
+
+/* The phase that opens from here; from first touch, beyond the film at once. */
+static void opens(flights *l, const fixed *f, int lane)
+{
+    l->closing[lane] = 0;
+    l->resting[lane] = 0;
+    if (l->y[GAP][lane] == 1.0)
+        l->film[lane] = 0.0;
+    if (l->y[GAP][lane] == f->edge[lane])
+        l->shear[lane] = 0.0;
+}
+
+/* Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures. */
+static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
+{
+    int at_touch = l->time[lane] == 0.0 && l->phases[lane] == 0;
+    vec after[STATES];
+    memcpy(after, l->y, sizeof after);
+    reversal(&f->c, l->y, after);
+    l->y[OPENING][lane] = after[OPENING][lane];
+    if (l->reversal[lane] < 0)
+        l->reversal[lane] = kind;
+    l->phases[lane]++;
+    l->fresh[lane] = -1;
+    note(q, l->index[lane], kind, l->time[lane]);
+    if (at_touch && !BRIDGE) {
+        separated(q, l, f, lane);
+        return;
+    }
+    double rebound = l->y[OPENING][lane], inward = inward_force(&f->c, l->y)[lane];
+    double allowed = f->tolerance[lane]*l->y[GAP][lane];
+    if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
+        note(q, l->index[lane], RESTS, l->time[lane]);
+        l->y[OPENING][lane] = 0.0;
+        l->resting[lane] = -1;
+        l->closing[lane] = 0;
+        if (!OBLIQUE) /* nothing moves, and the force is inward */
+            finish(q, l, f, lane, DECIDED, STICK, 1);
+    } else
+        opens(l, f, lane);
+}
+
+/* A criterion already true where a closing phase starts, by rule: glass, elastic, rough. */
+static void criteria_met(queue *q, flights *l, fixed *f)
+{
+    mask asked = l->fresh & l->alive & l->closing & ~l->resting;
+    l->fresh = splat_mask(0);
+    if (!bits(asked))
+        return;
+    unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
+    unsigned elastic = bits(asked & (l->y[GAP] <= f->c.elastic_gap));
+    unsigned rough = bits(asked & (l->y[GAP] <= f->c.rough_gap));
+    unsigned any = glass | elastic | rough;
+    EACH_LANE(lane)
+        if (any >> lane & 1)
+            reverse(q, l, f, lane, glass >> lane & 1 ? GLASS : elastic >> lane & 1 ? ELASTIC : ROUGH);
+}
+
+/* What an event does to a lane. */
+static void act(queue *q, flights *l, fixed *f, int lane, int event)
+{
+    long index = l->index[lane];
+    double now = l->time[lane];
+    if (event == GLASS) {
+        reverse(q, l, f, lane, GLASS);
+        return;
+    }
+    if (event == ELASTIC) { /* contact: whichever is met first */
+        double elastic = f->c.elastic_gap[lane], rough = f->c.rough_gap[lane];
+        l->y[GAP][lane] = f->contact[lane];
+        reverse(q, l, f, lane, elastic >= rough && elastic > 0.0 ? ELASTIC : ROUGH);
+        return;
+    }
+    if (event == RUPTURE) {
+        l->y[GAP][lane] = f->end[lane];
+        separated(q, l, f, lane);
+        return;
+    }
+    l->phases[lane]++;
+    l->fresh[lane] = -1;
+    if (event == TURNED_KIND) {
+        note(q, index, l->closing[lane] ? TURNED_KIND : FELL_BACK, now);
+        l->y[OPENING][lane] = 0.0;
+        l->closing[lane] = ~l->closing[lane];
+    } else if (event == FILM_EDGE) {
+        note(q, index, FILM_EDGE, now);
+        l->y[GAP][lane] = 1.0;
+        l->film[lane] = 1.0 - l->film[lane];
+        if (f->edge[lane] == 1.0)
+            l->shear[lane] = l->film[lane];
+    } else if (event == TANGENTIAL_EDGE) {
+        note(q, index, TANGENTIAL_EDGE, now);
+        l->y[GAP][lane] = f->edge[lane];
+        l->shear[lane] = 1.0 - l->shear[lane];
+    } else if (event == RELEASED) {
+        note(q, index, RELEASED, now);
+        opens(l, f, lane);
+    } else { /* the experiment's own cut-offs */
+        note(q, index, event, now);
+        finish(q, l, f, lane, DECIDED, STICK, 0);
+    }
+}
+
+/* The event functions of a step, each a series that is positive before its event, and the first to fall. */
+typedef struct {
+    vec time;              /* of the first event, as a part of the step; beyond 1 if there is none */
+    int32_t event[LANES];
+} first_event;
+
+/* sum of |a_k| h^k, k = 1..order: what a function can change by within the step */
+static inline vec reach(const vec *a, vec h, int order)
+{
+    vec sum = vec_abs(a[order]);
+    for (int k = order - 1; k > 0; k--)
+        sum = sum*h + vec_abs(a[k]);
+    return sum*h;
+}
+
+static inline vec sum_at(const vec *a, vec t, int order)
+{
+    vec sum = a[order];
+    for (int k = order - 1; k >= 0; k--)
+        sum = sum*t + a[k];
+    return sum;
+}
+
+/* Looks closer at the lanes of `close` for offset + sign a(t) falling through zero; an earlier event stays. */
+static void look(
+    first_event *found, unsigned close, const vec *a, vec offset, double sign, vec h, int order, int event, int may_start)
+{
+    for (; close; close &= close - 1) {
+        int lane = __builtin_ctz(close);
+        double g[TERMS + 1], power = 1.0;
+        for (int k = 0; k <= order; k++) {
+            g[k] = sign*a[k][lane]*power;
+            power *= h[lane];
+        }
+        g[0] += offset[lane];
+        double *from = g;
+        int terms = order;
+        if (g[0] == 0.0 && may_start) { /* it starts on its own zero: that root is divided out */
+            from = g + 1;
+            terms = order - 1;
+        }
+        double time = from[0] > 0.0 ? first_root(from, terms) : from[0] <= 0.0 ? 0.0 : NO_ROOT;
+        if (time < found->time[lane] && time <= 1.0) {
+            found->time[lane] = time;
+            found->event[lane] = event;
+        }
+    }
+}
+
+static void find_events(const series *s, const flights *l, const fixed *f, vec h, int order, first_event *found)
+{
+    found->time = splat(NO_ROOT);
+    mask moves = l->alive & ~l->resting, closes = moves & l->closing, opens_ = moves & ~l->closing;
+    vec gap = s->gap[0], wander = reach(s->gap, h, order);
+    mask inside = l->film != 0.0;
+    if (bits(closes)) {
+        vec change = reach(s->glass.result, h, order);
+        look(found, bits(closes & ~(s->glass.result[0] > change)), s->glass.result, splat(0.0), 1.0, h, order, GLASS, 0);
+        look(found, bits(closes & ~(gap - wander > f->contact)), s->gap, -f->contact, 1.0, h, order, ELASTIC, 0);
+    }
+    vec turn = reach(s->opening, h, order);
+    look(found, bits(closes & ~(-s->opening[0] > turn)), s->opening, splat(0.0), -1.0, h, order, TURNED_KIND, 1);
+    look(found, bits(opens_ & ~(s->opening[0] > turn)), s->opening, splat(0.0), 1.0, h, order, TURNED_KIND, 1);
+#if BRIDGE
+    look(found, bits(opens_ & inside & ~(gap + wander < 1.0)), s->gap, splat(1.0), -1.0, h, order, FILM_EDGE, 0);
+    look(found, bits(closes & ~inside & ~(gap - wander > 1.0)), s->gap, splat(-1.0), 1.0, h, order, FILM_EDGE, 1);
+    mask outer = opens_ & ~inside;
+#else
+    mask outer = opens_;
+#endif
+    look(found, bits(outer & ~(gap + wander < f->end)), s->gap, f->end, -1.0, h, order, RUPTURE, 0);
+#if OBLIQUE
+    mask sheared = l->shear != 0.0;
+    mask own = (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, splat(1.0)));
+    if (bits(own)) {
+        look(found, bits(own & opens_ & sheared & ~(gap + wander < f->edge)), s->gap, f->edge, -1.0, h, order,
+             TANGENTIAL_EDGE, 0);
+        look(found, bits(own & closes & ~sheared & ~(gap - wander > f->edge)), s->gap, -f->edge, 1.0, h, order,
+             TANGENTIAL_EDGE, 1);
+    }
+#endif
+    mask rests = l->alive & l->resting;
+    if (bits(rests)) {
+        vec change = reach(s->acceleration, h, order - 1);
+        look(found, bits(rests & ~(-s->acceleration[0] > change)), s->acceleration, splat(0.0), -1.0, h, order - 1,
+             RELEASED, 0);
+    }
+#if OBLIQUE && STRINGS
+    look(found, bits(l->alive & ~(s->rotation[0] + reach(s->rotation, h, order) < M_PI)), s->rotation, splat(M_PI), -1.0,
+         h, order, HALF_TURN, 0);
+    look(found, bits(l->alive & ~(s->orbit[0] > reach(s->orbit, h, order))), s->orbit, splat(0.0), 1.0, h, order, UNWINDS, 0);
+#endif
+}
+
+/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2). */
+static inline vec step_size(const series *s, const fixed *f, int order)
+{
+    const vec(*a)[TERMS] = (const void *)s;
+    vec last = splat(1e-300), before = splat(1e-300);
+    for (int state = 0; state < STATES; state++) {
+        vec size = vec_abs(a[state][0]);
+        vec scale = state == OPENING ? size + f->scale : state == GAP ? size : size + 1e-3;
+        vec inverse = 1.0/scale;
+        last = vec_max(last, vec_abs(a[state][order])*inverse);
+        before = vec_max(before, vec_abs(a[state][order - 1])*inverse);
+    }
+    vec h = vec_min(rough_root(f->tolerance/last, 1.0/order), rough_root(f->tolerance/before, 1.0/(order - 1)));
+    return vec_min(h, splat(1e18));
+}
+
+static void fly(queue *q)
+{
+    static __thread flights l;
+    static __thread fixed f;
+    static __thread series s;
+    memset(&l, 0, sizeof l);
+    memset(&s, 0, sizeof s);
+    memset(&f, 0, sizeof f);
+    int order = q->order;
+    EACH_LANE(lane) refill(q, &l, &f, lane);
+    if (!bits(l.alive))
+        return;
+    int sound = __builtin_ctz(bits(l.alive)); /* idle lanes repeat a live one, so that nothing traps or slows */
+    EACH_LANE(lane) if (!l.alive[lane]) {
+        for (int field = 0; field < FIXED; field++)
+            ((vec *)&f)[field][lane] = ((vec *)&f)[field][sound];
+        for (int state = 0; state < STATES; state++)
+            l.y[state][lane] = l.y[state][sound];
+    }
+    vec(*a)[TERMS] = (void *)&s;
+    while (bits(l.alive)) {
+#if PROOF_BY_ENERGY
+        for (unsigned proved = bits(l.alive & below_barrier(&f.c, l.y, &f.b, f.tolerance)); proved; proved &= proved - 1)
+            finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
+        if (!bits(l.alive))
+            break;
+#endif
+        criteria_met(q, &l, &f);
+        if (!bits(l.alive))
+            break;
+        for (int state = 0; state < STATES; state++)
+            a[state][0] = l.y[state];
+        for (int k = 0; k < order; k++)
+            coefficients(&s, &f.c, l.film, l.shear, ~l.resting, k);
+        if (bits(l.alive & l.closing))
+            for (int k = 0; k <= order; k++)
+                glass_coefficients(&s, &f.c, k);
+        vec h = only(l.alive, step_size(&s, &f, order));
+        first_event found;
+        find_events(&s, &l, &f, h, order, &found);
+        mask falls = l.alive & (found.time <= 1.0);
+        h = choose(falls, h*found.time, h);
+        for (int state = 0; state < STATES; state++)
+            l.y[state] = choose(l.alive, sum_at(a[state], h, order), l.y[state]);
+        l.time += h;
+        l.smallest = vec_min(l.smallest, l.y[GAP]);
+        mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
+        for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
+            int lane = __builtin_ctz(event);
+            act(q, &l, &f, lane, found.event[lane]);
+        }
+        EACH_LANE(lane)
+        {
+            int failed = lost[lane] ? NOT_FINITE : l.steps[lane] > q->budget ? NO_BUDGET : l.phases[lane] > MOST_PHASES ? CHATTER : 0;
+            l.steps[lane]++;
+            if (failed && l.alive[lane])
+                finish(q, &l, &f, lane, failed, STICK, 0);
+        }
+    }
+}
+
+/* Collides `count` collisions. Returns the size of an answer, so that the caller can check its own idea of it. */
+int collide(long count, const double *groups, const double *tolerance, const double *scale, int order, int budget,
+            answer *answers, happening *log)
+{
+    static __thread queue q;
+    memset(&q, 0, sizeof q);
+    memset(answers, 0, sizeof(answer)*(size_t)count);
+    q.groups = groups;
+    q.tolerance = tolerance;
+    q.scale = scale;
+    q.answers = answers;
+    q.log = log;
+    q.count = count;
+    q.order = order < LARGEST_ORDER ? order : LARGEST_ORDER;
+    q.budget = budget;
+    fly(&q);
+    return (int)sizeof(answer);
+}
