@@ -13,7 +13,7 @@ import numpy as np
 from .errors import InputError, did_you_mean
 from .scene import Scene
 from .schema import FIELDS, unknown_entry
-from .settings import check_engine, check_rtol
+from .settings import check_engine, check_rtol, fitting
 
 QUANTITIES: dict[str, tuple[str, str]] = {
     "restitution": ("1", "normal restitution e_n"),
@@ -98,7 +98,7 @@ def requested(
         angle=full.pop("impact.angle"),
         vary=full,
         rtol=check_rtol(rtol),
-        engine=check_engine(engine) or "rosenbrock",
+        engine=check_engine(engine) or fitting(size),
         of=kept,
     )
     check_some_scene(request)

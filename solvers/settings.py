@@ -5,8 +5,9 @@ from __future__ import annotations
 from .errors import InputError, did_you_mean
 from .schema import Field, Range
 
-ENGINES = ("cvodes", "rosenbrock")
+ENGINES = ("cvodes", "rosenbrock", "taylor")
 RTOL = 1e-9  # unless something else is asked for
+FEW = 100  # collisions that are not worth a compiler
 _TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", lambda v: 1e-13 <= v <= 1e-3))
 
 
@@ -22,3 +23,10 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
     if not isinstance(engine, str) or engine not in ENGINES:
         raise InputError(label, engine, ", ".join(ENGINES), "is not known" + did_you_mean(engine, ENGINES))
     return engine
+
+
+def fitting(count: int) -> str:
+    """The engine for `count` collisions: the Taylor kernel where there is a compiler and enough of them to use it for."""
+    from .compiled import compiler
+
+    return "taylor" if count > FEW and compiler() is not None else "rosenbrock"

@@ -9,7 +9,8 @@ from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import VOCABULARY, opening
-from .taylor_c import Constants, Recurrences, comment, function
+from ..scaling import group_definitions
+from .taylor_c import Constants, Recurrences, Text, comment, function
 from .taylor_laws import signatures
 from .taylor_program import Program
 from .text import needed
@@ -113,10 +114,24 @@ class Header:
         body.append("glass_pressure_clearance_prepare(&c->glass, c->glass_number);")
         return [
             *lines,
+            *self._scaling(),
             *comment("What is computed once a collision, from its groups."),
             *function("static inline void prepare(constants *c)", body),
             "",
         ]
+
+    def _scaling(self) -> list[str]:
+        """The groups from SI quantities, whose names are exported in the order they are given in."""
+        definitions = group_definitions()
+        expressions = {group: definitions.get(group, group) for group in self.model.groups}
+        used = set().union(*(expression.free_symbols for expression in expressions.values()))
+        names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
+        text = Text(lambda symbol: f"q[SI_{symbol.name.upper()}]")
+        lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
+        lines += ["const char quantity_names[] =", *(f'    "{name} "' for name in names[:-1]), f'    "{names[-1]}";', ""]
+        body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
+        doc = "The groups of a collision from its quantities in SI."
+        return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
 
     def _passed(self, argument: sp.Expr) -> str:
         text = self.constants.factor(argument, "argument")

@@ -13,7 +13,7 @@ from .printer import EmissionError
 from .taylor_program import Operation, Program
 
 _WIDTH = 110
-_FUNCTIONS = {sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos"}
+_FUNCTIONS = {sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan"}
 _ADD, _MUL, _ATOM = range(3)
 
 
@@ -67,7 +67,7 @@ class Text:
         over: list[str] = []
         under: list[str] = []
         sign = ""
-        for factor in node.as_ordered_factors():
+        for factor in _roots_together(node):
             if factor == -1:
                 sign = "-"
             elif isinstance(factor, sp.Pow) and factor.exp.is_number and factor.exp.is_negative:
@@ -83,11 +83,28 @@ class Text:
         base, exponent = node.args
         if exponent == sp.Rational(1, 2):
             return f"vec_sqrt({self(base)})", _ATOM
+        if isinstance(base, sp.UnevaluatedExpr):
+            base = base.args[0]
         if exponent.is_number and exponent.is_negative and exponent.is_Integer:
             return f"1.0/{self._at_least(sp.Pow(base, -exponent), _ATOM)}", _MUL
         if exponent.is_Integer and 2 <= exponent <= 4:
             return "(" + "*".join([self._at_least(base, _ATOM)] * int(exponent)) + ")", _ATOM
         return f"vec_exp({self._at_least(exponent, _ATOM)}*vec_log({self(base)}))", _ATOM
+
+
+def _roots_together(node: sp.Mul) -> list[sp.Expr]:
+    """Factors of a product, those of the same broken power under one logarithm, numbers in front."""
+    factors: list[sp.Expr] = []
+    below: dict[sp.Expr, list[sp.Expr]] = {}
+    for factor in node.as_ordered_factors():
+        broken = isinstance(factor, sp.Pow) and factor.exp.is_Rational and not factor.exp.is_Integer
+        if not broken or factor.base.is_number or abs(factor.exp) == sp.Rational(1, 2):
+            factors.append(factor)
+        else:
+            power = abs(factor.exp)
+            below.setdefault(power, []).append(factor.base if factor.exp > 0 else 1 / factor.base)
+    roots = [sp.Pow(sp.UnevaluatedExpr(sp.Mul(*bases)), power, evaluate=False) for power, bases in below.items()]
+    return factors + roots
 
 
 def number(value: sp.Expr) -> str:

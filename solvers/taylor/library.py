@@ -115,7 +115,7 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     loaded = ctypes.CDLL(str(library))
     loaded.collide.restype = ctypes.c_int
     pointer, number = ctypes.c_void_p, ctypes.c_int
-    loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, pointer, number, number, pointer, pointer]
+    loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, number, pointer, pointer]
     return loaded
 
 

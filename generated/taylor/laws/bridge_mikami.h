@@ -12,7 +12,7 @@ static inline void bridge_force_prepare(bridge_force_constants *c, vec volume, v
     c->volume = volume;
     c->contact_angle = contact_angle;
     c->log_volume = vec_log(c->volume);
-    c->decay = -1.1/vec_exp(0.53*vec_log(c->volume));
+    c->decay = -1.1*vec_exp(0.53*vec_log(1.0/c->volume));
     c->offset = (c->contact_angle*c->contact_angle)*(-0.34*c->log_volume - 0.96) + 0.48 - 0.019*c->log_volume;
     c->tail = 0.0042*c->log_volume + 0.078;
     c->work_per_exp_of_combination = 1.0/c->decay;

@@ -153,7 +153,7 @@ static inline vec mechanical_energy(const constants *c, const vec *y, const barr
 }
 
 /* Lanes whose energy is below the barrier ahead by more than its error. */
-static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, vec tolerance)
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
     vec height = height_ahead(b, y[GAP]);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));

@@ -5,9 +5,9 @@
 
 enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
 enum { STICK, SEPARATES, BOUNCES };
-enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER };
+enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
 enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
-static const double REST_SPEED = 1e-9;
+static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
 typedef struct {
     constants c;
     barrier b;
-    vec tolerance, scale; /* relative error of a step, and the opening velocity that counts as one */
+    vec tolerance, rest; /* relative error of a step, and the opening velocity that counts as none */
     vec contact, end, edge;
 } fixed;
 
@@ -37,7 +37,9 @@ typedef struct {
 } flights;
 
 typedef struct {
-    const double *groups, *tolerance, *scale;
+    const double *const *quantities; /* columns in SI */
+    const unsigned char *varies;     /* a column has a value for each collision, or one for all */
+    double rtol;
     answer *answers;
     happening *log;
     long count, next;
@@ -66,6 +68,30 @@ static void note(queue *q, long index, int kind, double time)
     a->events++;
 }
 
+/* Tolerances as solvers/integrators.py has them: near grazing incidence the doublet turns within a tiny part of x0; at
+ * very small angles, with nothing that attracts, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0. Returns the
+ * lanes that are beyond any tolerance. */
+static unsigned set_tolerance(const queue *q, fixed *f)
+{
+    unsigned beyond = 0;
+    f->tolerance = splat(q->rtol);
+    f->rest = splat(1e-3);
+#if OBLIQUE
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
+    EACH_LANE(lane)
+    {
+        double of = centrifugal[lane];
+        if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
+            f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
+        if (of > 1.0)
+            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(of))), fmin(q->rtol, TIGHTEST));
+        if (of > MOST_OBLIQUE)
+            beyond |= 1u << lane;
+    }
+#endif
+    return beyond;
+}
+
 /* Constants, barrier and start of the next collisions; those proved sticks at first touch never take a lane. */
 static void fill_queue(queue *q)
 {
@@ -76,12 +102,12 @@ static void fill_queue(queue *q)
         long first = q->next;
         int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
         q->next += many;
-        vec *groups = (vec *)&f.c;
-        for (int group = 0; group < GROUPS; group++)
-            EACH_LANE(lane) groups[group][lane] = q->groups[(first + (lane < many ? lane : 0))*GROUPS + group];
-        EACH_LANE(lane) f.tolerance[lane] = q->tolerance[first + (lane < many ? lane : 0)];
-        EACH_LANE(lane) f.scale[lane] = q->scale[first + (lane < many ? lane : 0)];
+        vec given[QUANTITIES];
+        for (int k = 0; k < QUANTITIES; k++)
+            EACH_LANE(lane) given[k][lane] = q->quantities[k][q->varies[k] ? first + (lane < many ? lane : 0) : 0];
+        scale(&f.c, given);
         prepare(&f.c);
+        unsigned beyond = set_tolerance(q, &f);
         memset(y, 0, sizeof y);
         start(&f.c, y);
         f.contact = vec_max(f.c.elastic_gap, f.c.rough_gap);
@@ -104,9 +130,13 @@ static void fill_queue(queue *q)
 #else
         f.b.touch = splat(0.0);
 #endif
-        proved = bits(below_barrier(&f.c, y, &f.b, f.tolerance));
+        proved = bits(below_barrier(&f.c, y, &f.b, q->rtol));
 #endif
         for (int lane = 0; lane < many; lane++) {
+            if (beyond >> lane & 1) {
+                put(q, first + lane, TOO_OBLIQUE, STICK, 0);
+                continue;
+            }
             if (proved >> lane & 1) {
                 put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
                 continue;
@@ -205,7 +235,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         return;
     }
     double rebound = l->y[OPENING][lane], inward = inward_force(&f->c, l->y)[lane];
-    double allowed = f->tolerance[lane]*l->y[GAP][lane];
+    double allowed = q->rtol*l->y[GAP][lane];
     if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
         note(q, l->index[lane], RESTS, l->time[lane]);
         l->y[OPENING][lane] = 0.0;
@@ -379,7 +409,7 @@ static inline vec step_size(const series *s, const fixed *f, int order)
     vec last = splat(1e-300), before = splat(1e-300);
     for (int state = 0; state < STATES; state++) {
         vec size = vec_abs(a[state][0]);
-        vec scale = state == OPENING ? size + f->scale : state == GAP ? size : size + 1e-3;
+        vec scale = state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3;
         vec inverse = 1.0/scale;
         last = vec_max(last, vec_abs(a[state][order])*inverse);
         before = vec_max(before, vec_abs(a[state][order - 1])*inverse);
@@ -410,7 +440,7 @@ static void fly(queue *q)
     vec(*a)[TERMS] = (void *)&s;
     while (bits(l.alive)) {
 #if PROOF_BY_ENERGY
-        for (unsigned proved = bits(l.alive & below_barrier(&f.c, l.y, &f.b, f.tolerance)); proved; proved &= proved - 1)
+        for (unsigned proved = bits(l.alive & below_barrier(&f.c, l.y, &f.b, q->rtol)); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         if (!bits(l.alive))
             break;
@@ -449,16 +479,20 @@ static void fly(queue *q)
     }
 }
 
-/* Collides `count` collisions. Returns the size of an answer, so that the caller can check its own idea of it. */
-int collide(long count, const double *groups, const double *tolerance, const double *scale, int order, int budget,
+/* Collides `count` collisions. Returns the size of an answer, so that the caller can check its own idea of it.
+ *
+ * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
+ * log: MOST_EVENTS happenings a collision, or null.
+ */
+int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int order, int budget,
             answer *answers, happening *log)
 {
     static __thread queue q;
     memset(&q, 0, sizeof q);
     memset(answers, 0, sizeof(answer)*(size_t)count);
-    q.groups = groups;
-    q.tolerance = tolerance;
-    q.scale = scale;
+    q.quantities = quantities;
+    q.varies = varies;
+    q.rtol = rtol;
     q.answers = answers;
     q.log = log;
     q.count = count;

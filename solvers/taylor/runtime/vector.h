@@ -167,6 +167,13 @@ static inline vec vec_cos(vec x)
     return cosine;
 }
 
+static inline vec vec_tan(vec x)
+{
+    vec sine, cosine;
+    vec_sin_cos(x, &sine, &cosine);
+    return sine/cosine;
+}
+
 /* x^(1/n) to some percent, from the bits of the exponent: for lengths of steps. x > 0. */
 static inline vec rough_root(vec x, double inverse)
 {

@@ -1,0 +1,110 @@
+"""Many collisions of one scene by the kernel: quantities in SI in, answers out, on several cores.
+
+What the kernel hands over (resting too long, no budget left, beyond its range) is named by its status and is for the
+caller to compute by other means.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model import choose
+from ..numbers import si_values
+from ..scene import Scene
+from .library import ANSWER, HAPPENING, MOST_EVENTS, Variant, kernel
+
+BUDGET = 4000  # steps: near a separatrix a lane creeps, and an L-stable method takes over
+_CHUNK = 4096  # collisions a thread takes at a time
+_LOOSEST = 1e-6  # as solvers/locate.py has it
+_RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
+_STATUS = ("decided", "proved at touch", "no budget", "not finite", "chatter", "too oblique")
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """Collisions of one scene: angle (rad) and speed (m/s), and other quantities in SI by the vocabulary's names."""
+
+    scene: Scene
+    speed: np.ndarray
+    angle: np.ndarray
+    others: Mapping[str, np.ndarray]
+
+    def part(self, which: np.ndarray | slice) -> Impacts:
+        """Some of them."""
+        others = {name: values[which] for name, values in self.others.items()}
+        return Impacts(self.scene, self.speed[which], self.angle[which], others)
+
+
+def order_for(rtol: float) -> int:
+    """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
+    return min(max(round(-math.log10(rtol)) + 2, 8), 18)
+
+
+def answers(impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1) -> np.ndarray | None:
+    """An array of ANSWER, a collision each; None if there is no kernel here.
+
+    Arguments:
+        rotation: also the angle turned.
+    """
+    found = np.zeros(impacts.angle.size, ANSWER)
+    for oblique in (True, False):
+        which = np.flatnonzero((impacts.angle > 0) == oblique)
+        if which.size and not _fill(found, impacts, which, oblique, rtol, rotation, threads):
+            return None
+    return found
+
+
+def _fill(
+    found: np.ndarray, impacts: Impacts, which: np.ndarray, oblique: bool, rtol: float, rotation: bool, threads: int
+) -> bool:
+    fly = _call(impacts.scene, oblique, rtol, rotation)
+    if fly is None:
+        return False
+
+    def chunk(first: int) -> None:
+        part = which[first : first + _CHUNK]
+        found[part] = fly(impacts.part(part), None)
+
+    firsts = range(0, which.size, _CHUNK)
+    if threads == 1 or len(firsts) == 1:
+        for first in firsts:
+            chunk(first)
+    else:
+        with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
+            list(pool.map(chunk, firsts))
+    return True
+
+
+Fly = Callable[[Impacts, np.ndarray | None], np.ndarray]
+
+
+def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> Fly | None:
+    """The kernel of a scene as a function of impacts and a log to be filled (HAPPENING, MOST_EVENTS a collision)."""
+    library = kernel(Variant(choose(scene, oblique), rotation))
+    if library is None:
+        return None
+    wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()
+    rtol = min(rtol, _LOOSEST)
+    order = order_for(rtol)
+
+    def fly(impacts: Impacts, log: np.ndarray | None) -> np.ndarray:
+        given: dict[str, np.ndarray | float] = {"youngs_modulus": _RIGID, "poisson_ratio": 0.0}
+        given |= si_values(impacts.scene, None, None)
+        given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+        columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]
+        pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
+        varies = bytes(int(np.ndim(given[name])) for name in wanted)
+        made = np.zeros(impacts.angle.size, ANSWER)
+        size = library.collide(
+            made.size, pointers, varies, rtol, order, BUDGET, made.ctypes.data, None if log is None else log.ctypes.data
+        )
+        assert size == ANSWER.itemsize
+        return made
+
+    return fly
