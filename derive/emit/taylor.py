@@ -260,6 +260,8 @@ class Header:
                 )
         if shape.bridge:
             lines += self._work()
+        if not (shape.oblique or shape.bridge or shape.strings):
+            lines += self._momentum()
         if shape.oblique:
             edge = dict(model["events"].outputs)["tangential_edge"]
             lines += self._edge(edge)
@@ -291,6 +293,21 @@ class Header:
                 [f"return {factor}*{name}_work(&c->{self._call_name()}, {scale}*gap);"],
             ),
             "#endif",
+            "",
+        ]
+
+    def _momentum(self) -> list[str]:
+        """What the film takes of the opening velocity up to a gap: du/dx is minus its force over the velocity."""
+        force = next(value for symbol, value in self.model.definitions if symbol.name == "film_force").subs(FILM, 1)
+        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+        name = next(name for name, (slot, _, _) in self.calls.items() if slot == "film")
+        factor = self.constants.factor(sp.cancel(force / call / opening), "film_momentum_factor")
+        return [
+            *comment("Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap."),
+            *function(
+                "static inline vec film_momentum(const constants *c, vec gap)",
+                [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
+            ),
             "",
         ]
 

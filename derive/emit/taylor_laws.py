@@ -158,7 +158,7 @@ def _work(
     moving: tuple[sp.Symbol, ...],
     constants: Constants,
 ) -> sp.Expr | None:
-    if each.name != "force" or len(moving) != 1:
+    if each.name not in ("force", "resistance") or len(moving) != 1:
         return None
     force = each.result
     for symbol, value in reversed(kept):

@@ -1,4 +1,5 @@
-"""Antiderivatives of force laws by a few rules that cannot go astray: powers, exponentials, gap over a root."""
+"""Antiderivatives of force laws by a few rules that cannot go astray: powers,
+exponentials, gap over a root."""
 
 from __future__ import annotations
 
@@ -23,6 +24,8 @@ def _of_term(term: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
         return still * variable
     if moving.is_Pow and moving.base == variable and moving.exp != -1 and not moving.exp.has(variable):
         return still * variable ** (moving.exp + 1) / (moving.exp + 1)
+    if moving == 1 / variable:
+        return still * sp.log(variable)
     if moving == variable:
         return still * variable**2 / 2
     if isinstance(moving, sp.exp):

@@ -178,3 +178,9 @@ static inline vec potential_slope(const constants *c, const vec *y)
     (void)c; (void)y;
     return splat(0.0);
 }
+
+/* Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap. */
+static inline vec film_momentum(const constants *c, vec gap)
+{
+    return c->film_force_factor*film_resistance_work(&c->film_resistance_law, gap);
+}

@@ -35,3 +35,14 @@ static inline vec film_resistance_value(const film_resistance_constants *c, vec 
     vec result = gap + inverse_gap + (-2.0);
     return result;
 }
+
+#define FILM_RESISTANCE_WORK 1
+/* An antiderivative of it: work in closed form. */
+static inline vec film_resistance_work(const film_resistance_constants *c, vec gap)
+{
+    (void)c;
+    vec gap_squared = gap*gap;
+    vec log_of_gap = vec_log(gap);
+    vec work = 0.5*gap_squared + log_of_gap - 2.0*gap;
+    return work;
+}

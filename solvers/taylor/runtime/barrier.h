@@ -7,6 +7,9 @@
 typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
     vec far_gap, far_height;   /* heights count the capillary work from first touch; -infinity where there is none */
+#if SURFACE_ARM
+    vec near_energy, far_energy; /* the part of the heights that depends on angular momentum */
+#endif
     vec largest;               /* energy at first touch */
     vec touch;                 /* capillary work at first touch */
 } barrier;
@@ -129,12 +132,39 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
     mask hidden = ~(found->near_height > found->far_height);
     found->near_gap = choose(hidden, found->far_gap, found->near_gap);
     found->near_height = choose(hidden, found->far_height, found->near_height);
+#if SURFACE_ARM
+    found->near_energy = energy_at(c, y, found->near_gap);
+    found->far_energy = energy_at(c, y, found->far_gap);
+#endif
 }
 
-/* The height of the barrier ahead of a gap; -infinity if there is none. */
-static inline vec height_ahead(const barrier *b, vec gap)
+#if SURFACE_ARM
+/* Angular momentum drifts: heights are of the present one, at the gaps found for the first, less what the drift can
+ * still do. |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
+ * slip, and while the doublet breathes by the change of the rigid rate L/I. Energy and barrier move by omega dL. */
+static vec height_now(const constants *c, const vec *y, vec gap, vec first_height, vec first_energy, mask rests)
 {
-    return choose(b->near_gap > gap, b->near_height, choose(b->far_gap > gap, b->far_height, splat(-INFINITY)));
+    vec inside = 4.0 + c->aspect*y[GAP], outside = 4.0 + c->aspect*gap;
+    vec rate = y[ORBIT]/(inside*inside);
+    vec change = vec_abs(rate - y[SPIN]) + only(~rests, rate*(outside*outside - 16.0)*(1.0/22.4));
+    vec lost = 1.6*c->aspect*choose(rests, y[GAP], gap)*change;
+    vec drift = 2.0*vec_max(rate, y[SPIN])*lost*c->obliquity*c->obliquity*(1.0/16.0);
+    return first_height - first_energy + energy_at(c, y, gap) - drift;
+}
+#endif
+
+/* The height of the barrier ahead of a gap; -infinity if there is none. */
+static inline vec height_ahead(const constants *c, const vec *y, const barrier *b, mask rests)
+{
+    vec none = splat(-INFINITY), gap = y[GAP], near = b->near_height, far = b->far_height;
+#if SURFACE_ARM
+    near = height_now(c, y, b->near_gap, near, b->near_energy, rests);
+    far = height_now(c, y, b->far_gap, far, b->far_energy, rests);
+#else
+    (void)c;
+    (void)rests;
+#endif
+    return choose(b->near_gap > gap, near, choose(b->far_gap > gap, far, none));
 }
 
 /* Mechanical energy, the capillary work done since first touch included. */
@@ -153,10 +183,33 @@ static inline vec mechanical_energy(const constants *c, const vec *y, const barr
 }
 
 /* Lanes whose energy is below the barrier ahead by more than its error. */
-static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {
-    vec height = height_ahead(b, y[GAP]);
+    vec height = height_ahead(c, y, b, rests);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
     return mechanical_energy(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+}
+#endif
+
+#if !OBLIQUE && !BRIDGE && !STRINGS
+enum { DEPTHS = 16 };
+
+/* Head-on with a film alone: velocity at every gap is known in advance. Closing, the film stops the motion at a gap where
+ * this speed would not yet meet the glass criterion; opening, before its surface. */
+static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec gap = y[GAP], speed = -y[OPENING], here = film_momentum(c, gap), there[STATES];
+    mask stopped = ~closing & (y[OPENING] - (film_momentum(c, splat(1.0)) - here) < -margin);
+    vec deepest = vec_max(contact, gap*1e-40);
+    vec ratio = vec_exp(vec_log(deepest/gap)*(1.0/DEPTHS));
+    there[GAP] = gap;
+    there[OPENING] = y[OPENING]*(1.0/(1.0 - margin));
+    for (int k = 0; k < DEPTHS; k++) {
+        there[GAP] *= ratio;
+        mask slow = speed - (here - film_momentum(c, there[GAP])) < -margin;
+        stopped |= closing & slow & (glass_clearance(c, there) > 0.0);
+    }
+    return stopped;
 }
 #endif

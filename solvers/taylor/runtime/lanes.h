@@ -54,6 +54,7 @@ enum { FIXED = sizeof(fixed)/sizeof(vec) };
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
+    certified = certified && !SURFACE_ARM; /* angular momentum drifts: no theorem */
     answer *a = &q->answers[index];
     a->status = status;
     a->outcome = outcome;
@@ -130,7 +131,9 @@ static void fill_queue(queue *q)
 #else
         f.b.touch = splat(0.0);
 #endif
-        proved = bits(below_barrier(&f.c, y, &f.b, q->rtol));
+        proved = bits(below_barrier(&f.c, y, &f.b, splat_mask(0), q->rtol));
+#elif !OBLIQUE
+        proved = bits(stopped_by_film(&f.c, y, f.contact, splat_mask(-1), q->rtol));
 #endif
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
@@ -439,12 +442,16 @@ static void fly(queue *q)
     }
     vec(*a)[TERMS] = (void *)&s;
     while (bits(l.alive)) {
+        mask sticks = splat_mask(0);
 #if PROOF_BY_ENERGY
-        for (unsigned proved = bits(l.alive & below_barrier(&f.c, l.y, &f.b, q->rtol)); proved; proved &= proved - 1)
+        sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
+#elif !OBLIQUE
+        sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
+#endif
+        for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         if (!bits(l.alive))
             break;
-#endif
         criteria_met(q, &l, &f);
         if (!bits(l.alive))
             break;
