@@ -170,14 +170,14 @@ class Header:
             body += ["#if CAPILLARY_STATE", f"s->capillary_work[k + 1] = {self._rate(self.work_rate)}*next;", "#endif"]
         if self.turning is not None:
             body += ["#if TURNING_STATE", f"s->turned[k + 1] = {self._rate(self.turning)}*next;", "#endif"]
-        head = "static inline void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
+        head = "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
         doc = (
             "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside "
             "the tangential edge, else 0; the gap is held where not moving."
         )
         unused = "(void)film; (void)shear;"
         glass = function(
-            "static inline void glass_coefficients(series *s, const constants *c, int k)",
+            "INLINE void glass_coefficients(series *s, const constants *c, int k)",
             [
                 "s->approach[k] = -s->opening[k];",
                 "glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);",

@@ -139,7 +139,7 @@ def _recurrences(
         "",
         *comment(f"{doc} Coefficient k of its series; products of series: {program.cost:g}."),
         *function(
-            f"static inline void {name}_next({name}_series *s, const {name}_constants *c{series_arguments}, int k)",
+            f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series_arguments}, int k)",
             [unused, *made.lines(), *ending],
         ),
         "",

@@ -142,7 +142,7 @@ typedef struct {
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
  * the tangential edge, else 0; the gap is held where not moving. */
-static inline void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
+INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
@@ -172,7 +172,7 @@ static inline void coefficients(series *s, const constants *c, vec film, vec she
 }
 
 /* Coefficient k of the glass criterion's clearance. */
-static inline void glass_coefficients(series *s, const constants *c, int k)
+INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->opening[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);

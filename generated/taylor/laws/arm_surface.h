@@ -17,8 +17,7 @@ typedef struct {
 } arm_lever_series;
 
 /* Arm over a: the sphere radius. Coefficient k of its series; products of series: 0. */
-static inline void arm_lever_next(arm_lever_series *s, const arm_lever_constants *c, const vec *distance, int
-    k)
+INLINE void arm_lever_next(arm_lever_series *s, const arm_lever_constants *c, const vec *distance, int k)
 {
     (void)distance; (void)c;
     s->result[k] = k == 0 ? splat(2.0) : splat(0.0);

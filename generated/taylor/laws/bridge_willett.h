@@ -47,7 +47,7 @@ typedef struct {
 } bridge_force_series;
 
 /* Capillary attraction over pi R sigma. Coefficient k of its series; products of series: 3.5. */
-static inline void bridge_force_next(bridge_force_series *s, const bridge_force_constants *c, const vec
+INLINE void bridge_force_next(bridge_force_series *s, const bridge_force_constants *c, const vec
     *gap_over_radius, int k)
 {
     (void)gap_over_radius; (void)c;

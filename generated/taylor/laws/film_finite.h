@@ -19,8 +19,8 @@ typedef struct {
 
 /* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). Coefficient k of its series;
  * products of series: 1. */
-static inline void film_resistance_next(film_resistance_series *s, const film_resistance_constants *c, const
-    vec *gap, int k)
+INLINE void film_resistance_next(film_resistance_series *s, const film_resistance_constants *c, const vec
+    *gap, int k)
 {
     (void)gap; (void)c;
     s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);

@@ -20,7 +20,7 @@ typedef struct {
 
 /* Limit less value, times the positive denominator: sign of the event function. Coefficient k of its series;
  * products of series: 1.5. */
-static inline void glass_pressure_clearance_next(glass_pressure_clearance_series *s, const
+INLINE void glass_pressure_clearance_next(glass_pressure_clearance_series *s, const
     glass_pressure_clearance_constants *c, const vec *gap, const vec *approach, int k)
 {
     (void)gap; (void)approach; (void)c;

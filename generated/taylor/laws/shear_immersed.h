@@ -22,8 +22,8 @@ typedef struct {
 
 /* Tangential force over 8 pi mu a^2 (omega - xi), inside its edge. Coefficient k of its series; products of
  * series: 1. */
-static inline void shear_log_factor_next(shear_log_factor_series *s, const shear_log_factor_constants *c,
-    const vec *gap, int k)
+INLINE void shear_log_factor_next(shear_log_factor_series *s, const shear_log_factor_constants *c, const vec
+    *gap, int k)
 {
     (void)gap; (void)c;
     s->log_of_gap[k] = logarithm(gap, s->log_of_gap, s->slope_of_log_of_gap, &s->over_log_of_gap, k);

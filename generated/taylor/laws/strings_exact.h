@@ -23,7 +23,7 @@ typedef struct {
 } strings_rise_series;
 
 /* Height gained by each sphere over a. Coefficient k of its series; products of series: 1.5. */
-static inline void strings_rise_next(strings_rise_series *s, const strings_rise_constants *c, const vec
+INLINE void strings_rise_next(strings_rise_series *s, const strings_rise_constants *c, const vec
     *offset_squared, int k)
 {
     (void)offset_squared; (void)c;
@@ -61,8 +61,8 @@ typedef struct {
 
 /* Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2). Coefficient k of its series;
  * products of series: 1.5. */
-static inline void strings_stiffness_next(strings_stiffness_series *s, const strings_stiffness_constants *c,
-    const vec *offset_squared, int k)
+INLINE void strings_stiffness_next(strings_stiffness_series *s, const strings_stiffness_constants *c, const
+    vec *offset_squared, int k)
 {
     (void)offset_squared; (void)c;
     s->combination[k] = k == 0 ? -offset_squared[k] + c->combination_offset : -offset_squared[k];

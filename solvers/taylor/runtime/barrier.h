@@ -17,7 +17,7 @@ typedef struct {
 static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificate.py has it */
 
 #if defined(POTENTIAL)
-enum { GRID = 14, HALVINGS = 14 };
+enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grids in the film and beyond, steps to a maximum */
 
 static vec slope_at(const constants *c, const vec *y, vec gap)
 {
@@ -92,12 +92,12 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
 {
     vec none = splat(-INFINITY);
     vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
-    vec ratio = vec_exp(vec_log(start)*(-1.0/GRID)), width = (end - 1.0)*(1.0/GRID);
+    vec ratio = vec_exp(vec_log(start)*(-1.0/INNER)), width = (end - 1.0)*(1.0/OUTER);
     vec low = start, slope = slope_at(c, y, start);
     vec lower[2] = {start, start}, upper[2] = {start, start};
     mask first = splat_mask(0), second = splat_mask(0);
-    for (int k = 1; k <= 2*GRID; k++) {
-        vec high = k < GRID ? low*ratio : k == GRID ? splat(1.0) : k < 2*GRID ? low + width : end;
+    for (int k = 1; k <= INNER + OUTER; k++) {
+        vec high = k < INNER ? low*ratio : k == INNER ? splat(1.0) : k < INNER + OUTER ? low + width : end;
         vec next = slope_at(c, y, high);
         mask top = (slope > 0.0) & (next <= 0.0);
         mask own = top & ~first;

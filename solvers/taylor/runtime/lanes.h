@@ -32,8 +32,7 @@ typedef struct {
     vec y[STATES];
     vec time, smallest, film, shear;
     mask alive, closing, resting, fresh;
-    long index[LANES];
-    int32_t steps[LANES], phases[LANES], reversal[LANES];
+    mask index, steps, phases, reversal;
 } flights;
 
 typedef struct {
@@ -96,7 +95,7 @@ static unsigned set_tolerance(const queue *q, fixed *f)
 /* Constants, barrier and start of the next collisions; those proved sticks at first touch never take a lane. */
 static void fill_queue(queue *q)
 {
-    static __thread fixed f;
+    fixed f;
     vec y[STATES];
     q->queued = q->taken = 0;
     while (q->queued == 0 && q->next < q->count) {
@@ -314,7 +313,7 @@ static void act(queue *q, flights *l, fixed *f, int lane, int event)
 /* The event functions of a step, each a series that is positive before its event, and the first to fall. */
 typedef struct {
     vec time;              /* of the first event, as a part of the step; beyond 1 if there is none */
-    int32_t event[LANES];
+    mask event;
 } first_event;
 
 /* sum of |a_k| h^k, k = 1..order: what a function can change by within the step */
@@ -334,74 +333,128 @@ static inline vec sum_at(const vec *a, vec t, int order)
     return sum;
 }
 
-/* Looks closer at the lanes of `close` for offset + sign a(t) falling through zero; an earlier event stays. */
-static void look(
-    first_event *found, unsigned close, const vec *a, vec offset, double sign, vec h, int order, int event, int may_start)
+/* Looks closer at the lanes of `close` for offset + sign a(t) falling through zero; an earlier event stays.
+ *
+ * Bernstein coefficients of all lanes at once: all positive, no root, the usual case; one change of sign, one root, found
+ * by Newton's iteration within its bracket; more changes, the lane's first root is isolated.
+ */
+static __attribute__((noinline)) void look(
+    first_event *found, mask close, const vec *a, vec offset, double sign, vec h, int order, int event, int may_start)
 {
-    for (; close; close &= close - 1) {
-        int lane = __builtin_ctz(close);
-        double g[TERMS + 1], power = 1.0;
-        for (int k = 0; k <= order; k++) {
-            g[k] = sign*a[k][lane]*power;
-            power *= h[lane];
-        }
-        g[0] += offset[lane];
-        double *from = g;
-        int terms = order;
-        if (g[0] == 0.0 && may_start) { /* it starts on its own zero: that root is divided out */
-            from = g + 1;
-            terms = order - 1;
-        }
-        double time = from[0] > 0.0 ? first_root(from, terms) : from[0] <= 0.0 ? 0.0 : NO_ROOT;
-        if (time < found->time[lane] && time <= 1.0) {
-            found->time[lane] = time;
-            found->event[lane] = event;
+    vec g[TERMS + 1], b[TERMS + 1], power = splat(sign);
+    for (int k = 0; k <= order; k++) {
+        g[k] = a[k]*power;
+        power *= h;
+    }
+    g[0] += offset;
+    if (may_start) { /* a function that starts on its own zero: that root is divided out */
+        mask zero = g[0] == 0.0;
+        if (bits(close & zero)) {
+            for (int k = 0; k < order; k++)
+                g[k] = choose(zero, g[k + 1], g[k]);
+            g[order] = choose(zero, splat(0.0), g[order]);
         }
     }
+    for (int k = 0; k <= order; k++)
+        b[k] = g[k]*INVERSE_BINOMIAL[order][k];
+    for (int k = 1; k <= order; k++)
+        for (int j = order; j >= k; j--)
+            b[j] += b[j - 1];
+    mask falls = g[0] <= 0.0, below = b[0] < 0.0, changes = splat_mask(0);
+    vec guess = splat(0.0);
+    for (int k = 1; k <= order; k++) {
+        mask here = b[k] < 0.0, change = (here ^ below) != 0;
+        vec ratio = b[k - 1]/(b[k - 1] - b[k]);
+        guess = choose(change, (k - 1 + ratio)*(1.0/order), guess);
+        changes -= change;
+        below = here;
+    }
+    vec time = choose(falls, splat(0.0), splat(NO_ROOT));
+    mask one = close & ~falls & (changes == 1), many = close & ~falls & (changes > 1);
+    if (bits(one)) {
+        vec low = splat(0.0), high = splat(1.0), t = guess;
+        for (int count = 0; count < 60; count++) {
+            vec value = g[order], slope = splat(0.0);
+            for (int k = order - 1; k >= 0; k--) {
+                slope = slope*t + value;
+                value = value*t + g[k];
+            }
+            mask before = value > 0.0;
+            low = choose(before, t, low);
+            high = choose(before, high, t);
+            vec newton = t - value/slope;
+            mask inside = (newton >= low) & (newton <= high);
+            vec next = choose(inside, newton, 0.5*(low + high));
+            mask moves = one & ~(vec_abs(next - t) <= 4e-16*next) & ~(high - low <= 4e-16*high);
+            t = next;
+            if (!bits(moves))
+                break;
+        }
+        time = choose(one, t, time);
+    }
+    for (unsigned left = bits(many); left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        double own[TERMS + 1], bernstein[TERMS + 1];
+        for (int k = 0; k <= order; k++) {
+            own[k] = g[k][lane];
+            bernstein[k] = b[k][lane];
+        }
+        time[lane] = isolated(own, order, bernstein, 0.0, 1.0, 0);
+    }
+    mask first = close & (time <= 1.0) & (time < found->time);
+    found->time = choose(first, time, found->time);
+    found->event = (first & splat_mask(event)) | (~first & found->event);
 }
+
+#define LOOK(lanes, a, offset, sign, order, event, may_start) \
+    do { \
+        mask close = (lanes); \
+        if (bits(close)) \
+            look(found, close, a, offset, sign, h, order, event, may_start); \
+    } while (0)
 
 static void find_events(const series *s, const flights *l, const fixed *f, vec h, int order, first_event *found)
 {
+    const vec zero = splat(0.0), one = splat(1.0);
     found->time = splat(NO_ROOT);
+    found->event = splat_mask(0);
     mask moves = l->alive & ~l->resting, closes = moves & l->closing, opens_ = moves & ~l->closing;
     vec gap = s->gap[0], wander = reach(s->gap, h, order);
     mask inside = l->film != 0.0;
     if (bits(closes)) {
         vec change = reach(s->glass.result, h, order);
-        look(found, bits(closes & ~(s->glass.result[0] > change)), s->glass.result, splat(0.0), 1.0, h, order, GLASS, 0);
-        look(found, bits(closes & ~(gap - wander > f->contact)), s->gap, -f->contact, 1.0, h, order, ELASTIC, 0);
+        LOOK(closes & ~(s->glass.result[0] > change), s->glass.result, zero, 1.0, order, GLASS, 0);
+        LOOK(closes & ~(gap - wander > f->contact), s->gap, -f->contact, 1.0, order, ELASTIC, 0);
     }
-    vec turn = reach(s->opening, h, order);
-    look(found, bits(closes & ~(-s->opening[0] > turn)), s->opening, splat(0.0), -1.0, h, order, TURNED_KIND, 1);
-    look(found, bits(opens_ & ~(s->opening[0] > turn)), s->opening, splat(0.0), 1.0, h, order, TURNED_KIND, 1);
+    mask turns = moves & ~(vec_abs(s->opening[0]) > reach(s->opening, h, order));
+    LOOK(turns & closes, s->opening, zero, -1.0, order, TURNED_KIND, 1);
+    LOOK(turns & opens_, s->opening, zero, 1.0, order, TURNED_KIND, 1);
 #if BRIDGE
-    look(found, bits(opens_ & inside & ~(gap + wander < 1.0)), s->gap, splat(1.0), -1.0, h, order, FILM_EDGE, 0);
-    look(found, bits(closes & ~inside & ~(gap - wander > 1.0)), s->gap, splat(-1.0), 1.0, h, order, FILM_EDGE, 1);
+    LOOK(opens_ & inside & ~(gap + wander < 1.0), s->gap, one, -1.0, order, FILM_EDGE, 0);
+    LOOK(closes & ~inside & ~(gap - wander > 1.0), s->gap, -one, 1.0, order, FILM_EDGE, 1);
     mask outer = opens_ & ~inside;
 #else
     mask outer = opens_;
+    (void)inside;
 #endif
-    look(found, bits(outer & ~(gap + wander < f->end)), s->gap, f->end, -1.0, h, order, RUPTURE, 0);
+    LOOK(outer & ~(gap + wander < f->end), s->gap, f->end, -1.0, order, RUPTURE, 0);
 #if OBLIQUE
-    mask sheared = l->shear != 0.0;
-    mask own = (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, splat(1.0)));
+    mask own = (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
     if (bits(own)) {
-        look(found, bits(own & opens_ & sheared & ~(gap + wander < f->edge)), s->gap, f->edge, -1.0, h, order,
-             TANGENTIAL_EDGE, 0);
-        look(found, bits(own & closes & ~sheared & ~(gap - wander > f->edge)), s->gap, -f->edge, 1.0, h, order,
-             TANGENTIAL_EDGE, 1);
+        mask sheared = l->shear != 0.0;
+        LOOK(own & opens_ & sheared & ~(gap + wander < f->edge), s->gap, f->edge, -1.0, order, TANGENTIAL_EDGE, 0);
+        LOOK(own & closes & ~sheared & ~(gap - wander > f->edge), s->gap, -f->edge, 1.0, order, TANGENTIAL_EDGE, 1);
     }
 #endif
     mask rests = l->alive & l->resting;
     if (bits(rests)) {
         vec change = reach(s->acceleration, h, order - 1);
-        look(found, bits(rests & ~(-s->acceleration[0] > change)), s->acceleration, splat(0.0), -1.0, h, order - 1,
-             RELEASED, 0);
+        LOOK(rests & ~(-s->acceleration[0] > change), s->acceleration, zero, -1.0, order - 1, RELEASED, 0);
     }
 #if OBLIQUE && STRINGS
-    look(found, bits(l->alive & ~(s->rotation[0] + reach(s->rotation, h, order) < M_PI)), s->rotation, splat(M_PI), -1.0,
-         h, order, HALF_TURN, 0);
-    look(found, bits(l->alive & ~(s->orbit[0] > reach(s->orbit, h, order))), s->orbit, splat(0.0), 1.0, h, order, UNWINDS, 0);
+    vec angle = s->rotation[0], turn = reach(s->rotation, h, order);
+    LOOK(l->alive & ~(angle + turn < M_PI), s->rotation, splat(M_PI), -1.0, order, HALF_TURN, 0);
+    LOOK(l->alive & ~(s->orbit[0] > reach(s->orbit, h, order)), s->orbit, zero, 1.0, order, UNWINDS, 0);
 #endif
 }
 
@@ -421,11 +474,30 @@ static inline vec step_size(const series *s, const fixed *f, int order)
     return vec_min(h, splat(1e18));
 }
 
+/* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
+#define TERM(k) if (order == k) return; coefficients(s, c, film, shear, moving, k);
+#define GLASS_TERM(k) if (order < k) return; glass_coefficients(s, c, k);
+#define EVERY(term) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
+    term(11) term(12) term(13) term(14) term(15) term(16) term(17) term(18) term(19)
+
+static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving, int order)
+{
+    coefficients(s, c, film, shear, moving, 0);
+    EVERY(TERM)
+}
+
+static __attribute__((noinline)) void expand_glass(series *s, const constants *c, int order)
+{
+    glass_coefficients(s, c, 0);
+    EVERY(GLASS_TERM)
+    GLASS_TERM(20)
+}
+
 static void fly(queue *q)
 {
-    static __thread flights l;
-    static __thread fixed f;
-    static __thread series s;
+    flights l;
+    fixed f;
+    series s;
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
     memset(&f, 0, sizeof f);
@@ -457,11 +529,9 @@ static void fly(queue *q)
             break;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        for (int k = 0; k < order; k++)
-            coefficients(&s, &f.c, l.film, l.shear, ~l.resting, k);
+        expand(&s, &f.c, l.film, l.shear, ~l.resting, order);
         if (bits(l.alive & l.closing))
-            for (int k = 0; k <= order; k++)
-                glass_coefficients(&s, &f.c, k);
+            expand_glass(&s, &f.c, order);
         vec h = only(l.alive, step_size(&s, &f, order));
         first_event found;
         find_events(&s, &l, &f, h, order, &found);
@@ -474,14 +544,14 @@ static void fly(queue *q)
         mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
         for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
             int lane = __builtin_ctz(event);
-            act(q, &l, &f, lane, found.event[lane]);
+            act(q, &l, &f, lane, (int)found.event[lane]);
         }
-        EACH_LANE(lane)
-        {
-            int failed = lost[lane] ? NOT_FINITE : l.steps[lane] > q->budget ? NO_BUDGET : l.phases[lane] > MOST_PHASES ? CHATTER : 0;
-            l.steps[lane]++;
-            if (failed && l.alive[lane])
-                finish(q, &l, &f, lane, failed, STICK, 0);
+        l.steps += 1;
+        mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
+        for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
+            int lane = __builtin_ctz(failed);
+            int status = lost[lane] ? NOT_FINITE : l.steps[lane] > q->budget ? NO_BUDGET : CHATTER;
+            finish(q, &l, &f, lane, status, STICK, 0);
         }
     }
 }
@@ -494,9 +564,8 @@ static void fly(queue *q)
 int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int order, int budget,
             answer *answers, happening *log)
 {
-    static __thread queue q;
+    queue q;
     memset(&q, 0, sizeof q);
-    memset(answers, 0, sizeof(answer)*(size_t)count);
     q.quantities = quantities;
     q.varies = varies;
     q.rtol = rtol;

@@ -7,12 +7,18 @@
 enum { LARGEST_ORDER = TERMS - 1, DEEPEST = 48 };
 static const double NO_ROOT = 2.0;
 
-static double at(const double *a, int order, double t)
+/* 1/C(order, k): from powers to Bernstein coefficients on [0, 1]. */
+static double INVERSE_BINOMIAL[TERMS][TERMS];
+
+__attribute__((constructor)) static void fill_binomials(void)
 {
-    double value = a[order];
-    for (int k = order - 1; k >= 0; k--)
-        value = value*t + a[k];
-    return value;
+    for (int order = 0; order < TERMS; order++) {
+        double binomial = 1.0;
+        for (int k = 0; k <= order; k++) {
+            INVERSE_BINOMIAL[order][k] = 1.0/binomial;
+            binomial = binomial*(order - k)/(k + 1);
+        }
+    }
 }
 
 /* The single root in [low, high], at whose ends the polynomial differs in sign. */
@@ -67,19 +73,4 @@ static double isolated(const double *a, int order, const double *b, double low, 
     double first = isolated(a, order, left, low, middle, depth + 1);
     /* after the halving, right[] runs from the middle to the end */
     return first < NO_ROOT ? first : isolated(a, order, right, middle, high, depth + 1);
-}
-
-/* The first root of sum a_k t^k on (0, 1]; NO_ROOT if there is none. a_0 > 0. */
-static double first_root(const double *a, int order)
-{
-    double b[TERMS + 1];
-    double binomial = 1.0;
-    for (int k = 0; k <= order; k++) {
-        b[k] = a[k]/binomial;
-        binomial = binomial*(order - k)/(k + 1);
-    }
-    for (int k = 1; k <= order; k++)
-        for (int j = order; j >= k; j--)
-            b[j] += b[j - 1];
-    return isolated(a, order, b, 0.0, 1.0, 0);
 }

@@ -6,35 +6,50 @@
 #define INLINE static inline __attribute__((always_inline))
 #define UNROLL _Pragma("GCC unroll 32")
 
+/* sum of a_j b_(k-j), j = from..to: from the middle outwards in two sums, so that the newest coefficients, which others
+ * wait for, come last and all else is done before.
+ */
+INLINE vec between(const vec *a, const vec *b, int k, int from, int to)
+{
+    int middle = (from + to)/2;
+    vec low = a[middle]*b[k - middle];
+    UNROLL
+    for (int j = middle - 1; j >= from; j--)
+        low += a[j]*b[k - j];
+    if (middle == to)
+        return low;
+    vec high = a[middle + 1]*b[k - middle - 1];
+    UNROLL
+    for (int j = middle + 2; j <= to; j++)
+        high += a[j]*b[k - j];
+    return low + high;
+}
+
 INLINE vec product(const vec *a, const vec *b, int k)
 {
-    vec sum = a[0]*b[k];
+    return between(a, b, k, 0, k);
+}
+
+/* Twice the sum of q_j q_(k-j) over j < k/2, from..., and the middle one if there is one. */
+INLINE vec paired(const vec *q, int k, int from)
+{
+    int middle = (k - 1)/2;
+    vec half = k % 2 ? splat(0.0) : q[k/2]*(0.5*q[k/2]);
     UNROLL
-    for (int j = 1; j <= k; j++)
-        sum += a[j]*b[k - j];
-    return sum;
+    for (int j = middle; j >= from; j--)
+        half += q[j]*q[k - j];
+    return half + half;
 }
 
 INLINE vec square(const vec *a, int k)
 {
-    if (k == 0)
-        return a[0]*a[0];
-    vec sum = a[0]*a[k];
-    UNROLL
-    for (int j = 1; 2*j < k; j++)
-        sum += a[j]*a[k - j];
-    sum += sum;
-    return k % 2 ? sum : sum + a[k/2]*a[k/2];
+    return k == 0 ? a[0]*a[0] : paired(a, k, 0);
 }
 
 /* sum of b_j q_(k-j), j = 1..k */
 INLINE vec rest(const vec *b, const vec *q, int k)
 {
-    vec sum = b[k]*q[0];
-    UNROLL
-    for (int j = 1; j < k; j++)
-        sum += b[j]*q[k - j];
-    return sum;
+    return between(b, q, k, 1, k);
 }
 
 INLINE vec reciprocal(const vec *a, const vec *q, int k)
@@ -58,14 +73,9 @@ INLINE vec root(const vec *a, const vec *q, vec *over, int k)
         *over = 0.5/found;
         return found;
     }
-    vec sum = splat(0.0);
-    UNROLL
-    for (int j = 1; 2*j < k; j++)
-        sum += q[j]*q[k - j];
-    sum += sum;
-    if (k % 2 == 0)
-        sum += q[k/2]*q[k/2];
-    return (a[k] - sum)**over;
+    if (k == 1)
+        return a[1]**over;
+    return (a[k] - paired(q, k, 1))**over;
 }
 
 /* q = exp(a): k q_k = sum of j a_j q_(k-j); `slope` keeps j a_j */
@@ -85,9 +95,8 @@ INLINE vec logarithm(const vec *a, const vec *q, vec *slope, vec *over, int k)
         return vec_log(a[0]);
     }
     vec sum = (double)k*a[k];
-    UNROLL
-    for (int j = 1; j < k; j++)
-        sum -= slope[j]*a[k - j];
+    if (k > 1)
+        sum -= between(slope, a, k, 1, k - 1);
     slope[k] = sum**over;
     return slope[k]*(1.0/k);
 }

@@ -57,6 +57,10 @@ static inline unsigned bits(mask m)
 {
 #if LANES == 8 && defined(__AVX512DQ__)
     return _mm512_movepi64_mask((__m512i)m);
+#elif LANES == 16 && defined(__AVX512DQ__)
+    __m512i half[2];
+    memcpy(half, &m, sizeof m);
+    return _mm512_movepi64_mask(half[0]) | (unsigned)_mm512_movepi64_mask(half[1]) << 8;
 #elif LANES == 4 && defined(__AVX2__)
     return (unsigned)_mm256_movemask_pd((__m256d)m);
 #else
