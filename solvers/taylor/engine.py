@@ -67,9 +67,15 @@ def _fill(
     if fly is None:
         return False
 
+    whole = which.size == found.size  # then nothing is copied
+
     def chunk(first: int) -> None:
-        part = which[first : first + _CHUNK]
-        found[part] = fly(impacts.part(part), None)
+        last = min(first + _CHUNK, which.size)
+        part = slice(first, last) if whole else which[first:last]
+        made = found[first:last] if whole else np.zeros(last - first, ANSWER)
+        fly(impacts.part(part), made, None)
+        if not whole:
+            found[part] = made
 
     firsts = range(0, which.size, _CHUNK)
     if threads == 1 or len(firsts) == 1:
@@ -81,11 +87,13 @@ def _fill(
     return True
 
 
-Fly = Callable[[Impacts, np.ndarray | None], np.ndarray]
+Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
 
 
 def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> Fly | None:
-    """The kernel of a scene as a function of impacts and a log to be filled (HAPPENING, MOST_EVENTS a collision)."""
+    """The kernel of a scene as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
+    MOST_EVENTS a collision, or None).
+    """
     library = kernel(Variant(choose(scene, oblique), rotation))
     if library is None:
         return None
@@ -93,18 +101,16 @@ def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> Fly | Non
     rtol = min(rtol, _LOOSEST)
     order = order_for(rtol)
 
-    def fly(impacts: Impacts, log: np.ndarray | None) -> np.ndarray:
+    def fly(impacts: Impacts, made: np.ndarray, log: np.ndarray | None) -> None:
         given: dict[str, np.ndarray | float] = {"youngs_modulus": _RIGID, "poisson_ratio": 0.0}
         given |= si_values(impacts.scene, None, None)
         given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
         columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]
         pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
         varies = bytes(int(np.ndim(given[name])) for name in wanted)
-        made = np.zeros(impacts.angle.size, ANSWER)
         size = library.collide(
             made.size, pointers, varies, rtol, order, BUDGET, made.ctypes.data, None if log is None else log.ctypes.data
         )
         assert size == ANSWER.itemsize
-        return made
 
     return fly

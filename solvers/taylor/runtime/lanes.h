@@ -361,18 +361,22 @@ static __attribute__((noinline)) void look(
         for (int j = order; j >= k; j--)
             b[j] += b[j - 1];
     mask falls = g[0] <= 0.0, below = b[0] < 0.0, changes = splat_mask(0);
-    vec guess = splat(0.0);
     for (int k = 1; k <= order; k++) {
-        mask here = b[k] < 0.0, change = (here ^ below) != 0;
-        vec ratio = b[k - 1]/(b[k - 1] - b[k]);
-        guess = choose(change, (k - 1 + ratio)*(1.0/order), guess);
-        changes -= change;
+        mask here = b[k] < 0.0;
+        changes += below ^ here; /* masks are -1 */
         below = here;
     }
     vec time = choose(falls, splat(0.0), splat(NO_ROOT));
-    mask one = close & ~falls & (changes == 1), many = close & ~falls & (changes > 1);
+    mask one = close & ~falls & (changes == -1), many = close & ~falls & (changes < -1);
     if (bits(one)) {
-        vec low = splat(0.0), high = splat(1.0), t = guess;
+        vec from = b[0], to = b[order], place = splat(0.0); /* the guess: where the control polygon changes sign */
+        for (int k = 1; k <= order; k++) {
+            mask change = (b[k - 1] >= 0.0) & (b[k] < 0.0);
+            from = choose(change, b[k - 1], from);
+            to = choose(change, b[k], to);
+            place = choose(change, splat(k - 1.0), place);
+        }
+        vec low = splat(0.0), high = splat(1.0), t = (place + from/(from - to))*(1.0/order);
         for (int count = 0; count < 60; count++) {
             vec value = g[order], slope = splat(0.0);
             for (int k = order - 1; k >= 0; k--) {
@@ -458,20 +462,28 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
 #endif
 }
 
-/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2). */
+/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2).
+ *
+ * Only to some percent: the bits of a positive double, read as an integer, are nearly its logarithm.
+ */
 static inline vec step_size(const series *s, const fixed *f, int order)
 {
     const vec(*a)[TERMS] = (const void *)s;
-    vec last = splat(1e-300), before = splat(1e-300);
+    mask last = splat_mask(INT64_MAX), before = splat_mask(INT64_MAX);
     for (int state = 0; state < STATES; state++) {
         vec size = vec_abs(a[state][0]);
         vec scale = state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3;
-        vec inverse = 1.0/scale;
-        last = vec_max(last, vec_abs(a[state][order])*inverse);
-        before = vec_max(before, vec_abs(a[state][order - 1])*inverse);
+        mask own = (mask)scale - (mask)vec_abs(a[state][order]);
+        mask other = (mask)scale - (mask)vec_abs(a[state][order - 1]);
+        last = least(own, last);
+        before = least(other, before);
     }
-    vec h = vec_min(rough_root(f->tolerance/last, 1.0/order), rough_root(f->tolerance/before, 1.0/(order - 1)));
-    return vec_min(h, splat(1e18));
+    const int64_t one = 0x3ff0000000000000;
+    vec allowed = __builtin_convertvector((mask)f->tolerance - one, vec);
+    vec lower = (allowed + __builtin_convertvector(last, vec))*(1.0/order);
+    vec other = (allowed + __builtin_convertvector(before, vec))*(1.0/(order - 1));
+    vec power = vec_min(vec_min(lower, other), splat(60.0*4503599627370496.0));
+    return (vec)(__builtin_convertvector(power, mask) + one);
 }
 
 /* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
@@ -556,7 +568,7 @@ static void fly(queue *q)
     }
 }
 
-/* Collides `count` collisions. Returns the size of an answer, so that the caller can check its own idea of it.
+/* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
  *
  * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
  * log: MOST_EVENTS happenings a collision, or null.

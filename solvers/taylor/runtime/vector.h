@@ -52,6 +52,12 @@ static inline vec vec_min(vec a, vec b)
     return choose(a < b, a, b);
 }
 
+static inline mask least(mask a, mask b)
+{
+    mask less = a < b;
+    return (a & less) | (b & ~less);
+}
+
 /* The lanes of a mask as bits. */
 static inline unsigned bits(mask m)
 {
@@ -176,12 +182,4 @@ static inline vec vec_tan(vec x)
     vec sine, cosine;
     vec_sin_cos(x, &sine, &cosine);
     return sine/cosine;
-}
-
-/* x^(1/n) to some percent, from the bits of the exponent: for lengths of steps. x > 0. */
-static inline vec rough_root(vec x, double inverse)
-{
-    const double one = 4607182418800017408.0; /* bits of 1.0 as a number */
-    vec as_number = __builtin_convertvector((mask)x, vec);
-    return (vec)__builtin_convertvector((as_number - one)*inverse + one, mask);
 }
