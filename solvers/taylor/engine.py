@@ -60,6 +60,20 @@ def answers(impacts: Impacts, rtol: float, rotation: bool = False, threads: int 
     return found
 
 
+def flown(impacts: Impacts, oblique: bool, rtol: float, rotation: bool, log: np.ndarray | None) -> np.ndarray | None:
+    """Answers of impacts that are all oblique, or all head-on; None if there is no kernel here.
+
+    Arguments:
+        log: zeros of HAPPENING, MOST_EVENTS a collision, to be filled with what happened.
+    """
+    fly = _call(impacts.scene, oblique, rtol, rotation)
+    if fly is None:
+        return None
+    made = np.zeros(impacts.angle.size, ANSWER)
+    fly(impacts, made, log)
+    return made
+
+
 def _fill(
     found: np.ndarray, impacts: Impacts, which: np.ndarray, oblique: bool, rtol: float, rotation: bool, threads: int
 ) -> bool:

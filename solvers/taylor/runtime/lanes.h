@@ -13,7 +13,9 @@ static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 typedef struct {
     double shown[4];    /* restitution, tangential restitution, rotation rate, spin: as far as the model has them */
     double time, smallest_gap, turned, final_gap;
-    int32_t outcome, certified, status, steps, reversal, events;
+    int32_t outcome, certified, status, steps;
+    int32_t reversal; /* the first criterion met; -1 for none */
+    int32_t events;
 } answer;
 
 typedef struct {
@@ -58,6 +60,7 @@ static void put(queue *q, long index, int status, int outcome, int certified)
     a->status = status;
     a->outcome = outcome;
     a->certified = certified;
+    a->reversal = -1;
 }
 
 static void note(queue *q, long index, int kind, double time)
