@@ -128,7 +128,12 @@ class Header:
         names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
         text = Text(lambda symbol: f"q[SI_{symbol.name.upper()}]")
         lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
-        lines += ["const char quantity_names[] =", *(f'    "{name} "' for name in names[:-1]), f'    "{names[-1]}";', ""]
+        lines += [
+            "const char quantity_names[] =",
+            *(f'    "{name} "' for name in names[:-1]),
+            f'    "{names[-1]}";',
+            "",
+        ]
         body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
         doc = "The groups of a collision from its quantities in SI."
         return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]

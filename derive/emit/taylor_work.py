@@ -1,5 +1,6 @@
 """Antiderivatives of force laws by a few rules that cannot go astray: powers,
-exponentials, gap over a root."""
+exponentials, gap over a root.
+"""
 
 from __future__ import annotations
 

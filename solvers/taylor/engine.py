@@ -17,13 +17,13 @@ import numpy as np
 from ..model import choose
 from ..numbers import si_values
 from ..scene import Scene
-from .library import ANSWER, HAPPENING, MOST_EVENTS, Variant, kernel
+from .library import ANSWER, Variant, kernel
 
-BUDGET = 4000  # steps: near a separatrix a lane creeps, and an L-stable method takes over
+BUDGET = 20_000  # steps: within 1e-6 or so of a separatrix a lane creeps, and an L-stable method takes over
+PATIENT = 1_000_000  # steps, where that method has failed
 _CHUNK = 4096  # collisions a thread takes at a time
 _LOOSEST = 1e-6  # as solvers/locate.py has it
 _RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
-_STATUS = ("decided", "proved at touch", "no budget", "not finite", "chatter", "too oblique")
 
 
 @dataclass(frozen=True)
@@ -41,32 +41,42 @@ class Impacts:
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
 
+Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
+
+
 def order_for(rtol: float) -> int:
     """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
     return min(max(round(-math.log10(rtol)) + 2, 8), 18)
 
 
-def answers(impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1) -> np.ndarray | None:
+def answers(
+    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = BUDGET
+) -> np.ndarray | None:
     """An array of ANSWER, a collision each; None if there is no kernel here.
 
     Arguments:
         rotation: also the angle turned.
+        budget: steps after which a collision is handed over.
     """
     found = np.zeros(impacts.angle.size, ANSWER)
     for oblique in (True, False):
         which = np.flatnonzero((impacts.angle > 0) == oblique)
-        if which.size and not _fill(found, impacts, which, oblique, rtol, rotation, threads):
+        if which.size and not _fill(
+            found, impacts, which, _call(impacts.scene, oblique, rtol, rotation, budget), threads
+        ):
             return None
     return found
 
 
-def flown(impacts: Impacts, oblique: bool, rtol: float, rotation: bool, log: np.ndarray | None) -> np.ndarray | None:
+def flown(
+    impacts: Impacts, oblique: bool, rtol: float, rotation: bool, log: np.ndarray | None, budget: int = BUDGET
+) -> np.ndarray | None:
     """Answers of impacts that are all oblique, or all head-on; None if there is no kernel here.
 
     Arguments:
         log: zeros of HAPPENING, MOST_EVENTS a collision, to be filled with what happened.
     """
-    fly = _call(impacts.scene, oblique, rtol, rotation)
+    fly = _call(impacts.scene, oblique, rtol, rotation, budget)
     if fly is None:
         return None
     made = np.zeros(impacts.angle.size, ANSWER)
@@ -74,13 +84,9 @@ def flown(impacts: Impacts, oblique: bool, rtol: float, rotation: bool, log: np.
     return made
 
 
-def _fill(
-    found: np.ndarray, impacts: Impacts, which: np.ndarray, oblique: bool, rtol: float, rotation: bool, threads: int
-) -> bool:
-    fly = _call(impacts.scene, oblique, rtol, rotation)
+def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | None, threads: int) -> bool:
     if fly is None:
         return False
-
     whole = which.size == found.size  # then nothing is copied
 
     def chunk(first: int) -> None:
@@ -101,10 +107,7 @@ def _fill(
     return True
 
 
-Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
-
-
-def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> Fly | None:
+def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
     """The kernel of a scene as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
     MOST_EVENTS a collision, or None).
     """
@@ -122,9 +125,8 @@ def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> Fly | Non
         columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]
         pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
         varies = bytes(int(np.ndim(given[name])) for name in wanted)
-        size = library.collide(
-            made.size, pointers, varies, rtol, order, BUDGET, made.ctypes.data, None if log is None else log.ctypes.data
-        )
+        into = None if log is None else log.ctypes.data
+        size = library.collide(made.size, pointers, varies, rtol, order, budget, made.ctypes.data, into)
         assert size == ANSWER.itemsize
 
     return fly

@@ -10,7 +10,7 @@ from ...generated import scaling
 from ..errors import InputError
 from ..numbers import si_values
 from ..requests import Request
-from .engine import Impacts, answers
+from .engine import PATIENT, Impacts, answers
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions between two signs of life; memory stays flat
@@ -55,6 +55,17 @@ def collided(
         finished(part[done], _block(request, found[kept], impacts.part(kept)))
         left.append(part[~done])
     return np.concatenate(left) if left else which
+
+
+def patiently(request: Request) -> Block | None:
+    """Collide collisions that everything else has failed on, however many steps it takes; None if that fails too."""
+    impacts, sound = _impacts(request)
+    if not sound.all():
+        return None
+    found = answers(impacts, request.rtol, "rotation" in request.of, budget=PATIENT)
+    if found is None or (found["status"] > 1).any():
+        return None
+    return _block(request, found, impacts)
 
 
 def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:

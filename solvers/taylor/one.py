@@ -10,7 +10,7 @@ import numpy as np
 from ..numbers import Numbers
 from ..result import Collision, Event
 from ..scene import Scene
-from .engine import Impacts, flown
+from .engine import BUDGET, Impacts, flown
 from .library import HAPPENING, MOST_EVENTS
 
 _OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
@@ -21,7 +21,9 @@ _KINDS = (
 )  # fmt: skip
 
 
-def collision(scene: Scene, n: Numbers, rtol: float, rest: Collision | None = None) -> Collision | None:
+def collision(
+    scene: Scene, n: Numbers, rtol: float, rest: Collision | None = None, budget: int = BUDGET
+) -> Collision | None:
     """The collision by the kernel; None if it hands it over, or there is none here.
 
     Arguments:
@@ -30,7 +32,7 @@ def collision(scene: Scene, n: Numbers, rtol: float, rest: Collision | None = No
     """
     log = np.zeros((1, MOST_EVENTS), HAPPENING)
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    answers = flown(impacts, n.oblique, rtol, True, log)
+    answers = flown(impacts, n.oblique, rtol, True, log, budget)
     if answers is None or answers["status"][0] > 1 or answers["events"][0] > MOST_EVENTS:
         return None
     found = answers[0]
