@@ -380,7 +380,8 @@ static __attribute__((noinline)) void look(
             place = choose(change, splat(k - 1.0), place);
         }
         vec low = splat(0.0), high = splat(1.0), t = (place + from/(from - to))*(1.0/order);
-        for (int count = 0; count < 60; count++) {
+        mask moves = one; /* a lane that has arrived stays, whatever its neighbours do */
+        for (int count = 0; count < 60 && bits(moves); count++) {
             vec value = g[order], slope = splat(0.0);
             for (int k = order - 1; k >= 0; k--) {
                 slope = slope*t + value;
@@ -392,10 +393,9 @@ static __attribute__((noinline)) void look(
             vec newton = t - value/slope;
             mask inside = (newton >= low) & (newton <= high);
             vec next = choose(inside, newton, 0.5*(low + high));
-            mask moves = one & ~(vec_abs(next - t) <= 4e-16*next) & ~(high - low <= 4e-16*high);
-            t = next;
-            if (!bits(moves))
-                break;
+            mask arrived = (vec_abs(next - t) <= 4e-16*next) | (high - low <= 4e-16*high);
+            t = choose(moves, next, t);
+            moves &= ~arrived;
         }
         time = choose(one, t, time);
     }
