@@ -26,7 +26,7 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
 
 
 def fitting(count: int) -> str:
-    """The engine for `count` collisions: the Taylor kernel where there is a compiler and enough of them to use it for."""
+    """The engine for `count` collisions: the Taylor kernel where there is a compiler and they are not few."""
     from .compiled import compiler
 
     return "taylor" if count > FEW and compiler() is not None else "rosenbrock"

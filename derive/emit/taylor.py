@@ -32,6 +32,7 @@ class Header:
         if self.model.structure.oblique and not self.model.structure.strings:
             self.turning = self._more(self.flow, self.model["turning_rate"].outputs)["rotation"]
         self.work_rate: str | sp.Expr | None = None
+        self._work_operations: set[str] = set()
         if self.model.structure.bridge:
             wanted = [pair for pair in self.model["energy_rates"].outputs if pair[0] == "capillary"]
             before = len(self.flow.operations)
@@ -101,8 +102,7 @@ class Header:
                 if not isinstance(argument, str) and argument.free_symbols:
                     constants.factor(argument, f"{name}_argument_{position + 1}")
         lines = ["typedef struct {"]
-        for group in self.model.groups:
-            lines.append(f"    vec {group.name}; /* {VOCABULARY[group.name].meaning} */")
+        lines += [f"    vec {group.name}; /* {VOCABULARY[group.name].meaning} */" for group in self.model.groups]
         lines += [f"    vec {name};" for name in constants.prepared]
         for name, (slot, call, _) in self.calls.items():
             lines.append(f"    {slot}_{call}_constants {name};")
@@ -144,8 +144,7 @@ class Header:
 
     def _series(self) -> list[str]:
         lines = ["typedef struct {"]
-        for state in self.model.states:
-            lines.append(f"    vec {state.name}[TERMS]; /* {VOCABULARY[state.name].meaning} */")
+        lines += [f"    vec {state.name}[TERMS]; /* {VOCABULARY[state.name].meaning} */" for state in self.model.states]
         lines += ["#if CAPILLARY_STATE", "    vec capillary_work[TERMS];", "#endif"]
         lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif"]
         lines += [f"    {field}" for field in self.made.fields()]
@@ -159,7 +158,7 @@ class Header:
             if operation.kind == "call":
                 assert operation.call is not None
                 self.calls[operation.name] = operation.call
-        work = getattr(self, "_work_operations", set())
+        work = self._work_operations
         body = []
         for operation, line in zip(self.flow.operations, made.lines(), strict=True):
             body += ["#if CAPILLARY_STATE", line, "#endif"] if operation.name in work else [line]

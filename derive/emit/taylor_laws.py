@@ -84,7 +84,7 @@ def _function(slot: str, each: LawFunction, moves: tuple[bool, ...]) -> list[str
         return _clearance(name, each, kept, moving, still)
     program, result = cheapest(each.result, kept, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in still})
-    lines = _recurrences(name, each.doc, program, result, constants, moving, still)
+    lines = _recurrences(name, each.doc, program, result, constants, moving)
     work = _work(each, kept, moving, constants)
     if work is not None:
         lines += work_lines(name, work, constants, moving[0])
@@ -113,7 +113,6 @@ def _recurrences(
     result: str | sp.Expr,
     constants: Constants,
     moving: tuple[sp.Symbol, ...],
-    still: tuple[sp.Symbol, ...],
 ) -> list[str]:
     made = Recurrences(program, constants, lambda series: series)
     own = [operation.name for operation in program.operations]
@@ -203,5 +202,5 @@ def _clearance(
     program, found = cheapest(sp.expand(clearance), (), moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in (*still, LIMIT)})
     doc = f"Limit less value{', times the positive denominator' if positive else ''}: sign of the event function."
-    lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving, still)
+    lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving)
     return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]

