@@ -19,7 +19,7 @@ from ..numbers import si_values
 from ..scene import Scene
 from .library import ANSWER, LARGEST_ORDER, Variant, kernel
 
-BUDGET = 20_000  # steps: within 1e-6 or so of a separatrix a lane creeps, and an L-stable method takes over
+BUDGET = 100_000  # steps: nearer than 1e-8 or so to a separatrix a lane creeps, and an L-stable method takes over
 PATIENT = 1_000_000  # steps, where that method has failed
 _CHUNK = 4096  # collisions a thread takes at a time
 _LOOSEST = 1e-6  # as solvers/locate.py has it
