@@ -352,27 +352,25 @@ static inline vec sum_at(const vec *a, vec t, int order)
     return sum;
 }
 
-/* Looks closer at the lanes of `close` for offset + sign a(t) falling through zero; an earlier event stays.
+/* Looks closer at the lanes of `close` for sign (a(t) - target) falling through zero; an earlier event stays.
  *
  * Bernstein coefficients of all lanes at once: all positive, no root, the usual case; one change of sign, one root, found
  * by Newton's iteration within its bracket; more changes, the lane's first root is isolated.
  */
 static __attribute__((noinline)) void look(
-    first_event *found, mask close, const vec *a, vec offset, double sign, vec h, int order, int event, int may_start)
+    first_event *found, mask close, const vec *a, vec target, vec sign, vec h, int order, mask event)
 {
-    vec g[TERMS + 1], b[TERMS + 1], power = splat(sign);
+    vec g[TERMS + 1], b[TERMS + 1], power = sign;
     for (int k = 0; k <= order; k++) {
         g[k] = a[k]*power;
         power *= h;
     }
-    g[0] += offset;
-    if (may_start) { /* a function that starts on its own zero: that root is divided out */
-        mask zero = g[0] == 0.0;
-        if (bits(close & zero)) {
-            for (int k = 0; k < order; k++)
-                g[k] = choose(zero, g[k + 1], g[k]);
-            g[order] = choose(zero, splat(0.0), g[order]);
-        }
+    g[0] = sign*(a[0] - target);
+    mask zero = g[0] == 0.0; /* a function that starts on its own zero: that root is divided out */
+    if (bits(close & zero)) {
+        for (int k = 0; k < order; k++)
+            g[k] = choose(zero, g[k + 1], g[k]);
+        g[order] = choose(zero, splat(0.0), g[order]);
     }
     for (int k = 0; k <= order; k++)
         b[k] = g[k]*INVERSE_BINOMIAL[order][k];
@@ -427,58 +425,57 @@ static __attribute__((noinline)) void look(
     }
     mask first = close & (time <= 1.0) & (time < found->time);
     found->time = choose(first, time, found->time);
-    found->event = (first & splat_mask(event)) | (~first & found->event);
+    found->event = (first & event) | (~first & found->event);
 }
-
-#define LOOK(lanes, a, offset, sign, order, event, may_start) \
-    do { \
-        mask close = (lanes); \
-        if (bits(close)) \
-            look(found, close, a, offset, sign, h, order, event, may_start); \
-    } while (0)
 
 static void find_events(const series *s, const flights *l, const fixed *f, vec h, int order, first_event *found)
 {
     const vec zero = splat(0.0), one = splat(1.0);
     found->time = splat(NO_ROOT);
     found->event = splat_mask(0);
-    mask moves = l->alive & ~l->resting, closes = moves & l->closing, opens_ = moves & ~l->closing;
-    vec gap = s->gap[0], wander = reach(s->gap, h, order);
-    mask inside = l->film != 0.0;
-    if (bits(closes)) {
-        mask near = ~((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h, order) > 0.0));
-        LOOK(closes & near, s->glass.result, zero, 1.0, order, GLASS, 0);
-        LOOK(closes & ~(gap - wander > f->contact), s->gap, -f->contact, 1.0, order, ELASTIC, 0);
+    mask closing = l->closing, moves = l->alive & ~l->resting, close;
+    vec away = choose(closing, one, -one); /* the gap's event functions rise with this times the gap */
+    if (bits(moves & closing)) {
+        close = moves & closing & ~((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h, order) > 0.0));
+        if (bits(close))
+            look(found, close, s->glass.result, zero, one, h, order, splat_mask(GLASS));
     }
-    mask turns = moves & ~(least_of(s->opening, h, order) > 0.0);
-    LOOK(turns & closes, s->opening, zero, -1.0, order, TURNED_KIND, 1);
-    LOOK(turns & opens_, s->opening, zero, 1.0, order, TURNED_KIND, 1);
+    /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
 #if BRIDGE
-    LOOK(opens_ & inside & ~(gap + wander < 1.0), s->gap, one, -1.0, order, FILM_EDGE, 0);
-    LOOK(closes & ~inside & ~(gap - wander > 1.0), s->gap, -one, 1.0, order, FILM_EDGE, 1);
-    mask outer = opens_ & ~inside;
+    mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
+    vec target = choose(edge, one, choose(closing, f->contact, f->end));
+    mask event = (edge & splat_mask(FILM_EDGE)) |
+                 (~edge & ((closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE))));
 #else
-    mask outer = opens_;
-    (void)inside;
+    vec target = choose(closing, f->contact, f->end);
+    mask event = (closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE));
 #endif
-    LOOK(outer & ~(gap + wander < f->end), s->gap, f->end, -1.0, order, RUPTURE, 0);
+    vec wander = reach(s->gap, h, order);
+    close = moves & ~(away*(s->gap[0] - target) > wander);
+    if (bits(close))
+        look(found, close, s->gap, target, away, h, order, event);
+    close = moves & ~(least_of(s->opening, h, order) > 0.0);
+    if (bits(close))
+        look(found, close, s->opening, zero, -away, h, order, splat_mask(TURNED_KIND));
 #if OBLIQUE
-    mask own = (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
-    if (bits(own)) {
-        mask sheared = l->shear != 0.0;
-        LOOK(own & opens_ & sheared & ~(gap + wander < f->edge), s->gap, f->edge, -1.0, order, TANGENTIAL_EDGE, 0);
-        LOOK(own & closes & ~sheared & ~(gap - wander > f->edge), s->gap, -f->edge, 1.0, order, TANGENTIAL_EDGE, 1);
-    }
+    mask own = moves & (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
+    close = own & (closing ^ (l->shear != 0.0)) & ~(away*(s->gap[0] - f->edge) > wander);
+    if (bits(close))
+        look(found, close, s->gap, f->edge, away, h, order, splat_mask(TANGENTIAL_EDGE));
 #endif
-    mask rests = l->alive & l->resting;
-    if (bits(rests)) {
-        vec change = reach(s->acceleration, h, order - 1);
-        LOOK(rests & ~(-s->acceleration[0] > change), s->acceleration, zero, -1.0, order - 1, RELEASED, 0);
+    close = l->alive & l->resting;
+    if (bits(close)) {
+        close &= ~(-s->acceleration[0] > reach(s->acceleration, h, order - 1));
+        if (bits(close))
+            look(found, close, s->acceleration, zero, -one, h, order - 1, splat_mask(RELEASED));
     }
 #if OBLIQUE && STRINGS
-    vec angle = s->rotation[0], turn = reach(s->rotation, h, order);
-    LOOK(l->alive & ~(angle + turn < M_PI), s->rotation, splat(M_PI), -1.0, order, HALF_TURN, 0);
-    LOOK(l->alive & ~(s->orbit[0] > reach(s->orbit, h, order)), s->orbit, zero, 1.0, order, UNWINDS, 0);
+    close = l->alive & ~(s->rotation[0] + reach(s->rotation, h, order) < M_PI);
+    if (bits(close))
+        look(found, close, s->rotation, splat(M_PI), -one, h, order, splat_mask(HALF_TURN));
+    close = l->alive & ~(s->orbit[0] > reach(s->orbit, h, order));
+    if (bits(close))
+        look(found, close, s->orbit, zero, one, h, order, splat_mask(UNWINDS));
 #endif
 }
 
@@ -546,17 +543,18 @@ static void fly(queue *q)
             l.y[state][lane] = l.y[state][sound];
     }
     vec(*a)[TERMS] = (void *)&s;
+    unsigned turn = 0;
     while (bits(l.alive)) {
-        /* a stick is as good some steps later: the level is looked at after an event, and at every second step */
-        mask sticks = splat_mask(0), asked = l.alive & (l.fresh | ((l.steps & 1) == 0));
-        if (bits(asked)) {
+        /* a stick is as good a step later: the level is looked at in every second turn */
+        mask sticks = splat_mask(0);
+        if (turn++ % 2 == 0) {
 #if PROOF_BY_ENERGY
         sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
 #elif !OBLIQUE
         sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
 #endif
         }
-        for (unsigned proved = bits(asked & sticks); proved; proved &= proved - 1)
+        for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         if (!bits(l.alive))
             break;
