@@ -46,7 +46,7 @@ Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
 
 def order_for(rtol: float) -> int:
     """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
-    return min(max(round(-math.log10(rtol)), 8), LARGEST_ORDER)
+    return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
 
 
 def answers(
