@@ -95,7 +95,9 @@ def source(variant: Variant) -> str:
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [(_GENERATED / "laws" / f"{slot}_{law.replace('-', '_')}.h").read_text() for slot, law in choice.laws]
     parts.append((_GENERATED / f"{choice.structure}.h").read_text())
-    parts += [(_RUNTIME / name).read_text() for name in ("roots.h", "barrier.h", "lanes.h")]
+    parts += [
+        (_RUNTIME / name).read_text() for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "lanes.h")
+    ]
     return "\n".join(parts)
 
 

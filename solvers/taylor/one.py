@@ -14,7 +14,7 @@ from .engine import BUDGET, Impacts, flown
 from .library import HAPPENING, MOST_EVENTS
 
 _OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
-# In the order of runtime/lanes.h; a stop at a half turn or where the rotation reverses is among them.
+# In the order of runtime/queue.h; a stop at a half turn or where the rotation reverses is among them.
 _KINDS = (
     "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
     "rotation reverses", "half turn",
