@@ -20,7 +20,7 @@ from ..compiled import cache_folder, compiler
 from ..model import Choice
 
 # No -ffast-math: NaN and infinity are compared with. Products may be fused with sums; sqrt sets no errno.
-FLAGS = ("-O2", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
+FLAGS = ("-O2", "-funroll-loops", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
 _GENERATED = Path(__file__).resolve().parents[2] / "generated" / "taylor"
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 LARGEST_ORDER = 16
