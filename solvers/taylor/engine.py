@@ -111,12 +111,11 @@ def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int)
     """The kernel of a scene as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
     MOST_EVENTS a collision, or None).
     """
-    library = kernel(Variant(choose(scene, oblique), rotation))
+    rtol = min(rtol, _LOOSEST)
+    library = kernel(Variant(choose(scene, oblique), order_for(rtol), rotation))
     if library is None:
         return None
     wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()
-    rtol = min(rtol, _LOOSEST)
-    order = order_for(rtol)
 
     def fly(impacts: Impacts, made: np.ndarray, log: np.ndarray | None) -> None:
         given: dict[str, np.ndarray | float] = {"youngs_modulus": _RIGID, "poisson_ratio": 0.0}
@@ -126,7 +125,7 @@ def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int)
         pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
         varies = bytes(int(np.ndim(given[name])) for name in wanted)
         into = None if log is None else log.ctypes.data
-        size = library.collide(made.size, pointers, varies, rtol, order, budget, made.ctypes.data, into)
+        size = library.collide(made.size, pointers, varies, rtol, budget, made.ctypes.data, into)
         assert size == ANSWER.itemsize
 
     return fly

@@ -20,7 +20,17 @@ from ..compiled import cache_folder, compiler
 from ..model import Choice
 
 # No -ffast-math: NaN and infinity are compared with. Products may be fused with sums; sqrt sets no errno.
-FLAGS = ("-O2", "-funroll-loops", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
+FLAGS = (
+    "-O2",
+    "-funroll-loops",
+    "-march=native",
+    "-fno-math-errno",
+    "-ffp-contract=fast",
+    "-fPIC",
+    "-shared",
+    "-std=gnu11",
+    "-w",
+)
 _GENERATED = Path(__file__).resolve().parents[2] / "generated" / "taylor"
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 LARGEST_ORDER = 16
@@ -50,10 +60,12 @@ class Variant:
     """What a kernel is compiled for.
 
     Arguments:
+        order: of the series, 8 to LARGEST_ORDER.
         rotation: the angle turned is integrated along where it is no state.
     """
 
     choice: Choice
+    order: int
     rotation: bool = False
 
 
@@ -86,7 +98,8 @@ def source(variant: Variant) -> str:
     unproved = "shear" in slots and ("strings" in slots or "bridge" not in slots)
     settings = {
         "LANES": lanes(),
-        "TERMS": LARGEST_ORDER + 1,
+        "ORDER": variant.order,
+        "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
         "PROOF_BY_ENERGY": int(by_energy and not unproved),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
@@ -118,7 +131,7 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     loaded = ctypes.CDLL(str(library))
     loaded.collide.restype = ctypes.c_int
     pointer, number = ctypes.c_void_p, ctypes.c_int
-    loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, number, pointer, pointer]
+    loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, pointer]
     return loaded
 
 

@@ -58,7 +58,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("runtime")
     found = compiler()
     assert found is not None
-    text = f"#define LANES {library.lanes()}\n#define TERMS {ORDER + 1}\n"
+    text = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
     text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "roots.h"))
     (folder / "runtime.c").write_text(text + HARNESS)
     command = [found[0], *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]

@@ -7,44 +7,42 @@
  *
  * Only to some percent: the bits of a positive double, read as an integer, are nearly its logarithm.
  */
-static inline vec step_size(const series *s, const fixed *f, int order)
+static inline vec step_size(const series *s, const fixed *f)
 {
     const vec(*a)[TERMS] = (const void *)s;
     mask last = splat_mask(INT64_MAX), before = splat_mask(INT64_MAX);
     for (int state = 0; state < STATES; state++) {
         vec size = vec_abs(a[state][0]);
         vec scale = state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3;
-        mask own = (mask)scale - (mask)vec_abs(a[state][order]);
-        mask other = (mask)scale - (mask)vec_abs(a[state][order - 1]);
+        mask own = (mask)scale - (mask)vec_abs(a[state][ORDER]);
+        mask other = (mask)scale - (mask)vec_abs(a[state][ORDER - 1]);
         last = least(own, last);
         before = least(other, before);
     }
     const int64_t one = 0x3ff0000000000000;
     vec allowed = __builtin_convertvector((mask)f->tolerance - one, vec);
-    vec lower = (allowed + __builtin_convertvector(last, vec))*(1.0/order);
-    vec other = (allowed + __builtin_convertvector(before, vec))*(1.0/(order - 1));
+    vec lower = (allowed + __builtin_convertvector(last, vec))*(1.0/ORDER);
+    vec other = (allowed + __builtin_convertvector(before, vec))*(1.0/(ORDER - 1));
     vec power = vec_min(vec_min(lower, other), splat(60.0*4503599627370496.0));
     return (vec)(__builtin_convertvector(power, mask) + one);
 }
 
 /* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
-#define TERM(k) if (order == k) return; coefficients(s, c, film, shear, moving, k);
-#define GLASS_TERM(k) if (order < k) return; glass_coefficients(s, c, k);
-_Static_assert(TERMS == 17, "EVERY names all orders");
-#define EVERY(term) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
-    term(11) term(12) term(13) term(14) term(15)
+#define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
+#define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
+#define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
+    term(11) term(12) term(13) term(14) term(15) term(16)
+_Static_assert(ORDER <= 16, "EVERY names all orders");
 
-static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving, int order)
+static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
 {
-    coefficients(s, c, film, shear, moving, 0);
     EVERY(TERM)
+    s->acceleration[ORDER] = splat(0.0); /* known to one order less */
 }
 
-static __attribute__((noinline)) void expand_glass(series *s, const constants *c, int order)
+static __attribute__((noinline)) void expand_glass(series *s, const constants *c)
 {
-    glass_coefficients(s, c, 0);
     EVERY(GLASS_TERM)
-    GLASS_TERM(16)
 }
 
 static void fly(queue *q)
@@ -55,7 +53,6 @@ static void fly(queue *q)
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
     memset(&f, 0, sizeof f);
-    int order = q->order;
     EACH_LANE(lane) refill(q, &l, &f, lane);
     if (!bits(l.alive))
         return;
@@ -87,16 +84,16 @@ static void fly(queue *q)
             break;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, l.film, l.shear, ~l.resting, order);
+        expand(&s, &f.c, l.film, l.shear, ~l.resting);
         if (bits(l.alive & l.closing))
-            expand_glass(&s, &f.c, order);
-        vec h = only(l.alive, step_size(&s, &f, order));
+            expand_glass(&s, &f.c);
+        vec h = only(l.alive, step_size(&s, &f));
         first_event found;
-        find_events(&s, &l, &f, h, order, &found);
+        find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
         for (int state = 0; state < STATES; state++)
-            l.y[state] = choose(l.alive, sum_at(a[state], h, order), l.y[state]);
+            l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);
         mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
@@ -119,8 +116,7 @@ static void fly(queue *q)
  * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
  * log: MOST_EVENTS happenings a collision, or null.
  */
-int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int order, int budget,
-            answer *answers, happening *log)
+int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, happening *log)
 {
     queue q;
     memset(&q, 0, sizeof q);
@@ -130,7 +126,6 @@ int collide(long count, const double *const *quantities, const unsigned char *va
     q.answers = answers;
     q.log = log;
     q.count = count;
-    q.order = order < LARGEST_ORDER ? order : LARGEST_ORDER;
     q.budget = budget;
     fly(&q);
     return (int)sizeof(answer);

@@ -41,7 +41,7 @@ typedef struct {
     answer *answers;
     happening *log;
     long count, next;
-    int order, budget;
+    int budget;
     long queued, taken; /* collisions that are waiting, of `rows` */
     long waiting[LANES];
     double rows[LANES][sizeof(fixed)/sizeof(vec)];

@@ -4,7 +4,7 @@
  * halved. A double crossing is found, a graze decided, and no sampling is involved.
  */
 
-enum { LARGEST_ORDER = TERMS - 1, DEEPEST = 48 };
+enum { DEEPEST = 48 };
 static const double NO_ROOT = 2.0;
 
 /* 1/C(order, k): from powers to Bernstein coefficients on [0, 1]. */
