@@ -23,7 +23,8 @@ from .model import choose, load
 from .numbers import Numbers, numbers
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
-from .settings import RTOL
+from .settings import FEW, RTOL
+from .taylor.many import collided, patiently
 from .validity import warn
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 FAILED = -1
 _BLOCK = 50  # collisions a worker takes at a time
-_ALONE = 100  # fewer collisions are not worth starting workers or a compiler for
+_ALONE = FEW  # fewer collisions are not worth starting workers for
 
 Block = dict[str, np.ndarray]
 Finished = Callable[[np.ndarray, Block], None]
@@ -57,7 +58,7 @@ def collide_many(
         angle: impact angles in rad, 1-D or a single number; default the scene's.
         vary: other entries by dotted name (SI numbers), 1-D of the same length.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "rosenbrock" (default: compiled to C where there is a compiler) or "cvodes".
+        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
         of: what to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap.
 
     Returns:
@@ -101,6 +102,8 @@ def compute(request: Request, which: np.ndarray, finished: Finished) -> None:
 
     What it has been told stays told, whatever interrupts the rest.
     """
+    if request.engine == "taylor":
+        which = collided(request, which, _cores() if which.size > _ALONE else 1, finished)
     blocks = [which[k : k + _BLOCK] for k in range(0, which.size, _BLOCK)]
     cores = min(len(blocks), _cores())
     many = which.size > _ALONE
@@ -184,6 +187,9 @@ def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
         try:
             path = locate(model, n.groups, request.rtol, quadrature, machine_code)
         except ComputationError as error:
+            found = patiently(request.part(np.array([k]))) if request.engine == "taylor" else None
+            if found is not None:
+                return {name: column[0] for name, column in found.items()}
             raise n.in_si(error) from None
         return _kept(request.of, path, n)
     except WetDoubletError as error:

@@ -19,7 +19,7 @@ from .many import Block, compute, empty, fill, outcome_attributes
 from .numbers import si_values
 from .requests import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .scene import Scene
-from .settings import RTOL, check_engine, check_rtol
+from .settings import RTOL, bulk_engine, check_engine, check_rtol
 from .validity import warn
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def regime_map(
         angle: impact angles in rad, an axis or a single number; default the scene's.
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "rosenbrock" (default: compiled to C where there is a compiler) or "cvodes".
+        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
         of: restitution, tangential_restitution, rotation, contact_time, smallest_gap; by default all.
         progress: told of (collisions done, collisions in all) from time to time.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
@@ -113,7 +113,8 @@ def regime_map(
                [0, 1, 2]], dtype=int8)
     """
     grid = _grid(Scene.load(scene), stokes, speed, angle, vary or {})
-    request = grid.request(check_rtol(rtol), check_engine(engine) or "rosenbrock", check_of(of))
+    by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
+    request = grid.request(check_rtol(rtol), by, check_of(of))
     check_some_scene(request)
     warn(grid.scene)
     results = empty(request.size, request.of)

@@ -14,7 +14,7 @@ from .custom import Package, fields, unknown
 from .errors import InputError, did_you_mean
 from .scene import Scene
 from .schema import unknown_entry
-from .settings import check_engine, check_rtol
+from .settings import bulk_engine, check_engine, check_rtol
 
 QUANTITIES: dict[str, tuple[str, str]] = {
     "restitution": ("1", "normal restitution e_n"),
@@ -99,7 +99,7 @@ def requested(
         angle=full.pop("impact.angle"),
         vary=full,
         rtol=check_rtol(rtol),
-        engine=check_engine(engine) or "rosenbrock",
+        engine=bulk_engine(check_engine(engine), size, loaded),
         of=kept,
     )
     check_some_scene(request)

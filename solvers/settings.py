@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from .errors import InputError, did_you_mean
 from .schema import Field, Range
 
-ENGINES = ("cvodes", "rosenbrock")
+if TYPE_CHECKING:
+    from .scene import Scene
+
+ENGINES = ("cvodes", "rosenbrock", "taylor")
 RTOL = 1e-9  # unless something else is asked for
+FEW = 100  # collisions that are not worth a compiler
 _TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", lambda v: 1e-13 <= v <= 1e-3))
 
 
@@ -22,3 +28,15 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
     if not isinstance(engine, str) or engine not in ENGINES:
         raise InputError(label, engine, ", ".join(ENGINES), "is not known" + did_you_mean(engine, ENGINES))
     return engine
+
+
+def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
+    """The engine for `count` collisions of a scene, if it is not asked for: the Taylor kernel where they are not few.
+
+    What the kernel does not know, or a machine without a compiler, is Rosenbrock's, even where the kernel is asked for.
+    """
+    if asked not in (None, "taylor") or (asked is None and count <= FEW):
+        return asked or "rosenbrock"
+    from .taylor.library import knows
+
+    return "taylor" if knows(scene) else "rosenbrock"

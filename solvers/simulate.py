@@ -21,6 +21,7 @@ from .phases import Flow, Region
 from .result import Collision, Energy, Event
 from .scene import Scene
 from .settings import check_engine, check_rtol
+from .taylor.one import collision
 from .validity import warn
 
 if TYPE_CHECKING:
@@ -50,7 +51,8 @@ def collide(
         speed: its normal speed, m/s or a string with its unit. Either overrides the scene's.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
-        engine: "cvodes" or "rosenbrock"; None chooses (cvodes for one collision).
+        engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where it does not apply); None
+            chooses (cvodes for one collision). With "taylor", ledger, drift and trajectory are rosenbrock's.
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
 
@@ -74,10 +76,22 @@ def collide(
     v0, theta0 = loaded.need_impact()
     dimensionless = numbers(loaded, v0, theta0)
     said = warn(loaded)
-    with LOCK:
-        located, flown, flow, used = _compute(loaded, dimensionless, rtol, plugin, ledger, trajectory)
-        result = _result(loaded, dimensionless, located, flown, flow, plugin, used, trajectory)
+    by = _by_kernel if plugin == "taylor" else _by_casadi
+    result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory)
     return replace(result, warnings=said) if said else result
+
+
+def _by_casadi(scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool) -> Collision:
+    with LOCK:
+        located, flown, flow, used = _compute(scene, n, rtol, plugin, ledger, trajectory)
+        return _result(scene, n, located, flown, flow, plugin, used, trajectory)
+
+
+def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool, trajectory: bool) -> Collision:
+    """By the Taylor kernel; what it leaves out, and what it hands over, is Rosenbrock's."""
+    rest = _by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory) if ledger or trajectory else None
+    found = collision(scene, n, rtol, rest)
+    return found or rest or _by_casadi(scene, n, rtol, "rosenbrock", False, False)
 
 
 def _compute(

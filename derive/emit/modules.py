@@ -13,6 +13,8 @@ from ..model import Model
 from ..quantities import VOCABULARY
 from ..scaling import group_definitions, scale_definitions
 from .printer import Printer
+from .taylor import structure_header
+from .taylor_laws import law_header
 from .text import INDENT, assignment, docstring, module, needed, operations
 
 _PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
@@ -163,6 +165,16 @@ def _function(model: Model, name: str, printer: Printer) -> list[str]:
     lines.append(f"{INDENT}return {{")
     lines += [f'{INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]
     return [*lines, f"{INDENT}}}", ""]
+
+
+def law_kernel(law: Law) -> str:
+    """The C header of a law, for the Taylor kernel."""
+    return law_header(law, law_digest(law), _PROVENANCE)
+
+
+def structure_kernel(model: Model) -> str:
+    """The C header of a structure, for the Taylor kernel."""
+    return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, {}))
 
 
 def scaling_digest() -> str:

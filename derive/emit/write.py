@@ -9,17 +9,20 @@ from pathlib import Path
 
 from ..laws import LAWS
 from ..model import derive
-from ..structure import committed
+from ..structure import committed, structures
 from .assemble import ASSEMBLE
 from .modules import (
     _PROVENANCE,
     law_digest,
+    law_kernel,
     law_module,
     model_digest,
     scaling_digest,
     scaling_module,
+    structure_kernel,
     structure_module,
 )
+from .taylor_laws import fits
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
@@ -47,12 +50,16 @@ def emitted() -> dict[str, str]:
     for slot, laws in LAWS.items():
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
+            if fits(law):
+                files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     for structure in committed():
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
+        if structure in structures():
+            files[f"taylor/{structure.name}.h"] = structure_kernel(model)
         manifest["structures"][structure.name] = model_digest(model)
-    manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith(".py")}
+    manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return dict(sorted(files.items()))
 

@@ -13,7 +13,8 @@ import xarray as xr
 from wetdoublet.solvers import Scene, many, regime_map
 from wetdoublet.solvers.journal import Journal
 
-LARGE = ["map", "granulation", "--stokes", "log:0.005:0.5:60", "--angle", "1:85:60"]
+# slow enough to be interrupted
+LARGE = ["map", "granulation", "--stokes", "log:0.005:0.5:60", "--angle", "1:85:60", "--engine", "rosenbrock"]
 
 
 def test_journal(tmp_path):

@@ -1,0 +1,324 @@
+"""The C header of a structure: constants, Taylor recurrences of its flow, and what the lanes' driver asks of it."""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..forces import FILM, SHEAR
+from ..laws.base import is_slot_call
+from ..model import Model
+from ..quantities import VOCABULARY, opening
+from ..scaling import group_definitions
+from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_laws import signatures
+from .taylor_program import Program
+from .text import needed
+
+_FLAGS = (FILM, SHEAR)
+RESTING = "moving"  # mask: zero where the gap is held
+
+
+class Header:
+    """Text of one structure's header, built part by part around its constants."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, _FLAGS)
+        self.calls: dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]] = {}
+        self.flow = self._program("right_hand_side")
+        self.rates = dict(self._outputs)
+        self.turning: str | sp.Expr | None = None
+        if self.model.structure.oblique and not self.model.structure.strings:
+            self.turning = self._more(self.flow, self.model["turning_rate"].outputs)["rotation"]
+        self.work_rate: str | sp.Expr | None = None
+        self._work_operations: set[str] = set()
+        if self.model.structure.bridge:
+            wanted = [pair for pair in self.model["energy_rates"].outputs if pair[0] == "capillary"]
+            before = len(self.flow.operations)
+            self.work_rate = self._more(self.flow, tuple(wanted))["capillary"]
+            self._work_operations = {operation.name for operation in self.flow.operations[before:]}
+        self.made = Recurrences(self.flow, self.constants, lambda name: f"s->{name}")
+
+    # ---- programs
+
+    def _program(self, name: str) -> Program:
+        program = Program(self.model.states, lambda slot, call: signatures()[slot, call])
+        outputs = self.model[name].outputs
+        kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
+        for symbol, expression in kept:
+            program.define(symbol, expression)
+        self._outputs = {key: self._of(program, expression, f"rate_of_{key}") for key, expression in outputs}
+        return program
+
+    def _more(self, program: Program, outputs: tuple[tuple[str, sp.Expr], ...]) -> dict[str, str | sp.Expr]:
+        return {key: self._of(program, expression, f"rate_of_{key}") for key, expression in outputs}
+
+    @staticmethod
+    def _of(program: Program, expression: sp.Expr, name: str) -> str | sp.Expr:
+        expression = sp.sympify(expression)
+        return program.series(expression, name) if program.moves(expression) else expression
+
+    # ---- the whole
+
+    def text(self, digest: str, provenance: str, doc: str) -> str:
+        """The header."""
+        functions = [*self._coefficients(), *self._values()]
+        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines += ["", *comment(f"{doc}\n\nProducts of series: {self.flow.cost:g} and those of the laws."), ""]
+        lines += self._enumerations()
+        lines += [*self._constants(), *self._series(), *functions]
+        return "\n".join(lines).rstrip() + "\n"
+
+    def _enumerations(self) -> list[str]:
+        shape = self.model.structure
+        states = [state.name for state in self.model.states]
+        flags = {
+            "OBLIQUE": shape.oblique, "BRIDGE": shape.bridge, "STRINGS": shape.strings, "REDUCED": shape.reduced,
+        }  # fmt: skip
+        lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
+        if self.work_rate is not None:
+            lines += [
+                "#if defined(BRIDGE_FORCE_WORK)",
+                "#define CAPILLARY_STATE 0",
+                "#else",
+                "#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */",
+                "#endif",
+            ]
+        else:
+            lines.append("#define CAPILLARY_STATE 0")
+        lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
+        upper = ", ".join(state.upper() for state in states)
+        lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
+        lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };"]
+        lines += ["enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };"]
+        lines.append(f"enum {{ GROUPS = {len(self.model.groups)} }};")
+        return [*lines, ""]
+
+    def _constants(self) -> list[str]:
+        constants = self.constants
+        for name, (_, _, arguments) in self.calls.items():
+            for position, argument in enumerate(arguments):
+                if not isinstance(argument, str) and argument.free_symbols:
+                    constants.factor(argument, f"{name}_argument_{position + 1}")
+        lines = ["typedef struct {"]
+        lines += [f"    vec {group.name}; /* {VOCABULARY[group.name].meaning} */" for group in self.model.groups]
+        lines += [f"    vec {name};" for name in constants.prepared]
+        for name, (slot, call, _) in self.calls.items():
+            lines.append(f"    {slot}_{call}_constants {name};")
+        lines += ["    glass_pressure_clearance_constants glass;", "} constants;", ""]
+        body = [f"c->{name} = {constants.text.vector(value)};" for name, value in constants.prepared.items()]
+        for name, (slot, call, arguments) in self.calls.items():
+            passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
+            body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
+        body.append("glass_pressure_clearance_prepare(&c->glass, c->glass_number);")
+        return [
+            *lines,
+            *self._scaling(),
+            *comment("What is computed once a collision, from its groups."),
+            *function("static inline void prepare(constants *c)", body),
+            "",
+        ]
+
+    def _scaling(self) -> list[str]:
+        """The groups from SI quantities, whose names are exported in the order they are given in."""
+        definitions = group_definitions()
+        expressions = {group: definitions.get(group, group) for group in self.model.groups}
+        used = set().union(*(expression.free_symbols for expression in expressions.values()))
+        names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
+        text = Text(lambda symbol: f"q[SI_{symbol.name.upper()}]")
+        lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
+        lines += [
+            "const char quantity_names[] =",
+            *(f'    "{name} "' for name in names[:-1]),
+            f'    "{names[-1]}";',
+            "",
+        ]
+        body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
+        doc = "The groups of a collision from its quantities in SI."
+        return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+
+    def _passed(self, argument: sp.Expr) -> str:
+        text = self.constants.factor(argument, "argument")
+        return text if argument.free_symbols else f"splat({text})"
+
+    def _series(self) -> list[str]:
+        lines = ["typedef struct {"]
+        lines += [f"    vec {state.name}[TERMS]; /* {VOCABULARY[state.name].meaning} */" for state in self.model.states]
+        lines += ["#if CAPILLARY_STATE", "    vec capillary_work[TERMS];", "#endif"]
+        lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif"]
+        lines += [f"    {field}" for field in self.made.fields()]
+        lines += ["    vec acceleration[TERMS]; /* of the gap, were it not held */"]
+        lines += ["    vec approach[TERMS];", "    glass_pressure_clearance_series glass;"]
+        return [*lines, "} series;", ""]
+
+    def _coefficients(self) -> list[str]:
+        made, states = self.made, [state.name for state in self.model.states]
+        for operation in self.flow.operations:
+            if operation.kind == "call":
+                assert operation.call is not None
+                self.calls[operation.name] = operation.call
+        work = self._work_operations
+        body = []
+        for operation, line in zip(self.flow.operations, made.lines(), strict=True):
+            body += ["#if CAPILLARY_STATE", line, "#endif"] if operation.name in work else [line]
+        body.append("double next = 1.0/(k + 1);")
+        for name in states:
+            rate = self.rates[name]
+            if name == opening.name:
+                body.append(f"s->acceleration[k] = {self._rate(rate)};")
+                body.append("s->opening[k + 1] = only(moving, s->acceleration[k]*next);")
+            else:
+                body.append(f"s->{name}[k + 1] = {self._rate(rate)}*next;")
+        if self.work_rate is not None:
+            body += ["#if CAPILLARY_STATE", f"s->capillary_work[k + 1] = {self._rate(self.work_rate)}*next;", "#endif"]
+        if self.turning is not None:
+            body += ["#if TURNING_STATE", f"s->turned[k + 1] = {self._rate(self.turning)}*next;", "#endif"]
+        head = "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
+        doc = (
+            "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside "
+            "the tangential edge, else 0; the gap is held where not moving."
+        )
+        unused = "(void)film; (void)shear;"
+        glass = function(
+            "INLINE void glass_coefficients(series *s, const constants *c, int k)",
+            [
+                "s->approach[k] = -s->opening[k];",
+                "glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);",
+            ],
+        )
+        return [
+            *comment(doc), *function(head, [unused, *body]), "",
+            *comment("Coefficient k of the glass criterion's clearance."), *glass, "",
+            *function(
+                "static inline vec glass_clearance(const constants *c, const vec *y)",
+                ["return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);"],
+            ), "",
+        ]  # fmt: skip
+
+    def _rate(self, rate: str | sp.Expr) -> str:
+        if isinstance(rate, str):
+            return f"{self.made.array(rate)}[k]"
+        return f"(k == 0 ? {self.constants.text.vector(rate)} : splat(0.0))"
+
+    # ---- plain values
+
+    def _value(self, name: str, head: str, results: dict[str, str], doc: str | None = None) -> list[str]:
+        """A function of the states `y`; `results` maps outputs to C targets ('return' for the value itself)."""
+        outputs = [pair for pair in self.model[name].outputs if pair[0] in results]
+        return self._valued(outputs, head, results, doc or self.model[name].doc)
+
+    def _valued(self, outputs: list[tuple[str, sp.Expr]], head: str, results: dict[str, str], doc: str) -> list[str]:
+        program = Program(self.model.states, lambda slot, call: signatures()[slot, call])
+        kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
+        for symbol, expression in kept:
+            program.define(symbol, expression)
+        found = {key: self._of(program, sp.sympify(expression), key) for key, expression in outputs}
+        made = Recurrences(program, self.constants, lambda series: f"y[{series.upper()}]")
+        for operation in program.operations:
+            if operation.kind == "call":
+                assert operation.call is not None
+                self.calls.setdefault(operation.name, operation.call)
+        body = ["(void)c; (void)y;", *made.values()]
+        own = {operation.name for operation in program.operations}
+        for key, result in found.items():
+            if isinstance(result, str):
+                text = result if result in own else f"y[{result.upper()}]"
+            else:
+                text = self.constants.text.vector(result)
+            body.append(f"{results[key]} {text};" if results[key] == "return" else f"{results[key]} = {text};")
+        return [*comment(doc), *function(head, body), ""]
+
+    def _values(self) -> list[str]:
+        model, shape = self.model, self.model.structure
+        states = {state.name: f"y[{state.name.upper()}]" for state in model.states}
+        lines = self._value("start", "static inline void start(const constants *c, vec *y)", states)
+        after = {name: f"after[{name.upper()}]" for name in states}
+        lines += self._value(
+            "reversal", "static inline void reversal(const constants *c, const vec *y, vec *after)", after
+        )
+        lines += self._value(
+            "inward_force",
+            "static inline vec inward_force(const constants *c, const vec *y)",
+            {"inward_force": "return"},
+        )
+        total = [("energy", sp.Add(*(expression for _, expression in model["energies"].outputs)))]
+        lines += self._valued(
+            total,
+            "static inline vec stored_energy(const constants *c, const vec *y)",
+            {"energy": "return"},
+            model["energies"].doc + " Their sum.",
+        )
+        shown = {key: f"shown[{position}]" for position, (key, _) in enumerate(model["outputs"].outputs)}
+        lines.append(f"enum {{ OUTPUTS = {len(shown)} }};")
+        lines += self._value(
+            "outputs", "static inline void outputs(const constants *c, const vec *y, vec *shown)", shown
+        )
+        if any(each.name == "effective_potential" for each in model.functions):
+            lines += ["#define POTENTIAL 1"]
+            for key in ("energy", "slope"):
+                lines += self._value(
+                    "effective_potential",
+                    f"static inline vec potential_{key}(const constants *c, const vec *y)",
+                    {key: "return"},
+                )
+        if shape.bridge:
+            lines += self._work()
+        if not (shape.oblique or shape.bridge or shape.strings):
+            lines += self._momentum()
+        if shape.oblique:
+            edge = dict(model["events"].outputs)["tangential_edge"]
+            lines += self._edge(edge)
+        return lines
+
+    def _edge(self, event: sp.Expr) -> list[str]:
+        call = next(node for node in event.atoms(AppliedUndef) if is_slot_call(node))
+        text = self.constants.factor(call, "edge")
+        return [
+            *comment("Gap beyond which there is no tangential force."),
+            *function("static inline vec tangential_edge(const constants *c)", [f"return {text};"]),
+            "",
+        ]
+
+    def _work(self) -> list[str]:
+        """Capillary work from the law's antiderivative: the force over the rate at which its argument grows."""
+        force = next(value for symbol, value in self.model.definitions if symbol.name == "bridge_force")
+        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+        gap = self.model.states[0]
+        name = "bridge_force"
+        per = sp.cancel(force / call / call.args[0].diff(gap))
+        scale = self.constants.factor(call.args[0].diff(gap), "bridge_gap_factor")
+        factor = self.constants.factor(per, "bridge_work_factor")
+        return [
+            "#if !CAPILLARY_STATE",
+            *comment("Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap."),
+            *function(
+                "static inline vec capillary_work(const constants *c, vec gap)",
+                [f"return {factor}*{name}_work(&c->{self._call_name()}, {scale}*gap);"],
+            ),
+            "#endif",
+            "",
+        ]
+
+    def _momentum(self) -> list[str]:
+        """What the film takes of the opening velocity up to a gap: du/dx is minus its force over the velocity."""
+        force = next(value for symbol, value in self.model.definitions if symbol.name == "film_force").subs(FILM, 1)
+        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+        name = next(name for name, (slot, _, _) in self.calls.items() if slot == "film")
+        factor = self.constants.factor(sp.cancel(force / call / opening), "film_momentum_factor")
+        return [
+            *comment("Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap."),
+            *function(
+                "static inline vec film_momentum(const constants *c, vec gap)",
+                [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
+            ),
+            "",
+        ]
+
+    def _call_name(self) -> str:
+        return next(name for name, (slot, _, _) in self.calls.items() if slot == "bridge")
+
+
+def structure_header(model: Model, digest: str, provenance: str, doc: str) -> str:
+    """The C header of a structure."""
+    return Header(model).text(digest, provenance, doc)

@@ -1,0 +1,218 @@
+"""C headers of the laws: constants, recurrences and values of each function, and the work of a force where it closes.
+
+A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..laws.base import Law, LawFunction, is_slot_call
+from ..model import Model, derive
+from ..structure import structures
+from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_program import Program, cheapest
+from .taylor_work import antiderivative
+from .text import needed
+
+LIMIT = sp.Symbol("limit", positive=True)  # what an event compares a law's value with
+
+
+@cache
+def signatures() -> dict[tuple[str, str], tuple[bool, ...]]:
+    """For every slot function, which of its arguments move along a flight, as the structures call it."""
+    found: dict[tuple[str, str], tuple[bool, ...]] = {}
+    for structure in structures():
+        model = derive(structure)
+        moving = moving_symbols(model)
+        expressions = [value for _, value in model.definitions]
+        expressions += [value for each in model.functions if each.name != "tethered" for _, value in each.outputs]
+        for expression in expressions:
+            for node in sorted(sp.sympify(expression).atoms(AppliedUndef), key=sp.default_sort_key):
+                if is_slot_call(node):
+                    slot, name = node.func.__name__.split(".")
+                    moves = tuple(bool(argument.free_symbols & moving) for argument in node.args)
+                    before = found.setdefault((slot, name), moves)
+                    found[slot, name] = tuple(a or b for a, b in zip(before, moves, strict=True))
+    return found
+
+
+def moving_symbols(model: Model) -> set[sp.Symbol]:
+    """States, and definitions that depend on them."""
+    moving = set(model.states)
+    for symbol, expression in model.definitions:
+        if expression.free_symbols & moving:
+            moving.add(symbol)
+    return moving
+
+
+def compared() -> set[tuple[str, str]]:
+    """Slot functions that an event compares with a limit."""
+    return {("glass", "pressure")}
+
+
+def fits(law: Law) -> bool:
+    """Whether the kernel's structures call a law as it is: with these arguments, the same on approach and rebound."""
+    called = {each.name: signatures().get((law.slot, each.name)) for each in law.functions if not each.for_proof}
+    arguments = {each.name: len(each.arguments) for each in law.functions}
+    there = any(moves is not None for moves in called.values())
+    return (
+        there
+        and "suction" not in called
+        and all(moves is None or len(moves) == arguments[name] for name, moves in called.items())
+    )
+
+
+def law_header(law: Law, digest: str, provenance: str) -> str:
+    """The C header of a law."""
+    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+    lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
+    for each in law.functions:
+        moves = signatures().get((law.slot, each.name))
+        if moves is None or each.for_proof:
+            continue
+        lines += _function(law.slot, each, moves)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _function(slot: str, each: LawFunction, moves: tuple[bool, ...]) -> list[str]:
+    moving = tuple(argument for argument, moved in zip(each.arguments, moves, strict=True) if moved)
+    still = tuple(argument for argument, moved in zip(each.arguments, moves, strict=True) if not moved)
+    name = f"{slot}_{each.name}"
+    kept, _ = needed([each.result], each.definitions)
+    if not moving:
+        text = Text(lambda symbol: symbol.name)
+        arguments = ", ".join(f"vec {argument.name}" for argument in still) or "void"
+        body = [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+        return [
+            *comment(each.doc),
+            *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
+            "",
+        ]
+    if (slot, each.name) in compared():
+        return _clearance(name, each, kept, moving, still)
+    program, result = cheapest(each.result, kept, moving)
+    constants = Constants({argument: f"c->{argument.name}" for argument in still})
+    lines = _recurrences(name, each.doc, program, result, constants, moving)
+    work = _work(each, kept, moving, constants)
+    if work is not None:
+        lines += work_lines(name, work, constants, moving[0])
+    # what follows may hoist more constants, so the struct is written last
+    return [*_constants(name, constants, still), *lines]
+
+
+def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) -> list[str]:
+    names = [*(argument.name for argument in still), *constants.prepared]
+    fields = f"vec {', '.join(names)};" if names else "char none[0];"
+    arguments = "".join(f", vec {argument.name}" for argument in still)
+    body = [f"c->{argument.name} = {argument.name};" for argument in still]
+    body += [f"c->{key} = {constants.text.vector(value)};" for key, value in constants.prepared.items()]
+    return [
+        f"typedef struct {{ {fields} }} {name}_constants;",
+        "",
+        *function(f"static inline void {name}_prepare({name}_constants *c{arguments})", body or ["(void)c;"]),
+        "",
+    ]
+
+
+def _recurrences(
+    name: str,
+    doc: str,
+    program: Program,
+    result: str | sp.Expr,
+    constants: Constants,
+    moving: tuple[sp.Symbol, ...],
+) -> list[str]:
+    made = Recurrences(program, constants, lambda series: series)
+    own = [operation.name for operation in program.operations]
+    ending, value = [], ""
+    if isinstance(result, str) and result == "result" and own and own[-1] == "result":
+        value = "result"
+    elif isinstance(result, str):
+        ending, value = [f"s->result[k] = {made.array(result)}[k];"], result
+    else:
+        constant = constants.factor(result, "level")
+        ending = [f"s->result[k] = k == 0 ? splat({constant}) : splat(0.0);"]
+        value = f"splat({constant})"
+        if constant.startswith("c->"):
+            ending, value = [f"s->result[k] = k == 0 ? {constant} : splat(0.0);"], constant
+    fields = made.fields() + (["vec result[TERMS];"] if ending else [])
+    series_arguments = "".join(f", const vec *{argument.name}" for argument in moving)
+    value_arguments = "".join(f", vec {argument.name}" for argument in moving)
+    unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)c;"
+    return [
+        "typedef struct {",
+        *(f"    {field}" for field in fields),
+        f"}} {name}_series;",
+        "",
+        *comment(f"{doc} Coefficient k of its series; products of series: {program.cost:g}."),
+        *function(
+            f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series_arguments}, int k)",
+            [unused, *made.lines(), *ending],
+        ),
+        "",
+        *comment(doc),
+        *function(
+            f"static inline vec {name}_value(const {name}_constants *c{value_arguments})",
+            [unused, *made.values(), f"return {value};"],
+        ),
+        "",
+    ]
+
+
+def _work(
+    each: LawFunction,
+    kept: list[tuple[sp.Symbol, sp.Expr]],
+    moving: tuple[sp.Symbol, ...],
+    constants: Constants,
+) -> sp.Expr | None:
+    if each.name not in ("force", "resistance") or len(moving) != 1:
+        return None
+    force = each.result
+    for symbol, value in reversed(kept):
+        if value.free_symbols & {moving[0], *(s for s, v in kept if v.has(moving[0]))}:
+            force = force.subs(symbol, value)
+    for symbol, value in kept:
+        if not value.has(moving[0]):
+            constants.define(symbol, value)
+    return antiderivative(force, moving[0])
+
+
+def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol) -> list[str]:
+    """A function with the antiderivative of a force."""
+    program = Program((moving,))
+    result = program.series(work, "work")
+    made = Recurrences(program, constants, lambda series: series)
+    return [
+        f"#define {name.upper()}_WORK 1",
+        *comment("An antiderivative of it: work in closed form."),
+        *function(
+            f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})",
+            ["(void)c;", *made.values(), f"return {result};"],
+        ),
+        "",
+    ]
+
+
+def _clearance(
+    name: str,
+    each: LawFunction,
+    kept: list[tuple[sp.Symbol, sp.Expr]],
+    moving: tuple[sp.Symbol, ...],
+    still: tuple[sp.Symbol, ...],
+) -> list[str]:
+    """`limit - value` times the value's positive denominator: the same sign, and no division along a flight."""
+    result = each.result
+    for symbol, value in reversed(kept):
+        result = result.subs(symbol, value)
+    over, under = sp.fraction(sp.together(result))
+    positive = bool(under.is_positive)
+    clearance = LIMIT * under - over if positive else LIMIT - result
+    program, found = cheapest(sp.expand(clearance), (), moving)
+    constants = Constants({argument: f"c->{argument.name}" for argument in (*still, LIMIT)})
+    doc = f"Limit less value{', times the positive denominator' if positive else ''}: sign of the event function."
+    lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving)
+    return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]

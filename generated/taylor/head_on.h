@@ -1,0 +1,186 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5 */
+
+/* Head-on doublet with a film only.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass.
+ *
+ * Products of series: 1 and those of the laws. */
+
+#define OBLIQUE 0
+#define BRIDGE 0
+#define STRINGS 0
+#define REDUCED 0
+#define CAPILLARY_STATE 0
+#define TURNING_STATE (WITH_ROTATION && 0)
+
+enum { GAP, OPENING, MODEL_STATES };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+enum { GROUPS = 5 };
+
+typedef struct {
+    vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
+    vec glass_number; /* glass-transition pressure over 3 mu a v0/x0^2 */
+    vec elastic_gap; /* elastic length over film thickness */
+    vec rough_gap; /* roughness over film thickness */
+    vec dry_restitution; /* restitution of the dry contact */
+    vec film_force_factor;
+    vec opening_2_per_opening;
+    film_resistance_constants film_resistance_law;
+    glass_pressure_clearance_constants glass;
+} constants;
+
+enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SPEED, QUANTITIES };
+const char quantity_names[] =
+    "reduced_radius "
+    "reduced_mass "
+    "roughness "
+    "dry_restitution "
+    "youngs_modulus "
+    "poisson_ratio "
+    "viscosity "
+    "film_thickness "
+    "glass_transition_pressure "
+    "speed";
+
+/* The groups of a collision from its quantities in SI. */
+static inline void scale(constants *c, const vec *q)
+{
+    c->stokes =
+        0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
+    c->glass_number =
+        0.3333333333333333*(q[SI_FILM_THICKNESS]*q[SI_FILM_THICKNESS])*q[SI_GLASS_TRANSITION_PRESSURE]/(q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]);
+    c->elastic_gap =
+        1.148698354997035*1.5518455739153596*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]*(1.0
+        - (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+    c->rough_gap = q[SI_ROUGHNESS]/q[SI_FILM_THICKNESS];
+    c->dry_restitution = q[SI_DRY_RESTITUTION];
+}
+
+/* What is computed once a collision, from its groups. */
+static inline void prepare(constants *c)
+{
+    c->film_force_factor = 1.0/c->stokes;
+    c->opening_2_per_opening = -c->dry_restitution;
+    film_resistance_prepare(&c->film_resistance_law);
+    glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+}
+
+typedef struct {
+    vec gap[TERMS]; /* gap over film thickness */
+    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
+#if CAPILLARY_STATE
+    vec capillary_work[TERMS];
+#endif
+#if TURNING_STATE
+    vec turned[TERMS];
+#endif
+    film_resistance_series film_resistance_law;
+    vec film_force[TERMS];
+    vec rate_of_opening[TERMS];
+    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec approach[TERMS];
+    glass_pressure_clearance_series glass;
+} series;
+
+/* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
+ * the tangential edge, else 0; the gap is held where not moving. */
+INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
+{
+    (void)film; (void)shear;
+    film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
+    s->film_force[k] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result, k);
+    s->rate_of_opening[k] = -s->film_force[k];
+    double next = 1.0/(k + 1);
+    s->gap[k + 1] = s->opening[k]*next;
+    s->acceleration[k] = s->rate_of_opening[k];
+    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+}
+
+/* Coefficient k of the glass criterion's clearance. */
+INLINE void glass_coefficients(series *s, const constants *c, int k)
+{
+    s->approach[k] = -s->opening[k];
+    glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
+}
+
+static inline vec glass_clearance(const constants *c, const vec *y)
+{
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+}
+
+/* State at first touch. */
+static inline void start(const constants *c, vec *y)
+{
+    (void)c; (void)y;
+    y[GAP] = splat(1.0);
+    y[OPENING] = splat((-1.0));
+}
+
+/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
+static inline void reversal(const constants *c, const vec *y, vec *after)
+{
+    (void)c; (void)y;
+    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    after[GAP] = y[GAP];
+    after[OPENING] = opening_2;
+}
+
+/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+static inline vec inward_force(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    return splat(0.0);
+}
+
+/* Energies of the state over m v0^2. Their sum. */
+static inline vec stored_energy(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec energy = 0.5*opening_squared;
+    return energy;
+}
+
+enum { OUTPUTS = 1 };
+/* What a separated doublet shows: restitutions, and rates over omega0. */
+static inline void outputs(const constants *c, const vec *y, vec *shown)
+{
+    (void)c; (void)y;
+    shown[0] = y[OPENING];
+}
+
+#define POTENTIAL 1
+/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+ * slope with it. */
+static inline vec potential_energy(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    return splat(0.0);
+}
+
+/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+ * slope with it. */
+static inline vec potential_slope(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    return splat(0.0);
+}
+
+/* Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap. */
+static inline vec film_momentum(const constants *c, vec gap)
+{
+    return c->film_force_factor*film_resistance_work(&c->film_resistance_law, gap);
+}

@@ -1,0 +1,56 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 e2728e7698e6b442818266f09dd85d527a7cc4866ffddb7228c9011a4043ab76 */
+
+/* bridge law `mikami-log10`: mikami with decimal logarithms in B and C (closer to Young-Laplace for phi > 0).
+ *
+ * Source: Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998), read with log10. */
+
+typedef struct { vec volume, contact_angle, log_volume, decay, offset, tail, work_per_exp_of_combination; } bridge_force_constants;
+
+static inline void bridge_force_prepare(bridge_force_constants *c, vec volume, vec contact_angle)
+{
+    c->volume = volume;
+    c->contact_angle = contact_angle;
+    c->log_volume = vec_log(c->volume)/2.302585092994046;
+    c->decay = -1.1*vec_exp(0.53*vec_log(1.0/c->volume));
+    c->offset = (c->contact_angle*c->contact_angle)*(-0.34*c->log_volume - 0.96) + 0.48 - 0.019*c->log_volume;
+    c->tail = 0.0042*c->log_volume + 0.078;
+    c->work_per_exp_of_combination = 1.0/c->decay;
+}
+
+typedef struct {
+    vec combination[TERMS];
+    vec exp_of_combination[TERMS], slope_of_combination[TERMS];
+    vec result[TERMS];
+} bridge_force_series;
+
+/* Capillary attraction over pi R sigma. Coefficient k of its series; products of series: 1. */
+INLINE void bridge_force_next(bridge_force_series *s, const bridge_force_constants *c, const vec
+    *gap_over_radius, int k)
+{
+    (void)gap_over_radius; (void)c;
+    s->combination[k] = k == 0 ? c->decay*gap_over_radius[k] + c->offset : c->decay*gap_over_radius[k];
+    s->exp_of_combination[k] = exponential(s->combination, s->slope_of_combination, s->exp_of_combination, k);
+    s->result[k] = k == 0 ? s->exp_of_combination[k] + c->tail : s->exp_of_combination[k];
+}
+
+/* Capillary attraction over pi R sigma. */
+static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_over_radius)
+{
+    (void)gap_over_radius; (void)c;
+    vec combination = c->decay*gap_over_radius + c->offset;
+    vec exp_of_combination = vec_exp(combination);
+    vec result = exp_of_combination + c->tail;
+    return result;
+}
+
+#define BRIDGE_FORCE_WORK 1
+/* An antiderivative of it: work in closed form. */
+static inline vec bridge_force_work(const bridge_force_constants *c, vec gap_over_radius)
+{
+    (void)c;
+    vec combination = c->decay*gap_over_radius + c->offset;
+    vec exp_of_combination = vec_exp(combination);
+    vec work = c->tail*gap_over_radius + c->work_per_exp_of_combination*exp_of_combination;
+    return work;
+}

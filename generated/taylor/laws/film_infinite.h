@@ -1,0 +1,44 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 227e6ade3425ff1861e6455dd08fa217010a43e744e49f5687440666f0d08122 */
+
+/* film law `infinite`: no film correction: the pressure of an unbounded film, which ends where the surfaces
+ * leave it, x = x0.
+ *
+ * Source: Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002); derived: the limit x0 -> infinity of `finite`. */
+
+typedef struct { char none[0]; } film_resistance_constants;
+
+static inline void film_resistance_prepare(film_resistance_constants *c)
+{
+    (void)c;
+}
+
+typedef struct {
+    vec result[TERMS];
+} film_resistance_series;
+
+/* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). Coefficient k of its series;
+ * products of series: 1. */
+INLINE void film_resistance_next(film_resistance_series *s, const film_resistance_constants *c, const vec
+    *gap, int k)
+{
+    (void)gap; (void)c;
+    s->result[k] = reciprocal(gap, s->result, k);
+}
+
+/* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). */
+static inline vec film_resistance_value(const film_resistance_constants *c, vec gap)
+{
+    (void)gap; (void)c;
+    vec result = 1.0/gap;
+    return result;
+}
+
+#define FILM_RESISTANCE_WORK 1
+/* An antiderivative of it: work in closed form. */
+static inline vec film_resistance_work(const film_resistance_constants *c, vec gap)
+{
+    (void)c;
+    vec work = vec_log(gap);
+    return work;
+}

@@ -1,0 +1,41 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 36672a25b05cedaf9402710ddff628c5d822f6dfebbc6669f339bce1e845eb3b */
+
+/* glass law `film-corrected`: with the film's rim, 1/x^2 - 1/x0^2: zero at first touch.
+ *
+ * Source: Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure. */
+
+typedef struct { vec limit; } glass_pressure_clearance_constants;
+
+static inline void glass_pressure_clearance_prepare(glass_pressure_clearance_constants *c, vec limit)
+{
+    c->limit = limit;
+}
+
+typedef struct {
+    vec gap_squared[TERMS];
+    vec approach_by_gap_squared[TERMS];
+    vec result[TERMS];
+} glass_pressure_clearance_series;
+
+/* Limit less value, times the positive denominator: sign of the event function. Coefficient k of its series;
+ * products of series: 1.5. */
+INLINE void glass_pressure_clearance_next(glass_pressure_clearance_series *s, const
+    glass_pressure_clearance_constants *c, const vec *gap, const vec *approach, int k)
+{
+    (void)gap; (void)approach; (void)c;
+    s->gap_squared[k] = square(gap, k);
+    s->approach_by_gap_squared[k] = product(approach, s->gap_squared, k);
+    s->result[k] = s->approach_by_gap_squared[k] + c->limit*s->gap_squared[k] - approach[k];
+}
+
+/* Limit less value, times the positive denominator: sign of the event function. */
+static inline vec glass_pressure_clearance_value(const glass_pressure_clearance_constants *c, vec gap, vec
+    approach)
+{
+    (void)gap; (void)approach; (void)c;
+    vec gap_squared = gap*gap;
+    vec approach_by_gap_squared = approach*gap_squared;
+    vec result = approach_by_gap_squared + c->limit*gap_squared - approach;
+    return result;
+}

@@ -1,0 +1,348 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 c2744abbed573e941f258457259f8acdeff24c6d678cc0ff4384639f86cc703d */
+
+/* Oblique doublet with a liquid bridge.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - spin [omega0]: spin of each sphere over omega0
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - aspect [1]: film thickness over reduced radius, x0/a
+ * - obliquity [1]: tangent of the impact angle
+ * - capillary [1]: capillary number 3 mu a v0/(sigma x0)
+ * - volume [1]: bridge volume over R^3 (constant)
+ * - contact_angle [rad]: contact angle of the liquid on the sphere
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - rupture_gap [x0]: rupture distance over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass, shear, arm, bridge.
+ *
+ * Products of series: 8 and those of the laws. */
+
+#define OBLIQUE 1
+#define BRIDGE 1
+#define STRINGS 0
+#define REDUCED 0
+#if defined(BRIDGE_FORCE_WORK)
+#define CAPILLARY_STATE 0
+#else
+#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */
+#endif
+#define TURNING_STATE (WITH_ROTATION && 1)
+
+enum { GAP, OPENING, ORBIT, SPIN, MODEL_STATES };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+enum { GROUPS = 11 };
+
+typedef struct {
+    vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
+    vec aspect; /* film thickness over reduced radius, x0/a */
+    vec obliquity; /* tangent of the impact angle */
+    vec capillary; /* capillary number 3 mu a v0/(sigma x0) */
+    vec volume; /* bridge volume over R^3 (constant) */
+    vec contact_angle; /* contact angle of the liquid on the sphere */
+    vec glass_number; /* glass-transition pressure over 3 mu a v0/x0^2 */
+    vec elastic_gap; /* elastic length over film thickness */
+    vec rough_gap; /* roughness over film thickness */
+    vec rupture_gap; /* rupture distance over film thickness */
+    vec dry_restitution; /* restitution of the dry contact */
+    vec shear_force_factor;
+    vec centrifugal_force_factor;
+    vec film_force_factor;
+    vec scaled_gap_per_gap;
+    vec bridge_force_per_bridge_force_law;
+    vec rate_of_rotation_per_orbital_rate;
+    vec opening_2_per_opening;
+    vec energy_per_distance_squared_by_orbital_rate_squared;
+    vec energy_per_spin_squared;
+    vec tangential_restitution_factor;
+    vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
+    vec bridge_work_factor;
+    vec edge;
+    shear_log_factor_constants shear_log_factor_law;
+    film_resistance_constants film_resistance_law;
+    bridge_force_constants bridge_force_law;
+    arm_lever_constants arm_lever_law;
+    glass_pressure_clearance_constants glass;
+} constants;
+
+enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SURFACE_TENSION, SI_SPEED, SI_ANGLE, SI_VOLUME, SI_CONTACT_ANGLE, QUANTITIES };
+const char quantity_names[] =
+    "reduced_radius "
+    "reduced_mass "
+    "roughness "
+    "dry_restitution "
+    "youngs_modulus "
+    "poisson_ratio "
+    "viscosity "
+    "film_thickness "
+    "glass_transition_pressure "
+    "surface_tension "
+    "speed "
+    "angle "
+    "volume "
+    "contact_angle";
+
+/* The groups of a collision from its quantities in SI. */
+static inline void scale(constants *c, const vec *q)
+{
+    c->stokes =
+        0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
+    c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
+    c->obliquity = vec_tan(q[SI_ANGLE]);
+    c->capillary =
+        3.0*q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]/(q[SI_FILM_THICKNESS]*q[SI_SURFACE_TENSION]);
+    c->volume = q[SI_VOLUME];
+    c->contact_angle = q[SI_CONTACT_ANGLE];
+    c->glass_number =
+        0.3333333333333333*(q[SI_FILM_THICKNESS]*q[SI_FILM_THICKNESS])*q[SI_GLASS_TRANSITION_PRESSURE]/(q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]);
+    c->elastic_gap =
+        1.148698354997035*1.5518455739153596*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]*(1.0
+        - (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+    c->rough_gap = q[SI_ROUGHNESS]/q[SI_FILM_THICKNESS];
+    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*(0.5*q[SI_CONTACT_ANGLE] +
+        1.0)*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
+    c->dry_restitution = q[SI_DRY_RESTITUTION];
+}
+
+/* What is computed once a collision, from its groups. */
+static inline void prepare(constants *c)
+{
+    c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
+    c->centrifugal_force_factor = 0.0625*c->aspect*(c->obliquity*c->obliquity);
+    c->film_force_factor = 1.0/c->stokes;
+    c->scaled_gap_per_gap = 0.5*c->aspect;
+    c->bridge_force_per_bridge_force_law = 1.0/(c->capillary*c->stokes);
+    c->rate_of_rotation_per_orbital_rate = 0.25*c->aspect*c->obliquity;
+    c->opening_2_per_opening = -c->dry_restitution;
+    c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
+    c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
+    c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->slope_per_distance_by_momentum_squared_over_inertia_ratio_squared =
+        -0.0625*c->aspect*(c->obliquity*c->obliquity);
+    c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
+    c->edge = shear_edge(c->aspect);
+    shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
+    film_resistance_prepare(&c->film_resistance_law);
+    bridge_force_prepare(&c->bridge_force_law, c->volume, c->contact_angle);
+    arm_lever_prepare(&c->arm_lever_law);
+    glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+}
+
+typedef struct {
+    vec gap[TERMS]; /* gap over film thickness */
+    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
+    vec orbit[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec spin[TERMS]; /* spin of each sphere over omega0 */
+#if CAPILLARY_STATE
+    vec capillary_work[TERMS];
+#endif
+#if TURNING_STATE
+    vec turned[TERMS];
+#endif
+    vec distance[TERMS];
+    vec distance_squared[TERMS];
+    vec orbital_rate[TERMS];
+    vec over_orbital_rate;
+    vec slip[TERMS];
+    shear_log_factor_series shear_log_factor_law;
+    vec shear_force[TERMS];
+    vec orbital_rate_squared[TERMS];
+    vec centrifugal_force[TERMS];
+    film_resistance_series film_resistance_law;
+    vec film_force[TERMS];
+    vec scaled_gap[TERMS];
+    bridge_force_series bridge_force_law;
+    vec bridge_force[TERMS];
+    arm_lever_series arm_lever_law;
+    vec rate_of_opening[TERMS];
+    vec rate_of_orbit[TERMS];
+    vec rate_of_spin[TERMS];
+    vec rate_of_rotation[TERMS];
+    vec rate_of_capillary[TERMS];
+    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec approach[TERMS];
+    glass_pressure_clearance_series glass;
+} series;
+
+/* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
+ * the tangential edge, else 0; the gap is held where not moving. */
+INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
+{
+    (void)film; (void)shear;
+    s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
+    s->distance_squared[k] = square(s->distance, k);
+    s->orbital_rate[k] = quotient(s->orbit, s->distance_squared, s->orbital_rate, &s->over_orbital_rate, k);
+    s->slip[k] = s->orbital_rate[k] - s->spin[k];
+    shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
+    s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
+    s->orbital_rate_squared[k] = square(s->orbital_rate, k);
+    s->centrifugal_force[k] = c->centrifugal_force_factor*product(s->distance, s->orbital_rate_squared, k);
+    film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
+    s->film_force[k] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result, k);
+    s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
+    bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
+    s->bridge_force[k] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
+    arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
+    s->rate_of_opening[k] = s->centrifugal_force[k] - s->bridge_force[k] - s->film_force[k];
+    s->rate_of_orbit[k] = -product(s->distance, s->shear_force, k);
+    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
+#if CAPILLARY_STATE
+    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+#endif
+    double next = 1.0/(k + 1);
+    s->gap[k + 1] = s->opening[k]*next;
+    s->acceleration[k] = s->rate_of_opening[k];
+    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+    s->orbit[k + 1] = s->rate_of_orbit[k]*next;
+    s->spin[k + 1] = s->rate_of_spin[k]*next;
+#if CAPILLARY_STATE
+    s->capillary_work[k + 1] = s->rate_of_capillary[k]*next;
+#endif
+#if TURNING_STATE
+    s->turned[k + 1] = s->rate_of_rotation[k]*next;
+#endif
+}
+
+/* Coefficient k of the glass criterion's clearance. */
+INLINE void glass_coefficients(series *s, const constants *c, int k)
+{
+    s->approach[k] = -s->opening[k];
+    glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
+}
+
+static inline vec glass_clearance(const constants *c, const vec *y)
+{
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+}
+
+/* State at first touch. */
+static inline void start(const constants *c, vec *y)
+{
+    (void)c; (void)y;
+    y[GAP] = splat(1.0);
+    y[OPENING] = splat((-1.0));
+    y[ORBIT] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[SPIN] = splat(0.0);
+}
+
+/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
+static inline void reversal(const constants *c, const vec *y, vec *after)
+{
+    (void)c; (void)y;
+    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    after[GAP] = y[GAP];
+    after[OPENING] = opening_2;
+    after[ORBIT] = y[ORBIT];
+    after[SPIN] = y[SPIN];
+}
+
+/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+static inline vec inward_force(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
+    vec scaled_gap = c->scaled_gap_per_gap*y[GAP];
+    vec bridge_force_law = bridge_force_value(&c->bridge_force_law, scaled_gap);
+    vec bridge_force = c->bridge_force_per_bridge_force_law*bridge_force_law;
+    vec inward_force = bridge_force - centrifugal_force;
+    return inward_force;
+}
+
+/* Energies of the state over m v0^2. Their sum. */
+static inline vec stored_energy(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec spin_squared = y[SPIN]*y[SPIN];
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec energy =
+        c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
+        c->energy_per_spin_squared*spin_squared + 0.5*opening_squared;
+    return energy;
+}
+
+enum { OUTPUTS = 4 };
+/* What a separated doublet shows: restitutions, and rates over omega0. */
+static inline void outputs(const constants *c, const vec *y, vec *shown)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec tangential_restitution = c->tangential_restitution_factor*distance*orbital_rate;
+    shown[0] = y[OPENING];
+    shown[1] = tangential_restitution;
+    shown[2] = orbital_rate;
+    shown[3] = y[SPIN];
+}
+
+#define POTENTIAL 1
+/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+ * slope with it. */
+static inline vec potential_energy(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec distance_squared = distance*distance;
+    vec inertia_ratio = distance_squared + 6.4;
+    vec momentum_squared = momentum*momentum;
+    vec momentum_squared_over_inertia_ratio = momentum_squared/inertia_ratio;
+    vec energy = c->energy_per_distance_squared_by_orbital_rate_squared*momentum_squared_over_inertia_ratio;
+    return energy;
+}
+
+/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
+ * slope with it. */
+static inline vec potential_slope(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec distance_squared = distance*distance;
+    vec inertia_ratio = distance_squared + 6.4;
+    vec scaled_gap = c->scaled_gap_per_gap*y[GAP];
+    vec bridge_force_law = bridge_force_value(&c->bridge_force_law, scaled_gap);
+    vec bridge_force = c->bridge_force_per_bridge_force_law*bridge_force_law;
+    vec momentum_squared = momentum*momentum;
+    vec distance_by_momentum_squared = distance*momentum_squared;
+    vec inertia_ratio_squared = inertia_ratio*inertia_ratio;
+    vec distance_by_momentum_squared_over_inertia_ratio_squared =
+        distance_by_momentum_squared/inertia_ratio_squared;
+    vec slope =
+        c->slope_per_distance_by_momentum_squared_over_inertia_ratio_squared*distance_by_momentum_squared_over_inertia_ratio_squared
+        + bridge_force;
+    return slope;
+}
+
+#if !CAPILLARY_STATE
+/* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */
+static inline vec capillary_work(const constants *c, vec gap)
+{
+    return c->bridge_work_factor*bridge_force_work(&c->bridge_force_law, c->scaled_gap_per_gap*gap);
+}
+#endif
+
+/* Gap beyond which there is no tangential force. */
+static inline vec tangential_edge(const constants *c)
+{
+    return c->edge;
+}

@@ -1,0 +1,325 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 f3a01cf791d429399e062b7337c5ca807169f2c95c143da4673d3d442fc3cc9f */
+
+/* Oblique doublet with pendulum strings.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - spin [omega0]: spin of each sphere over omega0
+ * - rotation [rad]: angle turned by the line of centres
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - aspect [1]: film thickness over reduced radius, x0/a
+ * - obliquity [1]: tangent of the impact angle
+ * - weight [1]: gravity over impact deceleration, g x0/v0^2
+ * - string_ratio [1]: string length over reduced radius
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass, shear, arm, strings.
+ *
+ * Products of series: 14 and those of the laws. */
+
+#define OBLIQUE 1
+#define BRIDGE 0
+#define STRINGS 1
+#define REDUCED 0
+#define CAPILLARY_STATE 0
+#define TURNING_STATE (WITH_ROTATION && 0)
+
+enum { GAP, OPENING, ORBIT, SPIN, ROTATION, MODEL_STATES };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+enum { GROUPS = 9 };
+
+typedef struct {
+    vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
+    vec aspect; /* film thickness over reduced radius, x0/a */
+    vec obliquity; /* tangent of the impact angle */
+    vec weight; /* gravity over impact deceleration, g x0/v0^2 */
+    vec string_ratio; /* string length over reduced radius */
+    vec glass_number; /* glass-transition pressure over 3 mu a v0/x0^2 */
+    vec elastic_gap; /* elastic length over film thickness */
+    vec rough_gap; /* roughness over film thickness */
+    vec dry_restitution; /* restitution of the dry contact */
+    vec shear_force_factor;
+    vec centrifugal_force_factor;
+    vec film_force_factor;
+    vec offset_squared_per_gap_squared;
+    vec string_sideways_factor;
+    vec rate_of_rotation_per_orbital_rate;
+    vec opening_2_per_opening;
+    vec energy_per_distance_squared_by_orbital_rate_squared;
+    vec energy_per_spin_squared;
+    vec energy_per_strings_rise_law;
+    vec tangential_restitution_factor;
+    vec edge;
+    shear_log_factor_constants shear_log_factor_law;
+    film_resistance_constants film_resistance_law;
+    strings_stiffness_constants strings_stiffness_law;
+    arm_lever_constants arm_lever_law;
+    strings_rise_constants strings_rise_law;
+    glass_pressure_clearance_constants glass;
+} constants;
+
+enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_STRING_LENGTH, SI_GRAVITY, SI_SPEED, SI_ANGLE, QUANTITIES };
+const char quantity_names[] =
+    "reduced_radius "
+    "reduced_mass "
+    "roughness "
+    "dry_restitution "
+    "youngs_modulus "
+    "poisson_ratio "
+    "viscosity "
+    "film_thickness "
+    "glass_transition_pressure "
+    "string_length "
+    "gravity "
+    "speed "
+    "angle";
+
+/* The groups of a collision from its quantities in SI. */
+static inline void scale(constants *c, const vec *q)
+{
+    c->stokes =
+        0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
+    c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
+    c->obliquity = vec_tan(q[SI_ANGLE]);
+    c->weight = q[SI_FILM_THICKNESS]*q[SI_GRAVITY]/(q[SI_SPEED]*q[SI_SPEED]);
+    c->string_ratio = q[SI_STRING_LENGTH]/q[SI_REDUCED_RADIUS];
+    c->glass_number =
+        0.3333333333333333*(q[SI_FILM_THICKNESS]*q[SI_FILM_THICKNESS])*q[SI_GLASS_TRANSITION_PRESSURE]/(q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]);
+    c->elastic_gap =
+        1.148698354997035*1.5518455739153596*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]*(1.0
+        - (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+    c->rough_gap = q[SI_ROUGHNESS]/q[SI_FILM_THICKNESS];
+    c->dry_restitution = q[SI_DRY_RESTITUTION];
+}
+
+/* What is computed once a collision, from its groups. */
+static inline void prepare(constants *c)
+{
+    c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
+    c->centrifugal_force_factor = 0.0625*c->aspect*(c->obliquity*c->obliquity);
+    c->film_force_factor = 1.0/c->stokes;
+    c->offset_squared_per_gap_squared = 0.25*(c->aspect*c->aspect);
+    c->string_sideways_factor = 16.0*c->weight/c->obliquity;
+    c->rate_of_rotation_per_orbital_rate = 0.25*c->aspect*c->obliquity;
+    c->opening_2_per_opening = -c->dry_restitution;
+    c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
+    c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
+    c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
+    c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->edge = shear_edge(c->aspect);
+    shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
+    film_resistance_prepare(&c->film_resistance_law);
+    strings_stiffness_prepare(&c->strings_stiffness_law, c->string_ratio);
+    arm_lever_prepare(&c->arm_lever_law);
+    strings_rise_prepare(&c->strings_rise_law, c->string_ratio);
+    glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+}
+
+typedef struct {
+    vec gap[TERMS]; /* gap over film thickness */
+    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
+    vec orbit[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec spin[TERMS]; /* spin of each sphere over omega0 */
+    vec rotation[TERMS]; /* angle turned by the line of centres */
+#if CAPILLARY_STATE
+    vec capillary_work[TERMS];
+#endif
+#if TURNING_STATE
+    vec turned[TERMS];
+#endif
+    vec distance[TERMS];
+    vec distance_squared[TERMS];
+    vec orbital_rate[TERMS];
+    vec over_orbital_rate;
+    vec slip[TERMS];
+    shear_log_factor_series shear_log_factor_law;
+    vec shear_force[TERMS];
+    vec orbital_rate_squared[TERMS];
+    vec centrifugal_force[TERMS];
+    film_resistance_series film_resistance_law;
+    vec film_force[TERMS];
+    vec gap_squared[TERMS];
+    vec scaled_rotation[TERMS];
+    vec sine_of_scaled_rotation[TERMS], slope_of_scaled_rotation[TERMS];
+    vec cosine_of_scaled_rotation[TERMS];
+    vec sine_of_scaled_rotation_squared[TERMS];
+    vec distance_by_sine_of_scaled_rotation_squared[TERMS];
+    vec offset_squared[TERMS];
+    vec combination[TERMS];
+    strings_stiffness_series strings_stiffness_law;
+    vec string_pull[TERMS];
+    vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec string_sideways[TERMS];
+    arm_lever_series arm_lever_law;
+    vec rate_of_opening[TERMS];
+    vec combination_2[TERMS];
+    vec rate_of_orbit[TERMS];
+    vec rate_of_spin[TERMS];
+    vec rate_of_rotation[TERMS];
+    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec approach[TERMS];
+    glass_pressure_clearance_series glass;
+} series;
+
+/* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
+ * the tangential edge, else 0; the gap is held where not moving. */
+INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
+{
+    (void)film; (void)shear;
+    s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
+    s->distance_squared[k] = square(s->distance, k);
+    s->orbital_rate[k] = quotient(s->orbit, s->distance_squared, s->orbital_rate, &s->over_orbital_rate, k);
+    s->slip[k] = s->orbital_rate[k] - s->spin[k];
+    shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
+    s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
+    s->orbital_rate_squared[k] = square(s->orbital_rate, k);
+    s->centrifugal_force[k] = c->centrifugal_force_factor*product(s->distance, s->orbital_rate_squared, k);
+    film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
+    s->film_force[k] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result, k);
+    s->gap_squared[k] = square(s->gap, k);
+    s->scaled_rotation[k] = 0.5*s->rotation[k];
+    circular(s->scaled_rotation, s->slope_of_scaled_rotation, s->sine_of_scaled_rotation,
+        s->cosine_of_scaled_rotation, k);
+    /* cosine_of_scaled_rotation comes with its sine */
+    s->sine_of_scaled_rotation_squared[k] = square(s->sine_of_scaled_rotation, k);
+    s->distance_by_sine_of_scaled_rotation_squared[k] = product(s->distance,
+        s->sine_of_scaled_rotation_squared, k);
+    s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[k] +
+        4.0*s->distance_by_sine_of_scaled_rotation_squared[k];
+    s->combination[k] = c->aspect*s->gap[k] + 8.0*s->sine_of_scaled_rotation_squared[k];
+    strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
+    s->string_pull[k] = c->weight*product(s->combination, s->strings_stiffness_law.result, k);
+    s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] = 2.0*product(s->sine_of_scaled_rotation,
+        s->cosine_of_scaled_rotation, k);
+    s->string_sideways[k] = c->string_sideways_factor*product(s->strings_stiffness_law.result,
+        s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
+    arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
+    s->rate_of_opening[k] = s->centrifugal_force[k] - s->film_force[k] - s->string_pull[k];
+    s->combination_2[k] = s->shear_force[k] + s->string_sideways[k];
+    s->rate_of_orbit[k] = -product(s->distance, s->combination_2, k);
+    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
+    double next = 1.0/(k + 1);
+    s->gap[k + 1] = s->opening[k]*next;
+    s->acceleration[k] = s->rate_of_opening[k];
+    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+    s->orbit[k + 1] = s->rate_of_orbit[k]*next;
+    s->spin[k + 1] = s->rate_of_spin[k]*next;
+    s->rotation[k + 1] = s->rate_of_rotation[k]*next;
+}
+
+/* Coefficient k of the glass criterion's clearance. */
+INLINE void glass_coefficients(series *s, const constants *c, int k)
+{
+    s->approach[k] = -s->opening[k];
+    glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
+}
+
+static inline vec glass_clearance(const constants *c, const vec *y)
+{
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+}
+
+/* State at first touch. */
+static inline void start(const constants *c, vec *y)
+{
+    (void)c; (void)y;
+    y[GAP] = splat(1.0);
+    y[OPENING] = splat((-1.0));
+    y[ORBIT] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[SPIN] = splat(0.0);
+    y[ROTATION] = splat(0.0);
+}
+
+/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
+static inline void reversal(const constants *c, const vec *y, vec *after)
+{
+    (void)c; (void)y;
+    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    after[GAP] = y[GAP];
+    after[OPENING] = opening_2;
+    after[ORBIT] = y[ORBIT];
+    after[SPIN] = y[SPIN];
+    after[ROTATION] = y[ROTATION];
+}
+
+/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+static inline vec inward_force(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
+    vec gap_squared = y[GAP]*y[GAP];
+    vec scaled_rotation = 0.5*y[ROTATION];
+    vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
+    vec cosine_of_scaled_rotation = vec_cos(scaled_rotation);
+    vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
+    vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
+    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
+        4.0*distance_by_sine_of_scaled_rotation_squared;
+    vec combination = c->aspect*y[GAP] + 8.0*sine_of_scaled_rotation_squared;
+    vec strings_stiffness_law = strings_stiffness_value(&c->strings_stiffness_law, offset_squared);
+    vec string_pull = c->weight*combination*strings_stiffness_law;
+    vec inward_force = string_pull - centrifugal_force;
+    return inward_force;
+}
+
+/* Energies of the state over m v0^2. Their sum. */
+static inline vec stored_energy(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec gap_squared = y[GAP]*y[GAP];
+    vec scaled_rotation = 0.5*y[ROTATION];
+    vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
+    vec cosine_of_scaled_rotation = vec_cos(scaled_rotation);
+    vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
+    vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
+    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
+        4.0*distance_by_sine_of_scaled_rotation_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec spin_squared = y[SPIN]*y[SPIN];
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
+    vec energy =
+        c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
+        c->energy_per_spin_squared*spin_squared + 0.5*opening_squared +
+        c->energy_per_strings_rise_law*strings_rise_law;
+    return energy;
+}
+
+enum { OUTPUTS = 4 };
+/* What a separated doublet shows: restitutions, and rates over omega0. */
+static inline void outputs(const constants *c, const vec *y, vec *shown)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec tangential_restitution = c->tangential_restitution_factor*distance*orbital_rate;
+    shown[0] = y[OPENING];
+    shown[1] = tangential_restitution;
+    shown[2] = orbital_rate;
+    shown[3] = y[SPIN];
+}
+
+/* Gap beyond which there is no tangential force. */
+static inline vec tangential_edge(const constants *c)
+{
+    return c->edge;
+}

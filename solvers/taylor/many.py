@@ -1,0 +1,137 @@
+"""A request for many collisions, through the kernel: columns of SI quantities in, columns of results out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...generated import scaling
+from ..errors import InputError
+from ..numbers import si_values
+from ..requests import Request
+from .engine import PATIENT, Impacts, answers
+
+Block = dict[str, np.ndarray]
+_STRETCH = 65536  # collisions between two signs of life; memory stays flat
+# Entries that are a quantity of the model as they stand, and those that are twice one.
+_PLAIN = {
+    "particles.reduced_radius": 1.0,
+    "particles.radius": 0.5,
+    "particles.reduced_mass": 1.0,
+    "particles.mass": 0.5,
+    **dict.fromkeys(("particles.roughness", "particles.dry_restitution"), 1.0),
+    **dict.fromkeys(("particles.youngs_modulus", "particles.poisson_ratio"), 1.0),
+    **dict.fromkeys(("liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure"), 1.0),
+    **dict.fromkeys(("bridge.surface_tension", "bridge.volume", "bridge.contact_angle"), 1.0),
+    **dict.fromkeys(("pendulum.length", "pendulum.gravity"), 1.0),
+}
+_RENAMED = {
+    "radius": "reduced_radius",
+    "mass": "reduced_mass",
+    "length": "string_length",
+}
+_NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall judge
+
+
+def collided(
+    request: Request, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
+) -> np.ndarray:
+    """Collide the collisions `which` of a request; returns those that are for other engines to do.
+
+    Arguments:
+        finished: told of every block that is done.
+    """
+    left = []
+    for first in range(0, which.size, _STRETCH):
+        part = which[first : first + _STRETCH]
+        impacts, sound = _impacts(request.part(part))
+        found = answers(impacts, request.rtol, "rotation" in request.of, threads)
+        if found is None:
+            return which
+        done = sound.copy()
+        done[sound] = found["status"] <= 1
+        kept = found["status"] <= 1
+        finished(part[done], _block(request, found[kept], impacts.part(kept)))
+        left.append(part[~done])
+    return np.concatenate(left) if left else which
+
+
+def patiently(request: Request) -> Block | None:
+    """Collide collisions that everything else has failed on, however many steps it takes; None if that fails too."""
+    impacts, sound = _impacts(request)
+    if not sound.all():
+        return None
+    found = answers(impacts, request.rtol, "rotation" in request.of, budget=PATIENT)
+    if found is None or (found["status"] > 1).any():
+        return None
+    return _block(request, found, impacts)
+
+
+def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:
+    """The impacts of a request in SI, and which collisions they are: the others are bad input, or may be."""
+    scene = request.scene
+    if not request.vary:
+        speed = request.speed if request.speed is not None else np.asarray(request.stokes) / scene.stokes_per_speed
+        return Impacts(scene, speed, request.angle, {}), np.ones(request.size, bool)
+    quick = all(name in _PLAIN for name in request.vary) and not any(
+        given == "particles.density" for given, _ in scene.given
+    )
+    values, sound = _quickly(request) if quick else _one_by_one(request)
+    unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+    speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
+    impacts = Impacts(scene, speed, request.angle, values)
+    return impacts.part(np.flatnonzero(sound)), sound
+
+
+def _quickly(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    values = {name: np.full(request.size, value) for name, value in si_values(request.scene, None, None).items()}
+    for name, column in request.vary.items():
+        own = name.partition(".")[2]
+        values[_RENAMED.get(own, own)] = column * _PLAIN[name]
+    film = values["film_thickness"]
+    sound = values["roughness"] < film * (1 - _NEAR)
+    rupture = film
+    if request.scene.bridge is not None:
+        gap = scaling.rupture_gap(values["reduced_radius"], film, values["volume"], values["contact_angle"])
+        sound &= (gap > 1 + _NEAR) & np.isfinite(gap)
+        rupture = gap * film
+    if request.scene.pendulum is not None:
+        sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
+    return values, sound
+
+
+def _one_by_one(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """By way of the scene of every collision: entries that others are made of."""
+    rows, sound = [], np.ones(request.size, bool)
+    for k in range(request.size):
+        try:
+            rows.append(si_values(request.scene_of(k), None, None))
+        except InputError:
+            sound[k] = False
+            rows.append(rows[-1] if rows else si_values(request.scene, None, None))
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}, sound
+
+
+def _block(request: Request, found: np.ndarray, impacts: Impacts) -> Block:
+    """Answers as the columns of a result."""
+    separated = found["outcome"] > 0
+    thickness = impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
+    oblique = impacts.angle > 0
+
+    def where(defined: np.ndarray, values: np.ndarray) -> np.ndarray:
+        return np.where(defined, values, np.nan)
+
+    columns = {
+        "tangential_restitution": where(separated & oblique, found["shown"][:, 1]),
+        "contact_time": where(separated, found["time"] * thickness / impacts.speed),
+        "smallest_gap": where(separated, found["smallest_gap"] * thickness),
+        "rotation": where(separated, found["turned"]),
+    }
+    block: Block = {
+        "outcome": found["outcome"].astype(np.int8),
+        "certified": found["certified"] != 0,
+        "restitution": np.where(separated, found["shown"][:, 0], 0.0),
+        "reason": np.full(found.size, "", dtype=object),
+    }
+    return block | {name: column for name, column in columns.items() if name in request.of}

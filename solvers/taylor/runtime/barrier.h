@@ -1,0 +1,215 @@
+/* Barriers of the effective potential, and the level of energy below which a stick is proved.
+ *
+ * Any gap ahead whose potential exceeds the energy proves the stick, so a maximum that the grid steps over costs proofs
+ * and never makes a wrong one.
+ */
+
+typedef struct {
+    vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
+    vec far_gap, far_height;   /* heights count the capillary work from first touch; -infinity where there is none */
+#if SURFACE_ARM
+    vec near_energy, far_energy; /* the part of the heights that depends on angular momentum */
+#endif
+    vec largest;               /* energy at first touch */
+    vec touch;                 /* capillary work at first touch */
+} barrier;
+
+static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificate.py has it */
+
+#if defined(POTENTIAL)
+enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grids in the film and beyond, steps to a maximum */
+
+static vec slope_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return potential_slope(c, there);
+}
+
+static vec energy_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return potential_energy(c, there);
+}
+
+#if CAPILLARY_STATE
+static const double NODES[6] = {
+    0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
+    0.769902674194304687, 0.904117256370474857, 0.981560634246719251};
+static const double WEIGHTS[6] = {
+    0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
+    0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
+
+/* Capillary work from first touch to a gap, by Gauss-Legendre panels in ln(gap): potential without rotation. */
+static vec height_at(const constants *c, const vec *y, vec gap)
+{
+    vec whole = vec_log(gap);
+    double longest = 0.0;
+    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
+    int panels = 2 + (int)(2.0*longest);
+    vec half = whole*(0.5/panels), sum = splat(0.0);
+    for (int panel = 0; panel < panels; panel++)
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            vec here = vec_exp(half*(2*panel + 1 + place));
+            sum += WEIGHTS[node % 6]*slope_at(c, y, here)*here;
+        }
+    return energy_at(c, y, splat(1.0)) + sum*half;
+}
+#else
+static vec height_at(const constants *c, const vec *y, vec gap)
+{
+    vec height = energy_at(c, y, gap);
+#if BRIDGE
+    height += capillary_work(c, gap) - capillary_work(c, splat(1.0));
+#endif
+    return height;
+}
+#endif
+
+/* Where the slope falls through zero between low and high, a few halvings from a maximum's width. */
+static vec summit(const constants *c, const vec *y, vec low, vec high)
+{
+    vec at_low = slope_at(c, y, low), at_high = slope_at(c, y, high);
+    for (int count = 0; count < HALVINGS; count++) {
+        vec middle = low + (high - low)*(at_low/(at_low - at_high));
+        middle = choose((middle > low) & (middle < high), middle, 0.5*(low + high));
+        vec slope = slope_at(c, y, middle);
+        mask rising = slope > 0.0;
+        /* Illinois: an end kept twice counts half */
+        at_high = choose(rising, 0.5*at_high, slope);
+        at_low = choose(rising, slope, 0.5*at_low);
+        low = choose(rising, middle, low);
+        high = choose(rising, high, middle);
+    }
+    return 0.5*(low + high);
+}
+
+static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *found)
+{
+    vec none = splat(-INFINITY);
+    vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
+    vec ratio = vec_exp(vec_log(start)*(-1.0/INNER)), width = (end - 1.0)*(1.0/OUTER);
+    vec low = start, slope = slope_at(c, y, start);
+    vec lower[2] = {start, start}, upper[2] = {start, start};
+    mask first = splat_mask(0), second = splat_mask(0);
+    for (int k = 1; k <= INNER + OUTER; k++) {
+        vec high = k < INNER ? low*ratio : k == INNER ? splat(1.0) : k < INNER + OUTER ? low + width : end;
+        vec next = slope_at(c, y, high);
+        mask top = (slope > 0.0) & (next <= 0.0);
+        mask own = top & ~first;
+        lower[0] = choose(own, low, lower[0]);
+        upper[0] = choose(own, high, upper[0]);
+        mask other = top & first; /* the last one met is kept */
+        lower[1] = choose(other, low, lower[1]);
+        upper[1] = choose(other, high, upper[1]);
+        first |= top;
+        second |= other;
+        low = high;
+        slope = next;
+    }
+    mask rim = slope > 0.0;
+    found->near_gap = found->far_gap = splat(0.0);
+    found->near_height = found->far_height = none;
+    if (bits(first)) {
+        found->near_gap = summit(c, y, lower[0], upper[0]);
+        found->near_height = choose(first, height_at(c, y, vec_max(found->near_gap, start)), none);
+    }
+    if (bits(second)) {
+        vec gap = summit(c, y, lower[1], upper[1]);
+        found->far_gap = gap;
+        found->far_height = choose(second, height_at(c, y, vec_max(gap, start)), none);
+    }
+    if (bits(rim)) { /* the rim is the outermost: it replaces the second maximum unless that is higher */
+        vec height = choose(rim, height_at(c, y, end), none);
+        mask higher = height > found->far_height;
+        found->far_gap = choose(higher, end, found->far_gap);
+        found->far_height = choose(higher, height, found->far_height);
+    }
+    mask hidden = ~(found->near_height > found->far_height);
+    found->near_gap = choose(hidden, found->far_gap, found->near_gap);
+    found->near_height = choose(hidden, found->far_height, found->near_height);
+#if SURFACE_ARM
+    found->near_energy = energy_at(c, y, found->near_gap);
+    found->far_energy = energy_at(c, y, found->far_gap);
+#endif
+}
+
+#if SURFACE_ARM
+/* Angular momentum drifts: heights are of the present one, at the gaps found for the first, less what the drift can
+ * still do. |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
+ * slip, and while the doublet breathes by the change of the rigid rate L/I. Energy and barrier move by omega dL. */
+static vec height_now(const constants *c, const vec *y, vec gap, vec first_height, vec first_energy, mask rests)
+{
+    vec inside = 4.0 + c->aspect*y[GAP], outside = 4.0 + c->aspect*gap;
+    vec rate = y[ORBIT]/(inside*inside);
+    vec change = vec_abs(rate - y[SPIN]) + only(~rests, rate*(outside*outside - 16.0)*(1.0/22.4));
+    vec lost = 1.6*c->aspect*choose(rests, y[GAP], gap)*change;
+    vec drift = 2.0*vec_max(rate, y[SPIN])*lost*c->obliquity*c->obliquity*(1.0/16.0);
+    return first_height - first_energy + energy_at(c, y, gap) - drift;
+}
+#endif
+
+/* The height of the barrier ahead of a gap; -infinity if there is none. */
+static inline vec height_ahead(const constants *c, const vec *y, const barrier *b, mask rests)
+{
+    vec none = splat(-INFINITY), gap = y[GAP], near = b->near_height, far = b->far_height;
+#if SURFACE_ARM
+    near = height_now(c, y, b->near_gap, near, b->near_energy, rests);
+    far = height_now(c, y, b->far_gap, far, b->far_energy, rests);
+#else
+    (void)c;
+    (void)rests;
+#endif
+    return choose(b->near_gap > gap, near, choose(b->far_gap > gap, far, none));
+}
+
+/* Mechanical energy, the capillary work done since first touch included. */
+static inline vec mechanical_energy(const constants *c, const vec *y, const barrier *b)
+{
+    vec energy = stored_energy(c, y);
+#if CAPILLARY_STATE
+    energy += y[CAPILLARY_WORK];
+    (void)b;
+#elif BRIDGE
+    energy += capillary_work(c, y[GAP]) - b->touch;
+#else
+    (void)b;
+#endif
+    return energy;
+}
+
+/* Lanes whose energy is below the barrier ahead by more than its error. */
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    vec height = height_ahead(c, y, b, rests);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    return mechanical_energy(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+}
+#endif
+
+#if !OBLIQUE && !BRIDGE && !STRINGS
+enum { DEPTHS = 16 };
+
+/* Head-on with a film alone: velocity at every gap is known in advance. Closing, the film stops the motion at a gap where
+ * this speed would not yet meet the glass criterion; opening, before its surface. */
+static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec gap = y[GAP], speed = -y[OPENING], here = film_momentum(c, gap), there[STATES];
+    mask stopped = ~closing & (y[OPENING] - (film_momentum(c, splat(1.0)) - here) < -margin);
+    vec deepest = vec_max(contact, gap*1e-40);
+    vec ratio = vec_exp(vec_log(deepest/gap)*(1.0/DEPTHS));
+    there[GAP] = gap;
+    there[OPENING] = y[OPENING]*(1.0/(1.0 - margin));
+    for (int k = 0; k < DEPTHS; k++) {
+        there[GAP] *= ratio;
+        mask slow = speed - (here - film_momentum(c, there[GAP])) < -margin;
+        stopped |= closing & slow & (glass_clearance(c, there) > 0.0);
+    }
+    return stopped;
+}
+#endif

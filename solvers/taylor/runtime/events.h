@@ -1,0 +1,167 @@
+/* The first event of a step in each lane: bounds first, Bernstein coefficients next, isolation last. */
+
+/* The event functions of a step, each a series that is positive before its event, and the first to fall. */
+typedef struct {
+    vec time;              /* of the first event, as a part of the step; beyond 1 if there is none */
+    mask event;
+} first_event;
+
+/* sum of |a_k| h^k, k = 1..ORDER: what a function can change by within the step */
+static inline vec reach(const vec *a, vec h)
+{
+    vec sum = vec_abs(a[ORDER]);
+    for (int k = ORDER - 1; k > 0; k--)
+        sum = sum*h + vec_abs(a[k]);
+    return sum*h;
+}
+
+/* A lower bound of |a(t)| with the sign of its start, 0 <= t <= h: its parabola's minimum less what the rest can do. A
+ * decay, whose coefficients alternate, is far from zero by this and not by `reach`.
+ */
+static inline vec least_of(const vec *a, vec h)
+{
+    mask sign = (mask)a[0] & splat_mask(INT64_MIN);
+    vec rest = vec_abs(a[ORDER]);
+    for (int k = ORDER - 1; k > 2; k--)
+        rest = rest*h + vec_abs(a[k]);
+    vec start = vec_abs(a[0]), slope = (vec)((mask)a[1] ^ sign)*h, bend = (vec)((mask)a[2] ^ sign)*h*h;
+    vec end = start + slope + bend;
+    mask dips = (slope < 0.0) & (-slope < 2.0*bend);
+    vec lowest = choose(dips, start - 0.25*slope*slope/choose(dips, bend, splat(1.0)), vec_min(start, end));
+    return lowest - rest*h*h*h;
+}
+
+static inline vec sum_at(const vec *a, vec t)
+{
+    vec sum = a[ORDER];
+    for (int k = ORDER - 1; k >= 0; k--)
+        sum = sum*t + a[k];
+    return sum;
+}
+
+/* Looks closer at the lanes of `close` for sign (a(t) - target) falling through zero; an earlier event stays.
+ *
+ * Bernstein coefficients of all lanes at once: all positive, no root, the usual case; one change of sign, one root, found
+ * by Newton's iteration within its bracket; more changes, the lane's first root is isolated.
+ */
+static __attribute__((noinline)) void look(
+    first_event *found, mask close, const vec *a, vec target, vec sign, vec h, mask event)
+{
+    vec g[TERMS + 1], b[TERMS + 1], power = sign;
+    for (int k = 0; k <= ORDER; k++) {
+        g[k] = a[k]*power;
+        power *= h;
+    }
+    g[0] = sign*(a[0] - target);
+    mask zero = g[0] == 0.0; /* a function that starts on its own zero: that root is divided out */
+    if (bits(close & zero)) {
+        for (int k = 0; k < ORDER; k++)
+            g[k] = choose(zero, g[k + 1], g[k]);
+        g[ORDER] = choose(zero, splat(0.0), g[ORDER]);
+    }
+    for (int k = 0; k <= ORDER; k++)
+        b[k] = g[k]*INVERSE_BINOMIAL[ORDER][k];
+    for (int k = 1; k <= ORDER; k++)
+        for (int j = ORDER; j >= k; j--)
+            b[j] += b[j - 1];
+    mask falls = g[0] <= 0.0, below = b[0] < 0.0, changes = splat_mask(0);
+    for (int k = 1; k <= ORDER; k++) {
+        mask here = b[k] < 0.0;
+        changes += below ^ here; /* masks are -1 */
+        below = here;
+    }
+    vec time = choose(falls, splat(0.0), splat(NO_ROOT));
+    mask one = close & ~falls & (changes == -1), many = close & ~falls & (changes < -1);
+    if (bits(one)) {
+        vec from = b[0], to = b[ORDER], place = splat(0.0); /* the guess: where the control polygon changes sign */
+        for (int k = 1; k <= ORDER; k++) {
+            mask change = (b[k - 1] >= 0.0) & (b[k] < 0.0);
+            from = choose(change, b[k - 1], from);
+            to = choose(change, b[k], to);
+            place = choose(change, splat(k - 1.0), place);
+        }
+        vec low = splat(0.0), high = splat(1.0), t = (place + from/(from - to))*(1.0/ORDER);
+        mask moves = one; /* a lane that has arrived stays, whatever its neighbours do */
+        for (int count = 0; count < 60 && bits(moves); count++) {
+            vec value = g[ORDER], slope = splat(0.0);
+            for (int k = ORDER - 1; k >= 0; k--) {
+                slope = slope*t + value;
+                value = value*t + g[k];
+            }
+            mask before = value > 0.0;
+            low = choose(before, t, low);
+            high = choose(before, high, t);
+            vec newton = t - value/slope;
+            mask inside = (newton >= low) & (newton <= high);
+            vec next = choose(inside, newton, 0.5*(low + high));
+            /* Newton doubles the digits: a step of 1e-9 leaves an error of 1e-17 or so */
+            mask arrived = (inside & (vec_abs(next - t) <= 1e-9*next)) | (high - low <= 4e-16*high);
+            t = choose(moves, next, t);
+            moves &= ~arrived;
+        }
+        time = choose(one, t, time);
+    }
+    for (unsigned left = bits(many); left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        double own[TERMS + 1], bernstein[TERMS + 1];
+        for (int k = 0; k <= ORDER; k++) {
+            own[k] = g[k][lane];
+            bernstein[k] = b[k][lane];
+        }
+        time[lane] = isolated(own, ORDER, bernstein, 0.0, 1.0, 0);
+    }
+    mask first = close & (time <= 1.0) & (time < found->time);
+    found->time = choose(first, time, found->time);
+    found->event = (first & event) | (~first & found->event);
+}
+
+static void find_events(const series *s, const flights *l, const fixed *f, vec h, first_event *found)
+{
+    const vec zero = splat(0.0), one = splat(1.0);
+    found->time = splat(NO_ROOT);
+    found->event = splat_mask(0);
+    mask closing = l->closing, moves = l->alive & ~l->resting, close;
+    vec away = choose(closing, one, -one); /* the gap's event functions rise with this times the gap */
+    if (bits(moves & closing)) {
+        close = moves & closing & ~((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h) > 0.0));
+        if (bits(close))
+            look(found, close, s->glass.result, zero, one, h, splat_mask(GLASS));
+    }
+    /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
+#if BRIDGE
+    mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
+    vec target = choose(edge, one, choose(closing, f->contact, f->end));
+    mask event = (edge & splat_mask(FILM_EDGE)) |
+                 (~edge & ((closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE))));
+#else
+    vec target = choose(closing, f->contact, f->end);
+    mask event = (closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE));
+#endif
+    vec wander = reach(s->gap, h);
+    close = moves & ~(away*(s->gap[0] - target) > wander);
+    if (bits(close))
+        look(found, close, s->gap, target, away, h, event);
+    close = moves & ~(least_of(s->opening, h) > 0.0);
+    if (bits(close))
+        look(found, close, s->opening, zero, -away, h, splat_mask(TURNED_KIND));
+#if OBLIQUE
+    mask own = moves & (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
+    close = own & (closing ^ (l->shear != 0.0)) & ~(away*(s->gap[0] - f->edge) > wander);
+    if (bits(close))
+        look(found, close, s->gap, f->edge, away, h, splat_mask(TANGENTIAL_EDGE));
+#endif
+    close = l->alive & l->resting;
+    if (bits(close)) {
+        close &= ~(-s->acceleration[0] > reach(s->acceleration, h));
+        if (bits(close))
+            look(found, close, s->acceleration, zero, -one, h, splat_mask(RELEASED));
+    }
+#if OBLIQUE && STRINGS
+    close = l->alive & ~(s->rotation[0] + reach(s->rotation, h) < M_PI);
+    if (bits(close))
+        look(found, close, s->rotation, splat(M_PI), -one, h, splat_mask(HALF_TURN));
+    close = l->alive & ~(s->orbit[0] > reach(s->orbit, h));
+    if (bits(close))
+        look(found, close, s->orbit, zero, one, h, splat_mask(UNWINDS));
+#endif
+}

@@ -1,0 +1,132 @@
+/* The driver: series, step, first event, what it does; all lanes at once until the queue is empty.
+ *
+ * What is too rare to be fast is handed over to solvers/locate.py, named by a status.
+ */
+
+/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2).
+ *
+ * Only to some percent: the bits of a positive double, read as an integer, are nearly its logarithm.
+ */
+static inline vec step_size(const series *s, const fixed *f)
+{
+    const vec(*a)[TERMS] = (const void *)s;
+    mask last = splat_mask(INT64_MAX), before = splat_mask(INT64_MAX);
+    for (int state = 0; state < STATES; state++) {
+        vec size = vec_abs(a[state][0]);
+        vec scale = state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3;
+        mask own = (mask)scale - (mask)vec_abs(a[state][ORDER]);
+        mask other = (mask)scale - (mask)vec_abs(a[state][ORDER - 1]);
+        last = least(own, last);
+        before = least(other, before);
+    }
+    const int64_t one = 0x3ff0000000000000;
+    vec allowed = __builtin_convertvector((mask)f->tolerance - one, vec);
+    vec lower = (allowed + __builtin_convertvector(last, vec))*(1.0/ORDER);
+    vec other = (allowed + __builtin_convertvector(before, vec))*(1.0/(ORDER - 1));
+    vec power = vec_min(vec_min(lower, other), splat(60.0*4503599627370496.0));
+    return (vec)(__builtin_convertvector(power, mask) + one);
+}
+
+/* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
+#define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
+#define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
+#define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
+    term(11) term(12) term(13) term(14) term(15) term(16)
+_Static_assert(ORDER <= 16, "EVERY names all orders");
+
+static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
+{
+    EVERY(TERM)
+    s->acceleration[ORDER] = splat(0.0); /* known to one order less */
+}
+
+static __attribute__((noinline)) void expand_glass(series *s, const constants *c)
+{
+    EVERY(GLASS_TERM)
+}
+
+static void fly(queue *q)
+{
+    flights l;
+    fixed f;
+    series s;
+    memset(&l, 0, sizeof l);
+    memset(&s, 0, sizeof s);
+    memset(&f, 0, sizeof f);
+    EACH_LANE(lane) refill(q, &l, &f, lane);
+    if (!bits(l.alive))
+        return;
+    int sound = __builtin_ctz(bits(l.alive)); /* idle lanes repeat a live one, so that nothing traps or slows */
+    EACH_LANE(lane) if (!l.alive[lane]) {
+        for (int field = 0; field < FIXED; field++)
+            ((vec *)&f)[field][lane] = ((vec *)&f)[field][sound];
+        for (int state = 0; state < STATES; state++)
+            l.y[state][lane] = l.y[state][sound];
+    }
+    vec(*a)[TERMS] = (void *)&s;
+    unsigned turn = 0;
+    while (bits(l.alive)) {
+        /* a stick is as good a step later: the level is looked at in every second turn */
+        mask sticks = splat_mask(0);
+        if (turn++ % 2 == 0) {
+#if PROOF_BY_ENERGY
+        sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
+#elif !OBLIQUE
+        sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
+#endif
+        }
+        for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
+            finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
+        if (!bits(l.alive))
+            break;
+        criteria_met(q, &l, &f);
+        if (!bits(l.alive))
+            break;
+        for (int state = 0; state < STATES; state++)
+            a[state][0] = l.y[state];
+        expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        if (bits(l.alive & l.closing))
+            expand_glass(&s, &f.c);
+        vec h = only(l.alive, step_size(&s, &f));
+        first_event found;
+        find_events(&s, &l, &f, h, &found);
+        mask falls = l.alive & (found.time <= 1.0);
+        h = choose(falls, h*found.time, h);
+        for (int state = 0; state < STATES; state++)
+            l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
+        l.time += h;
+        l.smallest = vec_min(l.smallest, l.y[GAP]);
+        mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
+        for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
+            int lane = __builtin_ctz(event);
+            act(q, &l, &f, lane, (int)found.event[lane]);
+        }
+        l.steps += 1;
+        mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
+        for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
+            int lane = __builtin_ctz(failed);
+            int status = lost[lane] ? NOT_FINITE : l.steps[lane] > q->budget ? NO_BUDGET : CHATTER;
+            finish(q, &l, &f, lane, status, STICK, 0);
+        }
+    }
+}
+
+/* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
+ *
+ * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
+ * log: MOST_EVENTS happenings a collision, or null.
+ */
+int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, happening *log)
+{
+    queue q;
+    memset(&q, 0, sizeof q);
+    q.quantities = quantities;
+    q.varies = varies;
+    q.rtol = rtol;
+    q.answers = answers;
+    q.log = log;
+    q.count = count;
+    q.budget = budget;
+    fly(&q);
+    return (int)sizeof(answer);
+}

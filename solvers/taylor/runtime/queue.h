@@ -1,0 +1,203 @@
+/* Collisions on their way: quantities in, constants and proofs at first touch, lanes filled and emptied, answers out. */
+
+enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
+enum { STICK, SEPARATES, BOUNCES };
+enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
+enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
+
+/* What comes back of a collision. */
+typedef struct {
+    double shown[4];    /* restitution, tangential restitution, rotation rate, spin: as far as the model has them */
+    double time, smallest_gap, turned, final_gap;
+    int32_t outcome, certified, status, steps;
+    int32_t reversal; /* the first criterion met; -1 for none */
+    int32_t events;
+} answer;
+
+typedef struct {
+    double kind, time;
+} happening;
+
+/* What is fixed for a flight. */
+typedef struct {
+    constants c;
+    barrier b;
+    vec tolerance, rest; /* relative error of a step, and the opening velocity that counts as none */
+    vec contact, end, edge;
+} fixed;
+
+typedef struct {
+    vec y[STATES];
+    vec time, smallest, film, shear;
+    mask alive, closing, resting, fresh;
+    mask index, steps, phases, reversal;
+} flights;
+
+typedef struct {
+    const double *const *quantities; /* columns in SI */
+    const unsigned char *varies;     /* a column has a value for each collision, or one for all */
+    double rtol;
+    answer *answers;
+    happening *log;
+    long count, next;
+    int budget;
+    long queued, taken; /* collisions that are waiting, of `rows` */
+    long waiting[LANES];
+    double rows[LANES][sizeof(fixed)/sizeof(vec)];
+    double starts[LANES][STATES];
+} queue;
+
+enum { FIXED = sizeof(fixed)/sizeof(vec) };
+
+static void put(queue *q, long index, int status, int outcome, int certified)
+{
+    certified = certified && !SURFACE_ARM; /* angular momentum drifts: no theorem */
+    answer *a = &q->answers[index];
+    a->status = status;
+    a->outcome = outcome;
+    a->certified = certified;
+    a->reversal = -1;
+}
+
+static void note(queue *q, long index, int kind, double time)
+{
+    answer *a = &q->answers[index];
+    if (q->log && a->events < MOST_EVENTS)
+        q->log[index*MOST_EVENTS + a->events] = (happening){kind, time};
+    a->events++;
+}
+
+/* Tolerances as solvers/integrators.py has them: near grazing incidence the doublet turns within a tiny part of x0; at
+ * very small angles, with nothing that attracts, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0. Returns the
+ * lanes that are beyond any tolerance. */
+static unsigned set_tolerance(const queue *q, fixed *f)
+{
+    unsigned beyond = 0;
+    f->tolerance = splat(q->rtol);
+    f->rest = splat(1e-3);
+#if OBLIQUE
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
+    EACH_LANE(lane)
+    {
+        double of = centrifugal[lane];
+        if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
+            f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
+        if (of > 1.0)
+            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(of))), fmin(q->rtol, TIGHTEST));
+        if (of > MOST_OBLIQUE)
+            beyond |= 1u << lane;
+    }
+#endif
+    return beyond;
+}
+
+/* Constants, barrier and start of the next collisions; those proved sticks at first touch never take a lane. */
+static void fill_queue(queue *q)
+{
+    fixed f;
+    vec y[STATES];
+    q->queued = q->taken = 0;
+    while (q->queued == 0 && q->next < q->count) {
+        long first = q->next;
+        int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
+        q->next += many;
+        vec given[QUANTITIES];
+        for (int k = 0; k < QUANTITIES; k++)
+            EACH_LANE(lane) given[k][lane] = q->quantities[k][q->varies[k] ? first + (lane < many ? lane : 0) : 0];
+        scale(&f.c, given);
+        prepare(&f.c);
+        unsigned beyond = set_tolerance(q, &f);
+        memset(y, 0, sizeof y);
+        start(&f.c, y);
+        f.contact = vec_max(f.c.elastic_gap, f.c.rough_gap);
+#if BRIDGE
+        f.end = f.c.rupture_gap;
+#else
+        f.end = splat(1.0);
+#endif
+#if OBLIQUE
+        f.edge = tangential_edge(&f.c);
+#else
+        f.edge = splat(INFINITY);
+#endif
+        unsigned proved = 0;
+#if PROOF_BY_ENERGY
+        find_barriers(&f.c, y, f.contact, f.end, &f.b);
+        f.b.largest = stored_energy(&f.c, y);
+#if BRIDGE && !CAPILLARY_STATE
+        f.b.touch = capillary_work(&f.c, splat(1.0));
+#else
+        f.b.touch = splat(0.0);
+#endif
+        proved = bits(below_barrier(&f.c, y, &f.b, splat_mask(0), q->rtol));
+#elif !OBLIQUE
+        proved = bits(stopped_by_film(&f.c, y, f.contact, splat_mask(-1), q->rtol));
+#endif
+        for (int lane = 0; lane < many; lane++) {
+            if (beyond >> lane & 1) {
+                put(q, first + lane, TOO_OBLIQUE, STICK, 0);
+                continue;
+            }
+            if (proved >> lane & 1) {
+                put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
+                continue;
+            }
+            q->waiting[q->queued] = first + lane;
+            for (int field = 0; field < FIXED; field++)
+                q->rows[q->queued][field] = ((vec *)&f)[field][lane];
+            for (int state = 0; state < STATES; state++)
+                q->starts[q->queued][state] = y[state][lane];
+            q->queued++;
+        }
+    }
+}
+
+/* Puts the next collision of the queue into a lane; the lane rests if there is none. */
+static void refill(queue *q, flights *l, fixed *f, int lane)
+{
+    if (q->taken == q->queued)
+        fill_queue(q);
+    if (q->taken == q->queued) {
+        l->alive[lane] = 0;
+        return;
+    }
+    long row = q->taken++;
+    for (int field = 0; field < FIXED; field++)
+        ((double *)&((vec *)f)[field])[lane] = q->rows[row][field];
+    for (int state = 0; state < STATES; state++)
+        l->y[state][lane] = q->starts[row][state];
+    l->index[lane] = q->waiting[row];
+    l->time[lane] = 0.0;
+    l->smallest[lane] = 1.0;
+    l->film[lane] = 1.0;
+    l->shear[lane] = f->edge[lane] >= 1.0;
+    l->alive[lane] = l->closing[lane] = l->fresh[lane] = -1;
+    l->resting[lane] = 0;
+    l->steps[lane] = l->phases[lane] = 0;
+    l->reversal[lane] = -1;
+}
+
+/* The flight of a lane is over: what came of it, and the next one. */
+static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+{
+    answer *a = &q->answers[l->index[lane]];
+    put(q, l->index[lane], status, outcome, certified);
+    a->time = l->time[lane];
+    a->smallest_gap = l->smallest[lane];
+    a->final_gap = l->y[GAP][lane];
+    a->steps = l->steps[lane];
+    a->reversal = l->reversal[lane];
+#if TURNING_STATE
+    a->turned = l->y[TURNED][lane];
+#elif OBLIQUE && STRINGS
+    a->turned = l->y[ROTATION][lane];
+#endif
+    if (status == DECIDED && outcome != STICK) {
+        vec shown[OUTPUTS];
+        outputs(&f->c, l->y, shown);
+        for (int k = 0; k < OUTPUTS; k++)
+            a->shown[k] = shown[k][lane];
+    }
+    refill(q, l, f, lane);
+}

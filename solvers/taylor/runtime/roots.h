@@ -1,0 +1,76 @@
+/* The first root of a polynomial on (0, 1], by isolation: Descartes' rule on Bernstein coefficients.
+ *
+ * No sign variation, no root; one, exactly one root, which a bracketed Newton iteration finds; more, the interval is
+ * halved. A double crossing is found, a graze decided, and no sampling is involved.
+ */
+
+enum { DEEPEST = 48 };
+static const double NO_ROOT = 2.0;
+
+/* 1/C(order, k): from powers to Bernstein coefficients on [0, 1]. */
+static double INVERSE_BINOMIAL[TERMS][TERMS];
+
+__attribute__((constructor)) static void fill_binomials(void)
+{
+    for (int order = 0; order < TERMS; order++) {
+        double binomial = 1.0;
+        for (int k = 0; k <= order; k++) {
+            INVERSE_BINOMIAL[order][k] = 1.0/binomial;
+            binomial = binomial*(order - k)/(k + 1);
+        }
+    }
+}
+
+/* The single root in [low, high], at whose ends the polynomial differs in sign. */
+static double refined(const double *a, int order, double low, double high, int low_positive)
+{
+    double t = 0.5*(low + high);
+    for (int count = 0; count < 100; count++) {
+        double value = a[order], slope = 0.0;
+        for (int k = order - 1; k >= 0; k--) {
+            slope = slope*t + value;
+            value = value*t + a[k];
+        }
+        if (value == 0.0)
+            return t;
+        if ((value > 0.0) == low_positive)
+            low = t;
+        else
+            high = t;
+        double newton = t - value/slope;
+        double next = newton > low && newton < high ? newton : 0.5*(low + high);
+        if (fabs(next - t) <= 4e-16*next || high - low <= 4e-16*high)
+            return next;
+        t = next;
+    }
+    return 0.5*(low + high);
+}
+
+static double isolated(const double *a, int order, const double *b, double low, double high, int depth)
+{
+    int variations = 0, sign = 0;
+    for (int k = 0; k <= order; k++) {
+        int here = (b[k] > 0.0) - (b[k] < 0.0);
+        if (here && sign && here != sign)
+            variations++;
+        if (here)
+            sign = here;
+    }
+    if (variations == 0)
+        return NO_ROOT;
+    if (variations == 1)
+        return refined(a, order, low, high, b[0] > 0.0 || (b[0] == 0.0 && sign < 0));
+    if (depth == DEEPEST)
+        return NO_ROOT; /* touches to the last bit: not met */
+    double left[TERMS + 1], right[TERMS + 1];
+    memcpy(right, b, sizeof(double)*(size_t)(order + 1));
+    for (int k = 0; k <= order; k++) {
+        left[k] = right[0];
+        for (int j = 0; j < order - k; j++)
+            right[j] = 0.5*(right[j] + right[j + 1]);
+    }
+    double middle = 0.5*(low + high);
+    double first = isolated(a, order, left, low, middle, depth + 1);
+    /* after the halving, right[] runs from the middle to the end */
+    return first < NO_ROOT ? first : isolated(a, order, right, middle, high, depth + 1);
+}

@@ -1,0 +1,104 @@
+"""Series programs: which recurrences an expression becomes, what is constant, and what has no recurrence."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+from wetdoublet.derive.emit.printer import EmissionError
+from wetdoublet.derive.emit.taylor_laws import law_header, signatures
+from wetdoublet.derive.emit.taylor_program import Program, cheapest
+from wetdoublet.derive.emit.taylor_work import antiderivative
+from wetdoublet.derive.laws import LAWS
+
+x, y = sp.symbols("x y", positive=True)
+c = sp.Symbol("c", positive=True)
+
+
+def _kinds(expression: sp.Expr) -> list[str]:
+    program = Program((x, y))
+    program.series(expression)
+    return [operation.kind for operation in program.operations]
+
+
+EXPRESSIONS = [
+    (c * x + 3, ["linear"]),
+    (x * y, ["product"]),
+    (x**2, ["square"]),
+    (x**5, ["square", "square", "product"]),
+    (1 / x, ["reciprocal"]),
+    (y / x, ["quotient"]),
+    (sp.sqrt(x), ["sqrt"]),
+    (1 / sp.sqrt(x), ["sqrt", "reciprocal"]),
+    (sp.exp(x), ["exp"]),
+    (sp.log(x), ["log"]),
+    (sp.sin(x) * sp.cos(x), ["sine", "cosine", "product"]),
+    (x ** sp.Rational(2, 3), ["power"]),
+    (sp.exp(x) + sp.exp(x) ** 2 / c, ["exp", "linear", "exp", "linear"]),  # sympy makes exp(2x) of the square
+]
+
+
+@pytest.mark.parametrize(("expression", "kinds"), EXPRESSIONS, ids=[str(each[0]) for each in EXPRESSIONS])
+def test_recurrences(expression: sp.Expr, kinds: list[str]):
+    """Each operation has its recurrence, and none is made that is not needed; constants make no series."""
+    assert sorted(_kinds(expression)) == sorted(kinds)
+
+
+def test_shared_parts_are_one_series():
+    """A part that occurs twice is computed once: 1/x serves y/x as a product."""
+    program = Program((x, y))
+    program.series(1 / x)
+    program.series(y / x)
+    assert [operation.kind for operation in program.operations] == ["reciprocal", "product"]
+    assert program.operations[1].series == ("y", "inverse_x")
+
+
+@pytest.mark.parametrize(
+    "expression", [sp.asin(x), sp.Piecewise((x, x < 1), (1, True)), sp.Abs(x - 1), sp.besselj(0, x)]
+)
+def test_an_operation_without_a_recurrence_is_named(expression: sp.Expr):
+    """What has no recurrence is an error that names it, before anything is emitted."""
+    with pytest.raises(EmissionError, match=f"no Taylor recurrence for {type(expression).__name__}"):
+        _kinds(expression)
+
+
+def test_the_cheaper_form_is_taken():
+    """(x - 1)^2/x costs a square and a division; written out, x - 2 + 1/x, one division."""
+    program, _ = cheapest((x - 1) ** 2 / x, (), (x,))
+    assert program.cost == 1.0
+
+
+FORCES = [sp.exp(c * x + 2) + 3 * c, x**2 / c, 1 - x / sp.sqrt(x**2 + c), (x - 1) ** 2 / x]
+
+
+@pytest.mark.parametrize("force", FORCES, ids=map(str, FORCES))
+def test_work_in_closed_form(force: sp.Expr):
+    """The derivative of the antiderivative is the force."""
+    work = antiderivative(force, x)
+    assert work is not None
+    assert sp.simplify(work.diff(x) - force) == 0
+
+
+def test_no_work_where_there_is_no_rule():
+    """A force without a rule has no closed work, and is not searched for."""
+    assert antiderivative(sp.exp(sp.exp(x)), x) is None
+    assert antiderivative(1 / (1 + x**2), x) is None
+
+
+def test_every_law_has_its_header():
+    """Every law of every slot becomes recurrences; which bridge laws close their work is known."""
+    closed = set()
+    for slot, laws in LAWS.items():
+        for law in laws.values():
+            text = law_header(law, "0", "by a test")
+            assert f"{slot}_" in text
+            if "BRIDGE_FORCE_WORK" in text:
+                closed.add(law.name)
+    assert {"mikami", "mikami-log10", "soulie", "lambert", "constant"} <= closed
+    assert "willett" not in closed
+
+
+def test_arguments_that_move():
+    """A slot's arguments are series or constants, the same wherever it is called."""
+    assert signatures()["bridge", "force"] == (True, False, False)
+    assert signatures()["shear", "edge"] == (False,)
+    assert signatures()["strings", "stiffness"] == (False, True)

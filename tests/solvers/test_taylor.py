@@ -1,0 +1,180 @@
+"""Collisions by the Taylor kernel: the same as by other engines and as the reference, at the tolerance asked for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide, collide_many, many
+from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.taylor import engine, library
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+EVERYTHING = tuple(many.QUANTITIES)
+RANGES = {"granulation": (0.005, 0.5), "pendulum": (0.3, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
+VARIANTS: list[tuple[str, dict[str, Any]]] = [
+    *((preset, {}) for preset in RANGES),
+    ("granulation", {"bridge.law": "rabinovich", "bridge.contact_angle": 0.3}),
+    ("granulation", {"model.arm": "surface"}),
+    ("pendulum", {"model.tangential": "film", "pendulum.law": "small-angle", "model.glass": "film-corrected"}),
+]
+
+
+def _impacts(preset: str, count: int) -> tuple[np.ndarray, np.ndarray]:
+    draw = np.random.default_rng(7)
+    angle = draw.uniform(0.0, np.radians(87), count)
+    angle[:2] = 0.0
+    return np.exp(draw.uniform(*np.log(RANGES[preset]), count)), angle
+
+
+@pytest.mark.parametrize(
+    ("preset", "changes"), VARIANTS, ids=[f"{p} {' '.join(map(str, c.values()))}" for p, c in VARIANTS]
+)
+def test_equals_rosenbrock(preset: str, changes: dict[str, Any]):
+    """Outcome, proof and every quantity are those of Rosenbrock at a tolerance a hundred times tighter."""
+    scene = Scene.load(preset).with_entries(changes)
+    stokes, angle = _impacts(preset, 12)
+    found = collide_many(scene, stokes=stokes, angle=angle, engine="taylor", of=EVERYTHING)
+    expected = collide_many(scene, stokes=stokes, angle=angle, engine="rosenbrock", rtol=1e-11, of=EVERYTHING)
+    for name in ("outcome", "certified", "reason"):
+        assert (found[name].values == expected[name].values).all(), name
+    for name in EVERYTHING:  # the conditioning of these impacts is at most some tens
+        np.testing.assert_allclose(found[name], expected[name], rtol=3e-8, atol=1e-12, err_msg=name)
+
+
+def test_reference_collisions(reference: dict[str, Any]):
+    """The independent 80-bit reference, to its error and ours: 1e-13 times the conditioning, with some steps' worth."""
+    expected = reference["results"]
+    found = collide(
+        Scene.from_dict(reference["scene"]),
+        stokes=reference["impact"]["stokes"],
+        angle=reference["impact"]["angle"],
+        rtol=1e-13,
+        engine="taylor",
+        ledger=False,
+    )
+    assert found.engine == "taylor"
+    assert found.outcome == expected["outcome"]
+    if found.outcome == "stick":
+        return
+    for name in ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap", "final_spin"):
+        if expected[name] is None:
+            assert getattr(found, name) is None, name
+        else:
+            assert getattr(found, name) == pytest.approx(expected[name], rel=1e-10, abs=1e-13), name
+    assert found.reversal == expected["reversal"]
+    assert [event.kind for event in found.events] == [event["kind"] for event in expected["events"]]
+    for mine, theirs in zip(found.events, expected["events"], strict=True):
+        assert mine.time == pytest.approx(theirs["time"], rel=1e-10, abs=1e-300)
+
+
+@pytest.mark.parametrize("rtol", [1e-5, 1e-7, 1e-9, 1e-11])
+def test_rtol_is_the_error(rtol: float):
+    """The largest error in e_n is of the order of the tolerance (a looser one than 1e-6 is not asked of sticks)."""
+    stokes, angle = _impacts("granulation", 60)
+    found, exact = (
+        collide_many("granulation", stokes=stokes, angle=angle, rtol=tolerance, engine="taylor").restitution.values
+        for tolerance in (rtol, 1e-13)
+    )
+    assert np.max(np.abs(found - exact)) < 10 * min(rtol, 1e-6)
+
+
+def test_neighbours_do_not_matter():
+    """A collision's result is the same to the last bit alone, in a lane among others, and in any order."""
+    stokes, angle = _impacts("granulation", 23)
+    together = collide_many("granulation", stokes=stokes, angle=angle, engine="taylor", of=EVERYTHING)
+    backwards = collide_many("granulation", stokes=stokes[::-1], angle=angle[::-1], engine="taylor", of=EVERYTHING)
+    alone = collide_many("granulation", stokes=stokes[9], angle=angle[9], engine="taylor", of=EVERYTHING)
+    for name in EVERYTHING:
+        np.testing.assert_array_equal(together[name].values, backwards[name].values[::-1])
+        np.testing.assert_array_equal(together[name].values[9], alone[name].values[0])
+
+
+def test_fewer_lanes_give_the_same(monkeypatch: pytest.MonkeyPatch):
+    """Scalar code and the widest vectors agree (to some units in the last place: compilers fuse differently)."""
+    stokes, _ = _impacts("pendulum", 20)
+    wide = collide_many("pendulum", stokes=stokes, angle=0.0, engine="taylor", of=EVERYTHING)
+    library.kernel.cache_clear()
+    monkeypatch.setattr(library, "lanes", lambda: 1)
+    try:
+        narrow = collide_many("pendulum", stokes=stokes, angle=0.0, engine="taylor", of=EVERYTHING)
+    finally:
+        library.kernel.cache_clear()
+    assert (wide.outcome.values == narrow.outcome.values).all()
+    np.testing.assert_allclose(wide.restitution, narrow.restitution, rtol=1e-11)
+
+
+def test_what_varies():
+    """Entries that vary, those that others are made of, and scenes that cannot be, are as each scene by itself."""
+    scene = Scene.load("granulation")
+    for name, values in (
+        ("liquid.viscosity", [1.0, 2.0, 3.0]),
+        ("particles.reduced_radius", [4e-5, 5e-5, 9e-5]),
+        ("particles.roughness", [1e-7, 2e-7, 9e-6]),
+        ("bridge.volume", [0.05, 0.1, 1e-9]),
+    ):
+        both = [
+            collide_many(scene, stokes=0.1, angle="75 deg", vary={name: values}, engine=engine, rtol=1e-10)
+            for engine in ("taylor", "rosenbrock")
+        ]
+        assert both[0].reason.values.tolist() == both[1].reason.values.tolist()
+        assert both[0].outcome.values.tolist() == both[1].outcome.values.tolist()
+        np.testing.assert_allclose(both[0].restitution, both[1].restitution, rtol=1e-8)
+
+
+def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.MonkeyPatch):
+    """A lane without budget leaves its collision to Rosenbrock: the same answer, and `collide` says whose it is."""
+    monkeypatch.setattr(engine, "BUDGET", 5)
+    impossible = engine.answers(_one("granulation", 0.02, 1.3), 1e-9, budget=5)
+    assert impossible is not None
+    assert impossible["status"].tolist() == [2]
+    monkeypatch.setattr("wetdoublet.solvers.taylor.one.flown", lambda *given: impossible)
+    found = collide("granulation", stokes=0.02, angle=1.3, engine="taylor", ledger=False)
+    assert found.engine == "rosenbrock"
+    assert found.restitution == pytest.approx(collide("granulation", stokes=0.02, angle=1.3).restitution, rel=1e-7)
+
+
+def _one(preset: str, stokes: float, angle: float) -> engine.Impacts:
+    scene = Scene.load(preset)
+    return engine.Impacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
+
+
+def test_ledger_beside_the_kernel():
+    """With a ledger, energies and drift are Rosenbrock's for the same flight; outcome and events are the kernel's."""
+    found = collide("granulation", stokes=0.02, angle="75 deg", engine="taylor")
+    assert found.engine == "taylor"
+    assert found.energy is not None
+    assert abs(found.energy.residual) < 1e-7 * found.energy.initial
+
+
+def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]):
+    """More than a hundred go to the kernel, fewer do not wait for a compiler; without one Rosenbrock answers."""
+    few = collide_many("granulation", stokes=[0.02] * 3, angle=1.3)
+    lots = collide_many("granulation", stokes=[0.02] * 101, angle=1.3)
+    assert (few.attrs["engine"], lots.attrs["engine"]) == ("rosenbrock", "taylor")
+    assert lots.restitution.values[0] == pytest.approx(few.restitution.values[0], rel=1e-7)
+    monkeypatch.setattr(library, "compiler", lambda: None)
+    library.kernel.cache_clear()
+    try:
+        without = collide_many("granulation", stokes=0.02, angle=1.3, engine="taylor")
+    finally:
+        library.kernel.cache_clear()
+    assert without.restitution.values[0] == few.restitution.values[0]
+
+
+def test_a_kernel_is_compiled_once(tmp_path: Any, monkeypatch: pytest.MonkeyPatch):
+    """The library is addressed by its content and found again by the next process; nothing else is left behind."""
+    monkeypatch.setattr(library, "cache_folder", lambda: tmp_path)
+    built = []
+    monkeypatch.setattr(library, "_built", lambda *given: built.append(given) or _BUILT(*given))
+    scene = Scene.load("granulation-dry-bridge")
+    for _ in range(2):
+        library.kernel.cache_clear()
+        collide_many(scene, stokes=0.5, angle=0.0, engine="taylor")
+    library.kernel.cache_clear()
+    assert len(built) == 1
+    assert [path.suffix for path in tmp_path.iterdir()] == [".so"]
+
+
+_BUILT = library._built

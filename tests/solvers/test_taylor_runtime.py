@@ -1,0 +1,178 @@
+"""The kernel's own arithmetic: functions against libm, recurrences against the equations they solve, roots."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.taylor import library
+
+RUNTIME = Path(library.__file__).with_name("runtime")
+ORDER = 12
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+HARNESS = """
+#define SHOW(name) void lanes_##name(const double *x, double *y) { vec a; memcpy(&a, x, sizeof a); a = vec_##name(a); \\
+    memcpy(y, &a, sizeof a); }
+SHOW(exp) SHOW(log) SHOW(sin) SHOW(cos) SHOW(tan)
+
+/* f of the series a (and b), each in every lane */
+void recur(int which, const double *a, const double *b, double *f, double *g)
+{
+    vec u[TERMS], v[TERMS], w[TERMS], z[TERMS], slope[TERMS], over;
+    for (int k = 0; k < TERMS; k++) u[k] = splat(a[k]), v[k] = splat(b[k]);
+    for (int k = 0; k < TERMS; k++) {
+        if (which == 0) w[k] = product(u, v, k);
+        if (which == 1) w[k] = square(u, k);
+        if (which == 2) w[k] = quotient(u, v, w, &over, k);
+        if (which == 3) w[k] = reciprocal(u, w, k);
+        if (which == 4) w[k] = root(u, w, &over, k);
+        if (which == 5) w[k] = exponential(u, slope, w, k);
+        if (which == 6) w[k] = logarithm(u, w, slope, &over, k);
+        if (which == 7) circular(u, slope, w, z, k);
+        if (which == 8) w[k] = power(u, w, splat(b[0]), &over, k);
+        f[k] = w[k][LANES - 1];
+        g[k] = which == 7 ? z[k][LANES - 1] : 0.0;
+    }
+}
+
+double first(const double *a, int order)
+{
+    double b[TERMS + 1];
+    for (int k = 0; k <= order; k++) b[k] = a[k]*INVERSE_BINOMIAL[order][k];
+    for (int k = 1; k <= order; k++)
+        for (int j = order; j >= k; j--) b[j] += b[j - 1];
+    return isolated(a, order, b, 0.0, 1.0, 0);
+}
+"""
+
+
+@pytest.fixture(scope="module")
+def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+    """The runtime's arithmetic as a library."""
+    folder = tmp_path_factory.mktemp("runtime")
+    found = compiler()
+    assert found is not None
+    text = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
+    text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "roots.h"))
+    (folder / "runtime.c").write_text(text + HARNESS)
+    command = [found[0], *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    loaded = ctypes.CDLL(str(folder / "runtime.so"))
+    loaded.first.restype = ctypes.c_double
+    return loaded
+
+
+def _pointer(array: np.ndarray) -> ctypes.c_void_p:
+    return ctypes.c_void_p(array.ctypes.data)
+
+
+RANGES = {
+    "exp": (-700.0, 700.0),
+    "log": (-690.0, 690.0),
+    "sin": (-50.0, 50.0),
+    "cos": (-50.0, 50.0),
+    "tan": (0.0, 1.57),
+}
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_functions_equal_libm(runtime: ctypes.CDLL, name: str):
+    """Within two units in the last place of libm (of 1 for sin and cos, whose zeros are not resolved further)."""
+    draw = np.random.default_rng(1)
+    lanes = library.lanes()
+    x = draw.uniform(*RANGES[name], 2000 * lanes)
+    x = np.exp(x) if name == "log" else x
+    y = np.empty_like(x)
+    for first in range(0, x.size, lanes):
+        getattr(runtime, f"lanes_{name}")(_pointer(x[first:]), _pointer(y[first:]))
+    expected = np.array([getattr(math, name)(value) for value in x])
+    unit = np.spacing(np.maximum(np.abs(expected), 1.0 if name in ("sin", "cos") else 0.0))
+    assert np.max(np.abs(y - expected) / unit) <= (4.0 if name == "tan" else 2.0)  # tan divides two of them
+
+
+def test_log_outside_its_domain(runtime: ctypes.CDLL):
+    """The logarithm of zero, of a negative number, of infinity and of NaN is NaN, never a number."""
+    lanes = library.lanes()
+    for value in (0.0, -1.0, math.inf, math.nan):
+        x, y = np.full(lanes, value), np.zeros(lanes)
+        runtime.lanes_log(_pointer(x), _pointer(y))
+        assert np.isnan(y).all()
+
+
+def _series(runtime: ctypes.CDLL, which: int, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    f, g = np.zeros(ORDER + 1), np.zeros(ORDER + 1)
+    runtime.recur(which, _pointer(a), _pointer(b), _pointer(f), _pointer(g))
+    return f, g
+
+
+def _slope(a: np.ndarray) -> np.ndarray:
+    return a[1:] * np.arange(1, a.size)
+
+
+def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.convolve(a, b)[: min(a.size, b.size)]
+
+
+def test_recurrences_solve_their_equations(runtime: ctypes.CDLL):
+    """Products by convolution; q b = a; r^2 = a; e' = a' e; a l' = a'; s' = a' c, c' = -a' s; a p' = r a' p."""
+    draw = np.random.default_rng(2)
+    a, b = draw.uniform(-1, 1, (2, ORDER + 1)) * 0.5 ** np.arange(ORDER + 1)
+    a[0], b[0] = 1.3, 0.7
+    near = pytest.approx
+
+    def of(which: int) -> np.ndarray:
+        return _series(runtime, which, a, b)[0]
+
+    assert of(0) == near(_times(a, b), abs=1e-15)
+    assert of(1) == near(_times(a, a), abs=1e-15)
+    assert _times(of(2), b) == near(a, abs=1e-14)
+    assert _times(of(3), a) == near(np.eye(1, ORDER + 1)[0], abs=1e-14)
+    assert _times(of(4), of(4)) == near(a, abs=1e-14)
+    assert of(5)[0] == near(math.exp(a[0]), rel=1e-15)
+    assert _slope(of(5)) == near(_times(_slope(a), of(5)), abs=1e-13)
+    assert of(6)[0] == near(math.log(a[0]), rel=1e-15)
+    assert _times(a[:-1], _slope(of(6))) == near(_slope(a), abs=1e-13)
+    sine, cosine = _series(runtime, 7, a, b)
+    assert (sine[0], cosine[0]) == near((math.sin(a[0]), math.cos(a[0])), rel=1e-15)
+    assert _slope(sine) == near(_times(_slope(a), cosine), abs=1e-13)
+    assert _slope(cosine) == near(-_times(_slope(a), sine), abs=1e-13)
+    raised = of(8)
+    assert raised[0] == near(a[0] ** b[0], rel=1e-14)
+    assert _times(a[:-1], _slope(raised)) == near(b[0] * _times(_slope(a), raised[:-1]), abs=1e-13)
+
+
+ROOTS = [
+    ([0.5], 0.5),
+    ([0.25, 0.75], 0.25),
+    ([0.4, 0.4 + 1e-6], 0.4),  # a double crossing inside a step, far below any sampling
+    ([1.5, -0.3], None),
+    ([0.9, 0.95, 0.99], 0.9),
+]
+
+
+@pytest.mark.parametrize(("roots", "expected"), ROOTS)
+def test_the_first_root_is_isolated(runtime: ctypes.CDLL, roots: list[float], expected: float | None):
+    """The first root on (0, 1] of a polynomial with known roots and a positive factor of degree 4."""
+    a = np.polynomial.polynomial.polyfromroots(roots)
+    a = np.convolve(a, np.convolve([1.0, 0.2, 0.3], [2.0, -0.5, 0.4]))
+    a = np.ascontiguousarray(a * np.sign(a[0]))
+    found = runtime.first(_pointer(a), a.size - 1)
+    # a root of two that are d apart moves by rounding over d
+    tolerance = 1e-14 if len(roots) < 3 and np.ptp(roots) in (0.0, 0.5, 1.8) else 1e-9
+    assert found == (2.0 if expected is None else pytest.approx(expected, abs=tolerance))
+
+
+@pytest.mark.parametrize(("above", "meets"), [(1e-9, False), (-1e-9, True), (1e-13, False), (-1e-13, True)])
+def test_a_graze_is_decided(runtime: ctypes.CDLL, above: float, meets: bool):
+    """A minimum above zero is passed by; one below is met before it."""
+    a = np.array([0.25 + above, -1.0, 1.0])  # (t - 1/2)^2 + above
+    found = runtime.first(_pointer(a), 2)
+    assert (found < 1.0) == meets
+    if meets:
+        assert found == pytest.approx(0.5 - math.sqrt(-above), rel=1e-6)
