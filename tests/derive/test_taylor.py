@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.printer import EmissionError
-from wetdoublet.derive.emit.taylor_laws import law_header, signatures
+from wetdoublet.derive.emit.taylor_laws import fits, law_header, signatures
 from wetdoublet.derive.emit.taylor_program import Program, cheapest
 from wetdoublet.derive.emit.taylor_work import antiderivative
 from wetdoublet.derive.laws import LAWS
@@ -85,10 +85,12 @@ def test_no_work_where_there_is_no_rule():
 
 
 def test_every_law_has_its_header():
-    """Every law of every slot becomes recurrences; which bridge laws close their work is known."""
+    """Every law that the kernel's structures can call becomes recurrences; which bridge laws close their work is known."""
     closed = set()
+    left_out = {law.name for laws in LAWS.values() for law in laws.values() if not fits(law)}
+    assert left_out == {"cavitating", "constant-volume", "van-der-waals"}
     for slot, laws in LAWS.items():
-        for law in laws.values():
+        for law in filter(fits, laws.values()):
             text = law_header(law, "0", "by a test")
             assert f"{slot}_" in text
             if "BRIDGE_FORCE_WORK" in text:
