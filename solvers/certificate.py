@@ -160,8 +160,8 @@ class BarrierProof:
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        if phase.resting and (not self.model.oblique or self.model.wall):
-            return True  # nothing moves that could part them, and the force is inward
+        if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
+            return True  # nothing moves that could part them, or changes what turns; and the force is inward
         level = self._level(y, phase, _SAFETY)
         return level is not None and self.energy(y) < level
 

@@ -175,6 +175,7 @@ def test_exported_c_is_the_model(tmp_path: Path):
 
 
 def test_the_manifest_covers_every_module():
-    """Every emitted module has its digest in the manifest, against which it is held when it is loaded."""
+    """Every emitted module and header has its digest in the manifest, against which it is held when it is loaded."""
     listed = json.loads((GENERATED / "manifest.json").read_text())["files"]
-    assert set(listed) == {path.relative_to(GENERATED).as_posix() for path in GENERATED.rglob("*.py")}
+    emitted = [path for kind in ("*.py", "*.h") for path in GENERATED.rglob(kind)]
+    assert set(listed) == {path.relative_to(GENERATED).as_posix() for path in emitted}

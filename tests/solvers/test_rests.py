@@ -86,3 +86,40 @@ def test_cut_offs(
     other = flown(found.scene, stokes, math.radians(angle))
     assert other.events == [event.kind for event in found.events]
     assert other.time == pytest.approx(found.until, rel=1e-7)
+
+
+def test_rest_without_shear_is_for_good() -> None:
+    """Soft spheres that rest beyond their film feel no tangential force: nothing changes any more, a stick is proved.
+
+    x_r = 33 x0 here; the inward force holds while the rate of rotation stays what it is.
+    """
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 8.47208e-05,
+                "density": 10818.7,
+                "roughness": 2.99316e-11,
+                "dry_restitution": 0.191098,
+                "youngs_modulus": 2488630.0,
+                "poisson_ratio": 0.0534149,
+            },
+            "liquid": {
+                "viscosity": 0.000731582,
+                "film_thickness": 3.48475e-09,
+                "glass_transition_pressure": 112043000000.0,
+            },
+            "bridge": {"surface_tension": 0.213029, "volume": 1.80604e-05, "contact_angle": 1.54154, "law": "soulie"},
+            "model": {"tangential": "film"},
+        }
+    )
+    found = collide(scene, stokes=187.815, angle=1.40734)
+    assert [event.kind for event in found.events][-2:] == ["elastic", "rests"]
+    assert (found.outcome, found.certified) == ("stick", True)
+    n = numbers(scene, found.speed, found.angle)
+    flight = locate.Locate(load(choose(scene, oblique=True)), n.groups, 1e-9)
+    flight.run()
+    state = dict(zip(flight.model.state, flight.y, strict=False))
+    assert state["gap"] > 1
+    assert flight.model.values("inward_force", flight.y, flight.p)["inward_force"] > 0
+    rates = flight.model.values("resting_rates", flight.y, flight.p, film=0, shear=0)
+    assert not any(rates.values())
