@@ -12,6 +12,7 @@ from functools import cache
 
 import sympy as sp
 
+from . import held
 from .events import events, reversal, reversal_loss, start
 from .intermediates import intermediates
 from .invariants import Invariant, conserved_momentum
@@ -95,6 +96,8 @@ def derive(structure: Structure) -> Model:
     definitions = intermediates(structure, _conserved(structure) if structure.reduced else None)
     if _tethered(structure):
         definitions += tether_definitions()
+    elif held.admits(structure):
+        definitions += held.definitions(structure)
     used = _closure(functions, definitions)
     return Model(
         structure,
@@ -235,6 +238,15 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "tethered",
                 "Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.",
                 tuple(tether_margins().items()),
+            )
+        )
+    if held.admits(structure):
+        functions.append(
+            ModelFunction(
+                "held",
+                "Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): "
+                "hold > 0, flight < 0 and rebound < 0 prove a stick.",
+                tuple(held.margins(structure).items()),
             )
         )
     if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 adc3f08cdca9b2a2bce4b273abdda25d8b1d2a3c6adcda06013f31c5fa5e6420
+# Equations sha256 6aa692abb856ad5e50ea5c633b49bc57a30194c81459895c7850ce10aec7c9a6
 """Oblique doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -25,6 +25,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -54,12 +56,13 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "adc3f08cdca9b2a2bce4b273abdda25d8b1d2a3c6adcda06013f31c5fa5e6420"
+DIGEST = "6aa692abb856ad5e50ea5c633b49bc57a30194c81459895c7850ce10aec7c9a6"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -307,6 +310,38 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 36
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = adhesion*laws.attraction.force(1)/stokes
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(1 - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 45fbf0975bf1b0e2f10b7eb2c3898ad8bc6b958c5a8667519df841d82d0dafb5
+# Equations sha256 d6a81a6f6224f79128123437be4c2b5873057c35f9add92008e14a8e323bc39f
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -24,6 +24,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -52,12 +54,13 @@ FUNCTIONS = (
     "energy_rates",
     "reversal_loss",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "45fbf0975bf1b0e2f10b7eb2c3898ad8bc6b958c5a8667519df841d82d0dafb5"
+DIGEST = "d6a81a6f6224f79128123437be4c2b5873057c35f9add92008e14a8e323bc39f"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -278,6 +281,37 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 35
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = (aspect + 4)**2
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = adhesion*laws.attraction.force(1)/stokes
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(1 - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c2744abbed573e941f258457259f8acdeff24c6d678cc0ff4384639f86cc703d
+# Equations sha256 95a919cba056a51875b980b7ac3e7f9923b884890dae2cffbb40301514d2c5d2
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -28,6 +28,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -60,12 +62,13 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c2744abbed573e941f258457259f8acdeff24c6d678cc0ff4384639f86cc703d"
+DIGEST = "95a919cba056a51875b980b7ac3e7f9923b884890dae2cffbb40301514d2c5d2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -323,6 +326,41 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 39
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

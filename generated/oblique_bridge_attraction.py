@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 5ee0dbaa421b410c020c1de08770aa70e3245e2cdd0b2622ada5cd12a0e6f22e
+# Equations sha256 44d755c8e8b04c488f06e18e69237ac07b2c91edf7bdc04f1bef33fc9410d0c9
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -29,6 +29,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -62,12 +64,13 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "5ee0dbaa421b410c020c1de08770aa70e3245e2cdd0b2622ada5cd12a0e6f22e"
+DIGEST = "44d755c8e8b04c488f06e18e69237ac07b2c91edf7bdc04f1bef33fc9410d0c9"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -334,6 +337,45 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 43
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = (
+        adhesion*laws.attraction.force(rupture_gap)/stokes
+        + laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    )
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 5194c257ea6537c31a3d55640f154f2b91bc82debf289d5259b5fa63511e8d4a
+# Equations sha256 9542d183a99eb378e5339da344ced431f7668cfb155c83c879652c57de753140
 """Oblique doublet with a liquid bridge and another attraction, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -29,6 +29,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -62,12 +64,13 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "5194c257ea6537c31a3d55640f154f2b91bc82debf289d5259b5fa63511e8d4a"
+DIGEST = "9542d183a99eb378e5339da344ced431f7668cfb155c83c879652c57de753140"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -333,6 +336,45 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 43
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = (
+        adhesion*laws.attraction.force(rupture_gap)/stokes
+        + laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    )
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

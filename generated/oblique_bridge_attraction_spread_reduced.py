@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 ad6639a7b9efc7bd2b637431cc9e49d5e3e77c006a9a16def015ddb73c257f68
+# Equations sha256 a5d3879c8615a47ba86cb9b3b353c0c002f54ac4889a6bf86155dd81b938b198
 """Oblique doublet with a liquid bridge and another attraction, a film whose rim follows the bridge's volume,
 spin eliminated through the conserved angular momentum.
 
@@ -29,6 +29,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -61,12 +63,13 @@ FUNCTIONS = (
     "energy_rates",
     "reversal_loss",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "ad6639a7b9efc7bd2b637431cc9e49d5e3e77c006a9a16def015ddb73c257f68"
+DIGEST = "a5d3879c8615a47ba86cb9b3b353c0c002f54ac4889a6bf86155dd81b938b198"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -306,6 +309,44 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 42
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = (aspect + 4)**2
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = (
+        adhesion*laws.attraction.force(rupture_gap)/stokes
+        + laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    )
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

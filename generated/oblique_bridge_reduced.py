@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 2471638297c978f414ba0c6c4bd77f2f04fba55e15bd951af0298a9e71211d56
+# Equations sha256 13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -27,6 +27,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax
 
 
 Values = Mapping[str, Any]
@@ -58,12 +60,13 @@ FUNCTIONS = (
     "energy_rates",
     "reversal_loss",
     "outputs",
+    "held",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "2471638297c978f414ba0c6c4bd77f2f04fba55e15bd951af0298a9e71211d56"
+DIGEST = "13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -295,6 +298,40 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 38
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = (aspect + 4)**2
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c8c1a9e04e3c175dfc5fa35823dc6c9a085c4a594a90cf8cc26ce86076e51aae
+# Equations sha256 77ea3636ef1d45671e6c2a3a9b3bb432d6b74e100408fe1e07a0c303483ffb79
 """Oblique doublet with a liquid bridge and pendulum strings and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -33,7 +33,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import pi, sin
+from casadi import fmax, pi, sin
 
 
 Values = Mapping[str, Any]
@@ -69,9 +69,10 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c8c1a9e04e3c175dfc5fa35823dc6c9a085c4a594a90cf8cc26ce86076e51aae"
+DIGEST = "77ea3636ef1d45671e6c2a3a9b3bb432d6b74e100408fe1e07a0c303483ffb79"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -378,4 +379,53 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 79
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = (
+        adhesion*laws.attraction.force(rupture_gap)/stokes
+        + laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    )
+    hold = (
+        - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+        + least_attraction
+        + weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
+    )
+    largest_pull = (
+        weight*(aspect*rupture_gap + 8)*laws.strings.stiffness(string_ratio, aspect**2*rupture_gap**2/4 + 4*aspect*rupture_gap + 16)
+    )
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b71dada0408eead09052ca39f7081e1856397bfa8a26e8d1e4eac3278a59cd74
+# Equations sha256 81583968be68703cd6fcfdc497a3edab414e1f358aa9f46411a1a51967994790
 """Oblique doublet with a liquid bridge and pendulum strings, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -32,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import pi, sin
+from casadi import fmax, pi, sin
 
 
 Values = Mapping[str, Any]
@@ -67,9 +67,10 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "b71dada0408eead09052ca39f7081e1856397bfa8a26e8d1e4eac3278a59cd74"
+DIGEST = "81583968be68703cd6fcfdc497a3edab414e1f358aa9f46411a1a51967994790"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -366,4 +367,49 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 75
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    rupture_gap = groups["rupture_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect*rupture_gap + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
+    hold = (
+        - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+        + least_attraction
+        + weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
+    )
+    largest_pull = (
+        weight*(aspect*rupture_gap + 8)*laws.strings.stiffness(string_ratio, aspect**2*rupture_gap**2/4 + 4*aspect*rupture_gap + 16)
+    )
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
     }

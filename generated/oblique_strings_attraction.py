@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 df04795b4296c51490636e68f72fadcb507ef6f62c87adbb2e0e0980a4acd9cf
+# Equations sha256 7ed98701899325a9aba4d14de245edf6c4a9205078307fd19a31afb710c2d336
 """Oblique doublet with pendulum strings and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -29,7 +29,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import pi, sin
+from casadi import fmax, pi, sin
 
 
 Values = Mapping[str, Any]
@@ -61,9 +61,10 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
+    "held",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "df04795b4296c51490636e68f72fadcb507ef6f62c87adbb2e0e0980a4acd9cf"
+DIGEST = "7ed98701899325a9aba4d14de245edf6c4a9205078307fd19a31afb710c2d336"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -351,4 +352,44 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
+    flight < 0 and rebound < 0 prove a stick.
+
+    Total operations: 68
+    """
+    gap = state["gap"]
+    opening = state["opening"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    rotation = state["rotation"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    dry_restitution = groups["dry_restitution"]
+    momentum = orbit + 6.4*spin
+    contact = fmax(elastic_gap, rough_gap)
+    nearest = aspect*contact + 4
+    farthest = aspect + 4
+    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
+    largest_orbit = fmax(orbit, spun_up)
+    least_attraction = adhesion*laws.attraction.force(1)/stokes
+    hold = (
+        - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+        + least_attraction
+        + weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
+    )
+    largest_pull = weight*(aspect + 8)*laws.strings.stiffness(string_ratio, aspect**2/4 + 4*aspect + 16)
+    return {
+        "hold": hold,
+        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(1 - gap),
+        "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
     }

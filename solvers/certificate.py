@@ -270,6 +270,45 @@ def _tethered(model: Model) -> Function:
     return Function("tethered", [model.column, model.parameters, margin], [tethered_margin(model, margin)])
 
 
+class HeldProof:
+    """Something attracts so strongly that the gap's maxima only fall from now on (derive/held.py).
+
+    Arguments:
+        beside: another proof for the same model, tried first; it is what a flight watches for.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof | None = None) -> None:
+        self.model, self.p, self.margin, self.beside = model, p, _SAFETY * rtol, beside or NoProof()
+        self.theorem = True  # a model with a conserving arm; `beside` is then one as well, or proves nothing
+        self.watches: str | None = self.beside.watches
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self.beside.level(y, phase)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return self.beside.decided(y, phase) or self._held(y)
+
+    def _held(self, y: np.ndarray) -> bool:
+        found = self.model.values("held", y, self.p)
+        hold = found["hold"]
+        # each by more than the error of what it is made of; a NaN proves nothing
+        energy = max(float(y[1]) ** 2, 1.0)
+        return hold > 0 and found["rebound"] < -self.margin * hold and found["flight"] < -self.margin * energy
+
+
+def energy_proof(proof: Proof) -> BarrierProof | None:
+    """The proof by energy that a flight has, alone or beside another."""
+    found = proof.beside if isinstance(proof, HeldProof) else proof
+    return found if isinstance(found, BarrierProof) else None
+
+
+def _holds(model: Model) -> bool:
+    """Whether attraction alone can prove a stick: the forces fall with the gap, and the arm conserves L."""
+    attracting = [getattr(model.laws, slot) for slot in ("bridge", "attraction") if model.choice.law(slot)]
+    falling = all(getattr(law, "FALLS", False) for law in attracting)
+    return model.has("held") and falling and model.choice.law("arm") in (None, "midgap")
+
+
 def _integrable(model: Model) -> bool:
     """Whether the laws say what the film takes and how far the glass criterion reaches (a user's need not)."""
     return hasattr(model.laws.film, "stopping") and hasattr(model.laws.glass, "reach")
@@ -324,6 +363,8 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
         return TetherProof(model, p, rtol)
     turning = model.oblique and not model.wall
+    if turning and _holds(model):
+        return HeldProof(model, p, rtol, None if model.strings else BarrierProof(model, p, rtol))
     if turning and (model.strings or not model.works):
         return NoProof()
     if model.works == ("attraction",) and not turning and not model.strings:

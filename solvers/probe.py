@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 from casadi import Function, jacobian
 
-from .certificate import Barrier, BarrierProof
+from .certificate import Barrier, energy_proof
 from .errors import ComputationError
 from .integrators import IntegrationFailed, locator, plain, tolerance
 from .locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
@@ -155,7 +155,7 @@ class Probe(Locate):
 
 def _smooth(probe: Locate, path: Path) -> float | None:
     barrier = barrier_of(probe)
-    if barrier is None and isinstance(probe.proof, BarrierProof):
+    if barrier is None and energy_proof(probe.proof) is not None:
         return None  # nothing holds the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
     if barrier is not None and barrier.gap < rim * (1 - 1e-12):
@@ -171,9 +171,10 @@ def _smooth(probe: Locate, path: Path) -> float | None:
 
 def barrier_of(probe: Locate) -> Barrier | None:
     """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
-    if not isinstance(probe.proof, BarrierProof):
+    proof = energy_proof(probe.proof)
+    if proof is None:
         return None
-    barriers = probe.proof.barriers(probe.y)
+    barriers = proof.barriers(probe.y)
     return barriers[0] if barriers else None
 
 

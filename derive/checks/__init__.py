@@ -24,6 +24,7 @@ from .groups import (
     normalisation_of_the_paper,
     number_of_groups,
 )
+from .held import held
 from .laws import film_ends, head_on_closed_form, long_strings_vanish, rigid_rotation_is_free, small_angle_is_linear
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
@@ -70,6 +71,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
         least_energy(),
         least_energy_is_a_minimum(),
         *tethered(),
+        *held(),
         *certificates(own),
         groups_span_the_nullspace(),
         groups_are_the_papers(),

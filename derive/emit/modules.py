@@ -58,8 +58,13 @@ def law_module(law: Law) -> str:
             else [*lines, f"{INDENT}return result", ""]
         )
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
-    body = [*_validity(law), *body]
+    body = [*_validity(law), *_falls(law), *body]
     return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def _falls(law: Law) -> list[str]:
+    """Whether its force never grows with the gap, said where it is so."""
+    return ["", "FALLS = True", ""] if any(each.falls for each in law.functions) else []
 
 
 def _validity(law: Law) -> list[str]:

@@ -53,6 +53,7 @@ ATTRACTIONS = (
                 (gap,),
                 sp.simplify((van_der_waals_force() / van_der_waals_force().subs(x, x0)).subs(x, gap * x0)),
                 "Attraction over A a/(6 x0^2).",
+                falls=True,
             ),
             LawFunction(
                 "potential",

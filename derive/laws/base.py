@@ -16,6 +16,7 @@ class LawFunction:
     """One function of a law: `definitions` name intermediates, in order, for `result`.
 
     `for_proof`: only a stick certificate asks for it; a law that lacks it is flown without that certificate.
+    `falls`: it never grows with its first argument (`checks.held` proves it), which a certificate needs to know.
     """
 
     name: str
@@ -24,6 +25,7 @@ class LawFunction:
     doc: str
     definitions: tuple[Definition, ...] = ()
     for_proof: bool = False
+    falls: bool = False
 
     def __post_init__(self) -> None:
         known = set(self.arguments)

@@ -29,8 +29,9 @@ def _law(
     definitions: tuple[Definition, ...] = (),
     rupture: str | None = None,
     validity: Validity | None = None,
+    falls: bool = False,
 ) -> Law:
-    functions = [LawFunction("force", (h, V, phi), result, _D, definitions)]
+    functions = [LawFunction("force", (h, V, phi), result, _D, definitions, falls=falls)]
     functions += [own_rupture(rupture)] if rupture else []
     return Law("bridge", name, meaning, source, tuple(functions), validity)
 
@@ -46,7 +47,7 @@ def _exponential(
         (B, (_n(slope) * log_volume - _n("0.96")) * phi**2 + _n(offset) * log_volume + _n("0.48")),
         (C, _n(tail) * log_volume + _n("0.078")),
     )
-    return _law(name, meaning, source, sp.exp(A * h + B) + C, definitions, rupture)
+    return _law(name, meaning, source, sp.exp(A * h + B) + C, definitions, rupture, falls=True)
 
 
 def _willett() -> Law:
@@ -129,6 +130,7 @@ def _lambert() -> Law:
         "Lambert, Chau, Delchambre & Regnier, Langmuir 24, 3157 (2008)",
         gorge,
         (reach,),
+        falls=True,
     )
 
 
@@ -142,6 +144,7 @@ def _willett_simple() -> Law:
         ((scaled, h / sp.sqrt(V)),),
         rupture="willett",
         validity=_fitted_up_to("0.001"),
+        falls=True,
     )
 
 
@@ -180,5 +183,6 @@ BRIDGES = (
         "gap-independent upper bound, the force at contact",
         "2 cos(phi): Derjaguin limit at h = 0",
         2 * sp.cos(phi),
+        falls=True,
     ),
 )

@@ -11,6 +11,9 @@ from __future__ import annotations
 from typing import Any
 
 
+FALLS = True
+
+
 def force(gap: Any) -> Any:
     """Attraction over A a/(6 x0^2).
 

@@ -12,6 +12,9 @@ from typing import Any
 from casadi import cos
 
 
+FALLS = True
+
+
 def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
     """Capillary attraction over pi R sigma.
 

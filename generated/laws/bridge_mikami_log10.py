@@ -12,6 +12,9 @@ from typing import Any
 from casadi import exp, log
 
 
+FALLS = True
+
+
 def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
     """Capillary attraction over pi R sigma.
 

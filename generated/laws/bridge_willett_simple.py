@@ -20,6 +20,9 @@ VALIDITY: dict[str, tuple[float | None, float | None]] = {
 VALIDITY_SOURCE = "Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)"
 
 
+FALLS = True
+
+
 def force(gap_over_radius: Any, volume: Any, contact_angle: Any) -> Any:
     """Capillary attraction over pi R sigma.
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c2744abbed573e941f258457259f8acdeff24c6d678cc0ff4384639f86cc703d */
+ * Equations sha256 95a919cba056a51875b980b7ac3e7f9923b884890dae2cffbb40301514d2c5d2 */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 2471638297c978f414ba0c6c4bd77f2f04fba55e15bd951af0298a9e71211d56 */
+ * Equations sha256 13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

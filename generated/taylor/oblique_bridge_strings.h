@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 82ea5e7fe1e33a2006f946f5aa6a97ed622a09fbedb04940f8bd061db54412a1 */
+ * Equations sha256 e7edde922bf9837f511d911d314167005029a1d6fac22cef9f5a7ff54c0b983d */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *

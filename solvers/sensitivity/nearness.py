@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
-from ..certificate import BarrierProof
+from ..certificate import energy_proof
 from ..errors import ComputationError
 from ..integrators import IntegrationFailed, plain, tolerance
 from ..locate import CRITERIA, Locate, Path, Step
@@ -96,7 +96,7 @@ def _refused(near: Near, least: float) -> ComputationError:
 def _stick(scene: Scene, n: Numbers, finder: Locate, path: Path, least: float) -> Near | None:
     """A boundary within `least` in the Stokes number, by the outcome on either side."""
     decided = len(path.steps) == 1 and path.steps[0].duration == 0
-    if decided and isinstance(finder.proof, BarrierProof):
+    if decided and energy_proof(finder.proof) is not None:
         return None  # by energy, before the film has taken any: far from every boundary
     for factor in (1 - least, 1 + least):
         aside = _located(scene, n, n.stokes * factor, finder.rtol)
@@ -166,7 +166,8 @@ _P_GT = "liquid.glass_transition_pressure"
 def _barrier(finder: Locate) -> float:
     """Gap of the highest barrier; the rupture gap where that is the barrier, or none is known."""
     rim = finder.groups["rupture_gap"] if finder.model.bridge else 1.0
-    barriers = finder.proof.barriers(finder.y) if isinstance(finder.proof, BarrierProof) else ()
+    proof = energy_proof(finder.proof)
+    barriers = proof.barriers(finder.y) if proof is not None else ()
     return min(barriers[0].gap, rim) if barriers else rim
 
 

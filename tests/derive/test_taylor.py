@@ -85,7 +85,7 @@ def test_no_work_where_there_is_no_rule():
 
 
 def test_every_law_has_its_header():
-    """Every law that the kernel's structures can call becomes recurrences; which bridge laws close their work is known."""
+    """Every law that the kernel can call becomes recurrences; which bridge laws close their work is known."""
     closed = set()
     left_out = {law.name for laws in LAWS.values() for law in laws.values() if not fits(law)}
     assert left_out == {"cavitating", "constant-volume", "van-der-waals"}

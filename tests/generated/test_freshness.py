@@ -86,16 +86,13 @@ print(hashlib.sha256("\\n".join(name + "\\n" + text for name, text in files.item
 
 
 def test_emission_does_not_depend_on_the_hash_seed():
-    """Two fresh interpreters with hash seeds 0 and 1 emit the same bytes as this one, whose seed is any."""
-    running = [
-        subprocess.Popen(
-            [sys.executable, "-c", _HASH], env={**os.environ, "PYTHONHASHSEED": seed}, stdout=subprocess.PIPE, text=True
-        )
-        for seed in "01"
-    ]
-    found = [process.communicate(timeout=120)[0].strip() for process in running]
+    """A fresh interpreter with hash seed 1 emits the same bytes as this one, whose seed is any."""
+    environment = {**os.environ, "PYTHONHASHSEED": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", _HASH], env=environment, capture_output=True, text=True, check=True, timeout=240
+    )
     here = "\n".join(f"{name}\n{text}" for name, text in texts().items())
-    assert found == [hashlib.sha256(here.encode()).hexdigest()] * 2
+    assert done.stdout.strip() == hashlib.sha256(here.encode()).hexdigest()
 
 
 _BLOCKED = """

@@ -28,7 +28,8 @@ from wetdoublet.solvers.verify.draw import draw_budget
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
     "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
-    "convergence, rosenbrock", "convergence, taylor", "taylor = rosenbrock", "stick certificate", "e_n^2 - 1: identity", "e_n^2: ceiling", "e_n > 1",
+    "convergence, rosenbrock", "convergence, taylor", "taylor = rosenbrock", "stick certificate",
+    "e_n^2 - 1: identity", "e_n^2: ceiling", "e_n > 1",
 ]  # fmt: skip
 
 

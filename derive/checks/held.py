@@ -1,0 +1,77 @@
+"""The proof that attraction holds for good: its margins as emitted, and the laws whose force falls with the gap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import sympy as sp
+
+from ..held import admits
+from ..laws import LAWS, Law
+from ..model import derive
+from ..quantities import (
+    aspect,
+    beta,
+    contact_angle,
+    e_dry,
+    elastic_gap,
+    gap,
+    opening,
+    orbit,
+    rough_gap,
+    rupture_gap,
+    spin,
+    weight,
+)
+from ..scaling import DISTANCE
+from ..structure import structures
+from .base import Check, vanishing
+
+_COSINE = sp.Symbol("cosine", nonnegative=True)  # of a contact angle up to 90 deg
+
+
+def force_falls(laws: Iterable[Law]) -> tuple[Check, ...]:
+    """dF/dx <= 0 of every law that is said to fall."""
+    checks = []
+    for law in laws:
+        for each in law.functions:
+            if each.falls:
+                first = sp.Symbol(each.arguments[0].name, positive=True)
+                force = each(*each.arguments).subs(each.arguments[0], first).subs(sp.cos(contact_angle), _COSINE)
+                slope = sp.factor(sp.simplify(force.diff(first)))
+                checks.append(
+                    Check(f"force falls: {law.name}", "dF/dx <= 0", slope.is_nonpositive is True, f"dF/dh = {slope}")
+                )
+    return tuple(checks)
+
+
+def margins_are_the_forces() -> Check:
+    """`hold`, `flight` and `rebound` out of the emitted inward force at the gaps and momenta that bound it."""
+    left: list[sp.Expr] = []
+    for structure in structures():
+        if not admits(structure) or structure.reduced:
+            continue
+        model = derive(structure)
+        emitted = dict(model["inward_force"].outputs)["inward_force"]
+        force = model.expanded(emitted).subs(DISTANCE, 4 + aspect * gap)
+        attraction = force.subs({weight: 0, orbit: 0})
+        strings, outward = force.subs(orbit, 0) - attraction, force.subs(orbit, 0) - force
+        contact, end = sp.Max(elastic_gap, rough_gap), rupture_gap
+        share = (4 + aspect * end) ** 2 / ((4 + aspect * end) ** 2 + sp.Rational(32, 5))
+        momentum = orbit + sp.Rational(32, 5) * spin
+        least, most = attraction.subs(gap, end), strings.subs({gap: end, beta: sp.pi}, simultaneous=True)
+        away = outward.subs({gap: contact, orbit: sp.Max(orbit, momentum * share)}, simultaneous=True)
+        hold = least + strings.subs(gap, contact) - away
+        found = {name: model.expanded(value) for name, value in model["held"].outputs}
+        left += [
+            found["hold"] - hold,
+            found["flight"] - (sp.Max(opening, -e_dry * opening) ** 2 / 2 - hold * (end - gap)),
+            found["rebound"] - (e_dry**2 * (least + most) - hold),
+        ]
+    return vanishing("held: margins", "inward force at its least, at J_max and at the rupture distance", left)
+
+
+def held() -> tuple[Check, ...]:
+    """Every check of the proof."""
+    laws = [law for slot in ("bridge", "attraction") for law in LAWS[slot].values()]
+    return (*force_falls(laws), margins_are_the_forces())
