@@ -5,6 +5,8 @@ That the emitted margins are these bounds where they are worst is for `margins`.
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 from ..forces import SHEAR
@@ -158,6 +160,7 @@ def criterion_reach() -> tuple[Check, ...]:
     return tuple(checks)
 
 
+@cache
 def tethered() -> tuple[Check, ...]:
     """Every step of the stick proof on strings."""
     return (
