@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from casadi import SX, densify, fmax, vertcat
+from casadi import SX, densify, fmax, if_else, logic_and, vertcat
 
 from .model import Choice, Model, load
 
@@ -166,12 +166,16 @@ def event_table(flow: Flow, watch: Watch, motion: SX, level: SX) -> tuple[Event,
 
 
 def tethered_margin(model: Model, margin: SX | float) -> SX:
-    """Negative where the proof on strings holds by the relative `margin`: the worst of its three inequalities."""
+    """Negative where the proof on strings holds by the relative `margin`: the worst of its three inequalities.
+
+    Not negative where one of them is not a number: fmax would leave that one out.
+    """
     found = model("tethered")
     outward, pull = found["outward"], found["pull"]
     slack = margin * fmax(model.groups["stokes"], 1)
-    inward = outward - pull + margin * (outward + pull)
-    return fmax(inward, fmax(found["film"], found["recoil"]) + slack)
+    parts = (outward - pull + margin * (outward + pull), found["film"] + slack, found["recoil"] + slack)
+    worst = fmax(fmax(parts[0], parts[1]), parts[2])
+    return if_else(logic_and(logic_and(parts[0] < 0, parts[1] < 0), parts[2] < 0), worst, fmax(worst, 0))
 
 
 def mechanical_energy(flow: Flow) -> SX:

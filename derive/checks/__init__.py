@@ -17,6 +17,7 @@ from .certificate import least_energy, least_energy_is_a_minimum
 from .conservation import energy
 from .dimensions import dimension_checks
 from .dissipation import arms, bridge_does_work, film_dissipates, reversal_dissipates
+from .emitted import emitted
 from .groups import (
     centrifugal_number,
     groups_are_the_papers,
@@ -54,6 +55,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
         inertia_is_rigid_rotation(),
         *strings_are_conservative(of("strings")),
         *energy(),
+        *emitted(),
         *arms(of("arm"), of("shear")),
         *(film_dissipates(law) for law in films),
         bridge_does_work(),

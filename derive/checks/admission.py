@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
 
 import sympy as sp
 
@@ -102,12 +101,7 @@ def _on_strings(structure: Structure, laws: Mapping[str, Law], checks: list[Chec
     elif laws["film"] is not LAWS["film"]["finite"]:
         against.append("strings exert a torque, dL/dt = -r S_t, and the proof without energy is of the finite film")
     else:
-        checks += _tethered()
-
-
-@cache
-def _tethered() -> tuple[Check, ...]:
-    return tethered()
+        checks += tethered()
 
 
 def _has_barrier(structure: Structure) -> bool:

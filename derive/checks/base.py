@@ -25,9 +25,11 @@ def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", 
     Arguments:
         holds: what `ok` is if they do; None for a known violation, which is reported and held to nothing.
     """
-    rest = [value for value in map(settled, left) if value != 0]
+    rest = next((value for value in map(settled, left) if value != 0), None)  # the others may take long to settle
     shown = figure or (f"{len(left)} identities" if len(left) > 1 else "identity")
-    return Check(name, statement, False if rest else holds, f"left over: {readable(rest[0])}" if rest else shown)
+    if rest is not None:
+        return Check(name, statement, False, f"left over: {readable(rest)}")
+    return Check(name, statement, holds, shown)
 
 
 def settled(expression: sp.Expr) -> sp.Expr:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -12,6 +14,7 @@ from ..model import Model
 __all__ = ["emitted_rates", "filled", "slope_along"]
 
 
+@cache
 def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
     """The emitted right-hand side by state, every intermediate put back in."""
     named = dict(model["right_hand_side"].outputs)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import cache
 
 import sympy as sp
 
@@ -22,6 +23,7 @@ def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
     return sp.factor(sp.expand(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], laws)))
 
 
+@cache
 def energy_balance(structure: Structure) -> sp.Expr:
     """d/dtau of the emitted energies plus the emitted energy_rates, for any laws (and either arm)."""
     model = derive(structure)

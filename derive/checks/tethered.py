@@ -1,6 +1,11 @@
-"""The stick proof on strings: each of its steps, on the emitted equations (derive/tethered.py says how they join)."""
+"""The stick proof on strings: each of its steps, on the emitted equations (derive/tethered.py says how they join).
+
+That the emitted margins are these bounds where they are worst is for `margins`.
+"""
 
 from __future__ import annotations
+
+from functools import cache
 
 import sympy as sp
 
@@ -16,6 +21,7 @@ from ..structure import Structure
 from ..tethered import outward_at, pull_at, rigid_orbit
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
+from .margins import margins
 
 _TETHERED = Structure(oblique=True, bridge=False, strings=True)
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
@@ -154,6 +160,7 @@ def criterion_reach() -> tuple[Check, ...]:
     return tuple(checks)
 
 
+@cache
 def tethered() -> tuple[Check, ...]:
     """Every step of the stick proof on strings."""
     return (
@@ -163,4 +170,5 @@ def tethered() -> tuple[Check, ...]:
         centrifugal_falls(),
         film_stops(),
         *criterion_reach(),
+        *margins(),
     )

@@ -15,7 +15,7 @@ from . import options
 @options.impact
 @options.changes
 @options.model
-@click.option("-o", "output", metavar="FILE", help="Write the report as Markdown to FILE as well.")
+@click.option("-o", "output", metavar="FILE.md", help="Write the report as Markdown to FILE.md as well.")
 @click.option("--plot", metavar="FILE.png", help="Draw where e_n > 1, and what it is made of: .png, .pdf or .svg.")
 @options.debug
 def command(
@@ -29,7 +29,7 @@ def command(
     plot: str | None,
 ) -> None:
     """Check the laws on SCENE, or on all presets; the report goes to standard output."""
-    file = options.check_file(output, "-o")
+    file = options.check_file(output, "-o", (".md",))
     picture = options.check_file(plot, "--plot", options.PICTURES)
     options.check_apart(file, "-o", picture, "--plot")
     asked = options.Asked.check(source, changes, stokes, speed, angle, model=model)

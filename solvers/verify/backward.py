@@ -63,13 +63,16 @@ def backward(group: str, sample: Sample) -> Iterator[Finding]:
                 where = place(*one, event=piece.name)
                 found += [_returned(stretch, flight, engine, where) for stretch in stretches(piece, flight.p)]
     for engine, found in returns.items():
-        if not found:
-            continue
-        worst = max(found, key=lambda entry: entry.error / entry.bound)
         statement = (
             f"a stretch flown forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
             f"the inverse of its variational matrix (at most {MOST:.0e})"
         )
+        if not found:
+            yield Finding(
+                group, f"forward-back, {engine}", statement, sample.silent or "no stretch is mild enough", "", None
+            )
+            continue
+        worst = max(found, key=lambda entry: entry.error / entry.bound)
         most = max(entry.amplification for entry in found)
         told = (f"  {len(found)} stretches; amplification {worst.amplification:.1e} at the worst, at most {most:.1e}",)
         yield bounded(group, f"forward-back, {engine}", statement, worst.error, worst.bound, worst.where, told)

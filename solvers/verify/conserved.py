@@ -31,9 +31,12 @@ def conserved(group: str, sample: Sample) -> Iterator[Finding]:
         _residual(worst), RESIDUAL, where(worst),
     )  # fmt: skip
     drifting = [one for one in sample.all if one.angular_momentum_drift is not None]
-    if drifting and sample.scene.model.arm != "surface":
+    statement = "L is conserved: |L/L(0) - 1| where the spin is integrated, not eliminated"
+    if sample.scene.pendulum is not None and any(one.angle for one in sample.all):
+        why = "the strings exert a torque: L is not conserved"
+        yield Finding(group, "angular momentum", statement, why, "", None)
+    elif drifting and sample.scene.model.arm != "surface":
         worst = max(drifting, key=_drift)
-        statement = "L is conserved: |L/L(0) - 1| where the spin is integrated, not eliminated"
         yield bounded(group, "angular momentum", statement, _drift(worst), DRIFT, where(worst))
     yield from _agreement(group, sample)
 

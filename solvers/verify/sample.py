@@ -38,6 +38,15 @@ class Sample:
             if REFERENCE in impact and impact[REFERENCE].outcome != "stick":
                 yield impact[REFERENCE]
 
+    @property
+    def silent(self) -> str:
+        """Why there is no flight that lasts; empty if there is one."""
+        if not self.all:
+            return "no collision was completed"
+        if not any(one.contact_time or one.until for one in self.all):
+            return "no flight lasts: all reverse at first touch"
+        return ""
+
 
 def own_stokes(scene: Scene) -> float:
     """The Stokes number that the sample is centred on."""

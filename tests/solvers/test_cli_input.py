@@ -67,6 +67,7 @@ BAD = [
     ("collide granulation --plot a.gif", "--plot", '"a.gif"', ".png"),
     ("collide granulation --plot no/such/a.png", "--plot", "does not exist", "in a folder that exists"),
     ("collide granulation -o no/such/a", "-o", "does not exist", "in a folder that exists"),
+    ("verify granulation -o ./x.pdf", "-o", "has an unsupported suffix", "ending in .md"),
     ("collide granulation -o .", "-o", "is a folder", "a file name"),
     (
         "collide granulation --set liquid.viscosty=3",

@@ -1,0 +1,86 @@
+"""The emitted margins of the stick proof on strings: the bounds of `checks.tethered` at their extremal arguments."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..intermediates import CENTRIFUGAL_FORCE, STRING_PULL
+from ..laws import LAWS, slot_call
+from ..model import derive
+from ..quantities import (
+    aspect,
+    beta,
+    e_dry,
+    elastic_gap,
+    gap,
+    glass_number,
+    opening,
+    orbit,
+    rough_gap,
+    spin,
+    stokes,
+)
+from ..rates import rates
+from ..structure import Structure
+from ..tethered import outward_at, pull_at, rigid_orbit
+from .base import Check, readable, vanishing
+
+_TETHERED = Structure(oblique=True, bridge=False, strings=True)
+
+
+def _bounds() -> dict[str, tuple[sp.Expr, str]]:
+    """Each margin with its lemma put in at the gap, angle and speed where it is worst, and in words."""
+    contact, touch = sp.Max(elastic_gap, rough_gap), sp.Integer(1)
+    largest = sp.Max(orbit, rigid_orbit(orbit + sp.Rational(32, 5) * spin, 4 + aspect * touch))
+    fastest = sp.sqrt(sp.Min(opening, 0) ** 2 + 2 * pull_at(touch, sp.pi))
+    reach = sp.Max(contact, slot_call("glass", "reach", fastest, glass_number))
+    return {
+        "outward": (outward_at(largest, 4 + aspect * contact), "J_max^2/r^3, J_max of r_f, r in contact"),
+        "pull": (pull_at(contact, beta), "S_n in contact at the present beta"),
+        "film": (stokes * sp.Max(opening, 0) - slot_call("film", "stopping", gap), "u St/v0 - Lf(x)"),
+        "recoil": (
+            stokes * e_dry * fastest - slot_call("film", "stopping", reach),
+            "e_dry u_max St/v0 - Lf(x_R), u_max^2 = min(u, 0)^2 + 2 S_n(x0, pi) x0/m, x_R = max(contact, reach(u_max))",
+        ),
+    }
+
+
+def margins_are_the_lemmas() -> tuple[Check, ...]:
+    """What is emitted, opened, is each lemma's bound: at contact, at first touch and half a turn, at the present."""
+    model = derive(_TETHERED)
+    emitted = {name: model.expanded(value) for name, value in model["tethered"].outputs}
+    checks = []
+    for name, (bound, words) in _bounds().items():
+        rest = sp.expand(emitted[name] - model.expanded(bound))  # the same Max and calls on both sides: no simplify
+        checks.append(
+            Check(
+                f"margin of the stick proof: {name}",
+                f"{name} = {words}",
+                rest == 0,
+                "identity" if rest == 0 else f"emitted is {readable(emitted[name])}",
+            )
+        )
+    return tuple(checks)
+
+
+def closing_gains_the_pull() -> Check:
+    """u_max: nothing but the strings speeds a closing doublet up, by their pull over the gap, which is at most x0."""
+    model = derive(_TETHERED)
+    left = [
+        rates(_TETHERED)[opening].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
+        model.expanded(STRING_PULL) - pull_at(gap, beta),  # what the lemmas bound is what is emitted
+        model.expanded(CENTRIFUGAL_FORCE) - outward_at(orbit, 4 + aspect * gap),
+    ]
+    return vanishing("closing gains the pull", "d(u^2/2)/dx = -S_n/m + what slows: u_max^2 - u^2 <= 2 S x0/m", left)
+
+
+def stopping_falls() -> Check:
+    """Lf falls with the gap, so that what the film stops at x_R it stops from any smaller gap."""
+    slope = sp.factor(LAWS["film"]["finite"]["stopping"].result.diff(gap))
+    falls = sp.factor(-slope).is_nonnegative is True
+    return Check("stopping falls", "dLf/dx <= 0: the furthest rebound is the worst", falls, f"dLf/dx = {slope}")
+
+
+def margins() -> tuple[Check, ...]:
+    """Every check of the emitted margins."""
+    return (*margins_are_the_lemmas(), closing_gains_the_pull(), stopping_falls())

@@ -1,0 +1,155 @@
+"""Functions emitted beside the right-hand side, and the margins of the stick proof: each mutant caught by its check."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import sympy as sp
+from wetdoublet.derive import events, observables, rates, tethered
+from wetdoublet.derive import quantities as q
+from wetdoublet.derive.checks.emitted import (
+    events_are_the_definitions,
+    inward_is_minus_the_acceleration,
+    momentum_is_the_bodies,
+    outputs_are_the_definitions,
+    resting_is_held,
+    tangential_force_is_the_published,
+)
+from wetdoublet.derive.checks.margins import margins, margins_are_the_lemmas
+from wetdoublet.derive.checks.restitution import decomposition
+from wetdoublet.derive.events import reversal_loss
+from wetdoublet.derive.laws import slot_call
+from wetdoublet.derive.mechanics import F_t
+from wetdoublet.derive.structure import Structure
+
+from .test_mutants import Healthy, Mutate, altered_force, caught
+
+
+def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
+    """The margins with a recoil at a share of its speed."""
+    right = tethered.margins()
+    slower = right["recoil"].subs(tethered.FASTEST, share * tethered.FASTEST)
+    assert slower != right["recoil"]
+    return {**right, "recoil": slower}
+
+
+def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
+    """A rebound taken at a tenth of its speed: the film stops it where it would not."""
+    wrong = _recoil_of(sp.Rational(1, 10))
+    mutate(tethered.margins, lambda: wrong)
+    caught(margins(), healthy, "margin of the stick proof: recoil")
+
+
+def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
+    """A rebound that starts in contact always, and never where the glass criterion is met."""
+    right = tethered.margins()
+    wrong = {**right, "recoil": right["recoil"].subs(tethered.REACH, tethered.CONTACT)}
+    mutate(tethered.margins, lambda: wrong)
+    caught(margins(), healthy, "margin of the stick proof: recoil")
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "margin"),
+    [
+        (tethered.NEAREST, 4 + q.aspect, "outward"),
+        (tethered.FARTHEST, 4 + q.aspect * tethered.CONTACT, "outward"),
+        (tethered.LARGEST_ORBIT, q.orbit, "outward"),
+        (tethered.CONTACT, q.rough_gap, "outward, pull, recoil"),
+        (tethered.LARGEST_PULL, tethered.pull_at(sp.Integer(1), q.beta), "recoil"),
+        (tethered.FASTEST, sp.sqrt(sp.Min(q.opening, 0) ** 2 + tethered.LARGEST_PULL), "recoil"),
+        (tethered.FASTEST, sp.sqrt(2 * tethered.LARGEST_PULL), "recoil"),
+    ],
+    ids=["nearest", "farthest", "orbit", "contact", "pull at beta", "half the pull", "from rest"],
+)
+def test_a_bound_taken_elsewhere(mutate: Mutate, healthy: Healthy, name, wrong, margin):
+    """Least and largest distance, orbit, contact, pull and speed taken where they are not the worst."""
+    right = dict(tethered.definitions())
+    assert right[name] != wrong
+    mutate(tethered.definitions, lambda: tuple({**right, name: wrong}.items()))
+    caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in margin.split(", ")))
+
+
+def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
+    """The pull at x0 is larger than at contact: the inward force is taken for too large."""
+    wrong = {**tethered.margins(), "pull": tethered.pull_at(sp.Integer(1), q.beta)}
+    mutate(tethered.margins, lambda: wrong)
+    caught(margins(), healthy, "margin of the stick proof: pull")
+
+
+def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.Expr]) -> Callable[..., Any]:
+    """A function of the structure with one of its values changed, where it has it."""
+
+    def wrong(structure: Structure) -> dict[Any, sp.Expr]:
+        found = right(structure)
+        return {**found, name: change(found[name])} if name in found else found
+
+    return wrong
+
+
+@pytest.mark.parametrize(
+    ("right", "name", "change", "check", "caught_by"),
+    [
+        (rates.resting_rates, q.orbit, lambda e: -e, resting_is_held, "resting contact"),
+        (rates.resting_rates, q.opening, lambda e: e + 1, resting_is_held, "resting contact"),
+        (observables.outputs, "tangential_restitution", lambda e: 2 * e, outputs_are_the_definitions, "outputs"),
+        (observables.outputs, "final_spin", lambda e: -e, outputs_are_the_definitions, "outputs"),
+        (observables.outputs, "restitution", lambda e: -e, outputs_are_the_definitions, "outputs"),
+        (events.events, "rupture", lambda e: e + q.gap / 2, events_are_the_definitions, "events"),
+        (events.events, "elastic", lambda e: e + q.elastic_gap / 2, events_are_the_definitions, "events"),
+        (events.events, "rough", lambda e: e + q.rough_gap / 2, events_are_the_definitions, "events"),
+        (
+            events.events,
+            "glass",
+            lambda e: q.glass_number + slot_call("glass", "pressure", q.gap, -q.opening),
+            events_are_the_definitions,
+            "events",
+        ),
+        (events.events, "half_turn", lambda e: e + sp.pi, events_are_the_definitions, "events"),
+        (events.events, "release", lambda e: -e, inward_is_minus_the_acceleration, "inward force"),
+    ],
+    ids=[
+        "orbit at rest", "opening at rest", "e_t", "spin", "e_n",
+        "rupture", "elastic", "rough", "glass", "half turn", "release",
+    ],
+)  # fmt: skip
+def test_one_value_of_a_function(mutate: Mutate, healthy: Healthy, right, name, change, check, caught_by):
+    """A sign, a factor or a shift in one value of resting rates, outputs or events, and nowhere else."""
+    mutate(right, _with(right, name, change))
+    caught(check(), healthy, caught_by)
+
+
+def test_an_inward_force_that_pushes(mutate: Mutate, healthy: Healthy):
+    """The sign of what holds a doublet in contact: it would rest where it should be thrown off."""
+    right = rates.inward_force
+    mutate(right, lambda structure: -right(structure))
+    caught(inward_is_minus_the_acceleration(), healthy, "inward force")
+
+
+def test_an_angular_momentum_of_another_measure(mutate: Mutate, healthy: Healthy):
+    """L times the gap starts at 1 as it should, and is not L."""
+    right = observables.angular_momentum
+    mutate(right, lambda structure: right(structure) * q.gap)
+    caught(momentum_is_the_bodies(), healthy, "emitted angular momentum")
+
+
+@pytest.mark.parametrize("factor", [sp.Rational(1, 2), sp.Integer(-1)])
+def test_a_tangential_force_of_another_size(mutate: Mutate, healthy: Healthy, factor):
+    """Half of F_t dissipates and conserves L: only the published force tells."""
+    altered_force(mutate, F_t, lambda force: factor * force)
+    caught(tangential_force_is_the_published(), healthy, "tangential force")
+
+
+def test_a_decomposition_with_half_the_shear(mutate: Mutate, healthy: Healthy):
+    """Shear charged with half its power: the terms of e_n^2 - 1 do not add up."""
+    right = observables.energy_rates
+    half = _with(right, "tangential_lubrication", lambda e: e / 2)
+    mutate(right, half)
+    caught(decomposition(), healthy, "decomposition of e_n^2 - 1")
+
+
+def test_a_decomposition_with_another_dry_loss(mutate: Mutate, healthy: Healthy):
+    """A reversal charged with half its loss leaves the other half unaccounted for."""
+    mutate(reversal_loss, lambda: q.opening**2 * (1 - q.e_dry**2) / 4)
+    caught(decomposition(), healthy, "decomposition of e_n^2 - 1")
