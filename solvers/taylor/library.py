@@ -120,6 +120,7 @@ def source(variant: Variant, emitted: tuple[Path, ...]) -> str:
         "WITH_ROTATION": int(variant.rotation),
         "PROOF_BY_ENERGY": int(by_energy and not unproved),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
+        "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]

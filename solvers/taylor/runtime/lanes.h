@@ -71,6 +71,8 @@ static void fly(queue *q)
         if (turn++ % 2 == 0) {
 #if PROOF_BY_ENERGY
         sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
+#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
+        sticks = held_by_strings(&f.c, l.y, q->rtol);
 #elif !OBLIQUE
         sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
 #endif
