@@ -126,7 +126,8 @@ def source(variant: Variant, emitted: tuple[Path, ...]) -> str:
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [file.read_text() for file in emitted]
     parts += [
-        (_RUNTIME / name).read_text() for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "lanes.h")
+        (_RUNTIME / name).read_text()
+        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
     ]
     return "\n".join(parts)
 
