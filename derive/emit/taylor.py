@@ -13,6 +13,7 @@ from ..scaling import group_definitions
 from .taylor_c import Constants, Recurrences, Text, comment, function
 from .taylor_laws import signatures
 from .taylor_program import Program
+from .taylor_tethered import tethered_functions
 from .text import needed
 
 _FLAGS = (FILM, SHEAR)
@@ -262,6 +263,9 @@ class Header:
                     f"static inline vec potential_{key}(const constants *c, const vec *y)",
                     {key: "return"},
                 )
+        if any(each.name == "tethered" for each in model.functions):
+            prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
+            lines += tethered_functions(model, self.constants, prepared)
         if shape.bridge:
             lines += self._work()
         if not (shape.oblique or shape.bridge or shape.strings):

@@ -14,14 +14,19 @@ from .taylor_program import Operation, Program
 
 _WIDTH = 110
 _FUNCTIONS = {sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan"}
+_EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
 _ADD, _MUL, _ATOM = range(3)
 
 
 class Text:
-    """Prints an expression over lanes; `names` says what symbols are called."""
+    """Prints an expression over lanes; `names` says what symbols are called.
 
-    def __init__(self, names: Callable[[sp.Symbol], str]) -> None:
-        self._names = names
+    Arguments:
+        calls: of slot functions whose still arguments have been prepared, the call up to its last argument.
+    """
+
+    def __init__(self, names: Callable[[sp.Symbol], str], calls: Mapping[str, str] | None = None) -> None:
+        self._names, self._calls = names, calls or {}
 
     def __call__(self, expression: sp.Expr) -> str:
         return self._print(sp.sympify(expression))[0]
@@ -42,7 +47,14 @@ class Text:
             return self._product(node), _MUL
         if isinstance(node, sp.Pow):
             return self._power(node)
+        if type(node) in _EXTREMES:
+            first, *others = (self.vector(argument) for argument in node.args)
+            for other in others:
+                first = f"{_EXTREMES[type(node)]}({first}, {other})"
+            return first, _ATOM
         if isinstance(node, AppliedUndef) and is_slot_call(node):
+            if node.func.__name__ in self._calls:
+                return f"{self._calls[node.func.__name__]}{self.vector(node.args[-1])})", _ATOM
             arguments = ", ".join(self.vector(argument) for argument in node.args)
             return f"{node.func.__name__.replace('.', '_')}({arguments})", _ATOM
         if type(node) in _FUNCTIONS:

@@ -72,10 +72,27 @@ def law_header(law: Law, digest: str, provenance: str) -> str:
     lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
     for each in law.functions:
         moves = signatures().get((law.slot, each.name))
+        if each.for_proof:
+            lines += _asked(law.slot, each)
         if moves is None or each.for_proof:
             continue
         lines += _function(law.slot, each, moves)
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _asked(slot: str, each: LawFunction) -> list[str]:
+    """A plain function that only a stick proof calls."""
+    name = f"{slot}_{each.name}"
+    text = Text(lambda symbol: symbol.name)
+    kept, _ = needed([each.result], each.definitions)
+    body = [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+    arguments = ", ".join(f"vec {argument.name}" for argument in each.arguments)
+    return [
+        f"#define {name.upper()} 1",
+        *comment(each.doc),
+        *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
+        "",
+    ]
 
 
 def _function(slot: str, each: LawFunction, moves: tuple[bool, ...]) -> list[str]:

@@ -58,6 +58,9 @@ typedef struct {
     vec energy_per_spin_squared;
     vec energy_per_strings_rise_law;
     vec tangential_restitution_factor;
+    vec contact;
+    vec nearest;
+    vec farthest;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -115,6 +118,9 @@ static inline void prepare(constants *c)
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
+    c->nearest = c->aspect*c->contact + 4.0;
+    c->farthest = c->aspect + 4.0;
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -317,6 +323,36 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     shown[2] = orbital_rate;
     shown[3] = y[SPIN];
 }
+
+#if defined(FILM_STOPPING) && defined(GLASS_REACH)
+#define TETHERED MIDGAP_ARM
+/* The strings outweigh the rotation for good where outward < pull (derive/tethered.py). */
+static inline void tethered_inward(const constants *c, const vec *y, vec *outward, vec *pull)
+{
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
+    vec largest_orbit = vec_larger(y[ORBIT], spun_up);
+    *outward =
+        0.0625*c->aspect*(largest_orbit*largest_orbit)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+    *pull = c->weight*(c->aspect*c->contact +
+        8.0*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])))*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
+        4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
+}
+/* Then the film stops the motion and every rebound where film < 0 and recoil < 0. */
+static inline void tethered_stops(const constants *c, const vec *y, vec *film, vec *recoil)
+{
+    vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect) + 4.0*c->aspect + 16.0);
+    vec fastest = vec_sqrt(2.0*largest_pull + (vec_smaller(splat(0.0), y[OPENING])*vec_smaller(splat(0.0),
+        y[OPENING])));
+    vec reach = vec_larger(c->contact, glass_reach(fastest, c->glass_number));
+    *film = c->stokes*vec_larger(splat(0.0), y[OPENING]) - film_stopping(y[GAP]);
+    *recoil = c->dry_restitution*fastest*c->stokes - film_stopping(reach);
+}
+#else
+#define TETHERED 0
+#endif
 
 /* Gap beyond which there is no tangential force. */
 static inline vec tangential_edge(const constants *c)

@@ -120,12 +120,14 @@ def source(variant: Variant, emitted: tuple[Path, ...]) -> str:
         "WITH_ROTATION": int(variant.rotation),
         "PROOF_BY_ENERGY": int(by_energy and not unproved),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
+        "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [file.read_text() for file in emitted]
     parts += [
-        (_RUNTIME / name).read_text() for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "lanes.h")
+        (_RUNTIME / name).read_text()
+        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
     ]
     return "\n".join(parts)
 

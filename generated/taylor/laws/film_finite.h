@@ -46,3 +46,10 @@ static inline vec film_resistance_work(const film_resistance_constants *c, vec g
     vec work = 0.5*gap_squared + log_of_gap - 2.0*gap;
     return work;
 }
+
+#define FILM_STOPPING 1
+/* Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0. */
+static inline vec film_stopping(vec gap)
+{
+    return 2.0*gap - 0.5*(gap*gap) - vec_log(gap) - 1.5;
+}

@@ -42,3 +42,10 @@ static inline vec film_resistance_work(const film_resistance_constants *c, vec g
     vec work = vec_log(gap);
     return work;
 }
+
+#define FILM_STOPPING 1
+/* Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0. */
+static inline vec film_stopping(vec gap)
+{
+    return -vec_log(gap);
+}

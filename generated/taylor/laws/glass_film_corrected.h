@@ -39,3 +39,10 @@ static inline vec glass_pressure_clearance_value(const glass_pressure_clearance_
     vec result = approach_by_gap_squared + c->limit*gap_squared - approach;
     return result;
 }
+
+#define GLASS_REACH 1
+/* Gap at which this approach speed meets the criterion. */
+static inline vec glass_reach(vec approach, vec glass_number)
+{
+    return vec_sqrt(approach)/vec_sqrt(approach + glass_number);
+}

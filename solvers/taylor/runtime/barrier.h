@@ -213,3 +213,19 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
     return stopped;
 }
 #endif
+
+#if OBLIQUE && STRINGS && !BRIDGE && TETHERED
+/* Strings that turn and a film: lanes where the margins of derive/tethered.py hold by more than their error, as
+ * solvers/phases.py `tethered_margin` has it. */
+static mask held_by_strings(const constants *c, const vec *y, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
+    tethered_inward(c, y, &outward, &pull);
+    mask held = outward - pull + margin*(outward + pull) < 0.0;
+    if (!bits(held))
+        return held;
+    tethered_stops(c, y, &film, &recoil);
+    return held & (film + slack < 0.0) & (recoil + slack < 0.0);
+}
+#endif

@@ -3,28 +3,56 @@
  * What is too rare to be fast is handed over to solvers/locate.py, named by a status.
  */
 
-/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2).
- *
- * Only to some percent: the bits of a positive double, read as an integer, are nearly its logarithm.
- */
-static inline vec step_size(const series *s, const fixed *f)
+/* The bits of a positive double, read as an integer, are nearly its logarithm: lengths only to some percent. */
+static const int64_t ONE = 0x3ff0000000000000;
+
+static inline vec power_of(vec logarithm)
+{
+    logarithm = vec_min(logarithm, splat(60.0*4503599627370496.0));
+    return (vec)(__builtin_convertvector(logarithm, mask) + ONE);
+}
+
+/* What a share of coefficient k may still grow by in the state that allows least, as a logarithm. */
+static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share)
+{
+    mask least_room = splat_mask(INT64_MAX);
+    for (int state = 0; state < STATES; state++)
+        least_room = least(scale[state] - (mask)vec_abs(share*a[state][k]), least_room);
+    return __builtin_convertvector(least_room, vec);
+}
+
+/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2); lanes that a decaying
+ * mode holds to it are in `creeps`, and take the step of the damped sum. */
+static inline vec step_size(const series *s, const fixed *f, mask *creeps)
 {
     const vec(*a)[TERMS] = (const void *)s;
-    mask last = splat_mask(INT64_MAX), before = splat_mask(INT64_MAX);
+    mask scale[STATES];
     for (int state = 0; state < STATES; state++) {
         vec size = vec_abs(a[state][0]);
-        vec scale = state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3;
-        mask own = (mask)scale - (mask)vec_abs(a[state][ORDER]);
-        mask other = (mask)scale - (mask)vec_abs(a[state][ORDER - 1]);
-        last = least(own, last);
-        before = least(other, before);
+        scale[state] = (mask)(state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
-    const int64_t one = 0x3ff0000000000000;
-    vec allowed = __builtin_convertvector((mask)f->tolerance - one, vec);
-    vec lower = (allowed + __builtin_convertvector(last, vec))*(1.0/ORDER);
-    vec other = (allowed + __builtin_convertvector(before, vec))*(1.0/(ORDER - 1));
-    vec power = vec_min(vec_min(lower, other), splat(60.0*4503599627370496.0));
-    return (vec)(__builtin_convertvector(power, mask) + one);
+    vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
+    vec last = room(scale, a, ORDER, 1.0), before = room(scale, a, ORDER - 1, 1.0);
+    vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
+    /* of a mode exp(-z), z is the order times the last term over the one before */
+    *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
+    if (bits(*creeps)) {
+        vec damped = splat(INFINITY);
+        for (int k = EXACT + 1; k <= ORDER; k++) {
+            vec own = room(scale, a, k, STRICTER*(1.0 - damping(k)));
+            damped = vec_min(damped, (allowed + own)*(1.0/k));
+        }
+        step = choose(*creeps, damped, step);
+    }
+    return power_of(step);
+}
+
+/* The series of creeping lanes as the damped sum has them, so that events see what the states become. */
+static inline void damp(vec (*a)[TERMS], mask creeps)
+{
+    for (int state = 0; state < STATES; state++)
+        for (int k = EXACT + 1; k <= ORDER; k++)
+            a[state][k] = choose(creeps, damping(k)*a[state][k], a[state][k]);
 }
 
 /* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
@@ -71,6 +99,8 @@ static void fly(queue *q)
         if (turn++ % 2 == 0) {
 #if PROOF_BY_ENERGY
         sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
+#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
+        sticks = held_by_strings(&f.c, l.y, q->rtol);
 #elif !OBLIQUE
         sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
 #endif
@@ -85,9 +115,12 @@ static void fly(queue *q)
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        mask creeps;
+        vec h = only(l.alive, step_size(&s, &f, &creeps));
+        if (bits(creeps))
+            damp(a, creeps);
         if (bits(l.alive & l.closing))
             expand_glass(&s, &f.c);
-        vec h = only(l.alive, step_size(&s, &f));
         first_event found;
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);

@@ -131,6 +131,8 @@ static void fill_queue(queue *q)
         f.b.touch = splat(0.0);
 #endif
         proved = bits(below_barrier(&f.c, y, &f.b, splat_mask(0), q->rtol));
+#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
+        proved = bits(held_by_strings(&f.c, y, q->rtol));
 #elif !OBLIQUE
         proved = bits(stopped_by_film(&f.c, y, f.contact, splat_mask(-1), q->rtol));
 #endif

@@ -52,6 +52,17 @@ static inline vec vec_min(vec a, vec b)
     return choose(a < b, a, b);
 }
 
+/* The same where proofs hang on it: NaN if either is. */
+static inline vec vec_larger(vec a, vec b)
+{
+    return choose((a > b) | (a != a), a, b);
+}
+
+static inline vec vec_smaller(vec a, vec b)
+{
+    return choose((a < b) | (a != a), a, b);
+}
+
 static inline mask least(mask a, mask b)
 {
     mask less = a < b;

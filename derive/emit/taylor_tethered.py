@@ -1,0 +1,74 @@
+"""The stick proof on strings in C: its margins as values over lanes, where the laws say what the proof asks of them."""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..laws.base import is_slot_call
+from ..model import Model
+from .taylor_c import Constants, Text, comment, function
+from .text import needed
+
+# Two functions, the cheap and telling margin first.
+PARTS = {
+    "tethered_inward": (
+        ("outward", "pull"),
+        "The strings outweigh the rotation for good where outward < pull (derive/tethered.py).",
+    ),
+    "tethered_stops": (
+        ("film", "recoil"),
+        "Then the film stops the motion and every rebound where film < 0 and recoil < 0.",
+    ),
+}
+
+
+def tethered_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The functions of PARTS, in the region of laws that have what the proof asks.
+
+    Arguments:
+        constants: of the structure; what does not move is added to them.
+        prepared: by slot and function, the law's constants in those of the structure.
+    """
+    outputs = dict(model["tethered"].outputs)
+    asked = {
+        node.func.__name__.replace(".", "_").upper()
+        for _, expression in (*needed(list(outputs.values()), model.definitions)[0], *outputs.items())
+        for node in sp.sympify(expression).atoms(AppliedUndef)
+        if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in prepared
+    }
+    lines = [f"#if {' && '.join(f'defined({name})' for name in sorted(asked))}", "#define TETHERED MIDGAP_ARM"]
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    for name, (keys, doc) in PARTS.items():
+        kept, _ = needed([outputs[key] for key in keys], model.definitions)
+        lines += _function(name, doc, kept, {key: outputs[key] for key in keys}, moving, constants, prepared)
+    return [*lines, "#else", "#define TETHERED 0", "#endif", ""]
+
+
+def _function(
+    name: str,
+    doc: str,
+    kept: list[tuple[sp.Symbol, sp.Expr]],
+    outputs: dict[str, sp.Expr],
+    moving: dict[sp.Symbol, str],
+    constants: Constants,
+    prepared: dict[tuple[str, str], str],
+) -> list[str]:
+    local = dict(moving)
+    text = Text(lambda symbol: local.get(symbol) or constants.name(symbol), _calls(prepared))
+    body = []
+    for symbol, expression in kept:
+        if expression.free_symbols & set(local) or expression.atoms(AppliedUndef):
+            body.append(f"vec {symbol.name} = {text.vector(expression)};")
+            local[symbol] = symbol.name
+        else:
+            constants.define(symbol, expression)
+    body += [f"*{key} = {text.vector(expression)};" for key, expression in outputs.items()]
+    results = ", ".join(f"vec *{key}" for key in outputs)
+    head = f"static inline void {name}(const constants *c, const vec *y, {results})"
+    return [*comment(doc), *function(head, body)]
+
+
+def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, str]:
+    """How laws with constants are called: by value, their still arguments in the constants."""
+    return {f"{slot}.{name}": f"{slot}_{name}_value(&c->{where}, " for (slot, name), where in prepared.items()}
