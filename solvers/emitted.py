@@ -87,6 +87,12 @@ def text(name: str) -> str:
     return cached(f"{name}.py", derived).read_text(encoding="utf-8")
 
 
+def header(path: str) -> str:
+    """Text of an emitted C header of the kernel, a path below `generated`, verified."""
+    _verified(path)
+    return (_FOLDER / path).read_text(encoding="utf-8")
+
+
 def committed(path: str) -> bool:
     """Whether a file is among the emitted ones of the package."""
     return path in manifest()["files"]

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .. import emitted
 from ..compiled import cache_folder, compiler
 from ..model import Choice, choose
 
@@ -35,7 +36,6 @@ FLAGS = (
     "-std=gnu11",
     "-w",
 )
-_GENERATED = Path(__file__).resolve().parents[2] / "generated" / "taylor"
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
@@ -94,11 +94,11 @@ def _processor() -> frozenset[str]:
     return frozenset({"sse2"})
 
 
-def headers(choice: Choice) -> tuple[Path, ...] | None:
+def headers(choice: Choice) -> tuple[str, ...] | None:
     """The emitted headers of a choice, laws first; None if it has what the kernel does not know."""
-    files = [_GENERATED / "laws" / f"{slot}_{law.replace('-', '_')}.h" for slot, law in choice.laws]
-    files.append(_GENERATED / f"{choice.structure}.h")
-    return tuple(files) if choice.package is None and all(file.is_file() for file in files) else None
+    paths = [f"taylor/laws/{slot}_{law.replace('-', '_')}.h" for slot, law in choice.laws]
+    paths.append(f"taylor/{choice.structure}.h")
+    return tuple(paths) if choice.package is None and all(map(emitted.committed, paths)) else None
 
 
 def knows(scene: Scene) -> bool:
@@ -107,7 +107,7 @@ def knows(scene: Scene) -> bool:
     return common and compiler() is not None and all(headers(choose(scene, oblique)) for oblique in (True, False))
 
 
-def source(variant: Variant, emitted: tuple[Path, ...]) -> str:
+def source(variant: Variant, paths: tuple[str, ...]) -> str:
     """C source of a kernel."""
     choice = variant.choice
     slots = dict(choice.laws)
@@ -124,7 +124,7 @@ def source(variant: Variant, emitted: tuple[Path, ...]) -> str:
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
-    parts += [file.read_text() for file in emitted]
+    parts += [emitted.header(path) for path in paths]
     parts += [
         (_RUNTIME / name).read_text()
         for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
@@ -135,11 +135,11 @@ def source(variant: Variant, emitted: tuple[Path, ...]) -> str:
 @cache
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
-    found, emitted = compiler(), headers(variant.choice)
-    if found is None or emitted is None:
+    found, paths = compiler(), headers(variant.choice)
+    if found is None or paths is None:
         return None
     path, version = found
-    text = source(variant, emitted)
+    text = source(variant, paths)
     machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
     content = "\0".join([text, version, " ".join(FLAGS), machine])
     key = hashlib.sha256(content.encode()).hexdigest()[:32]
