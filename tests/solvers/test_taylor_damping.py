@@ -1,4 +1,4 @@
-"""The damped sum of creeping flights (solvers/taylor/runtime/damped.h): what its table is said to do, and what comes of it."""
+"""The damped sum of creeping flights (solvers/taylor/runtime/damped.h): its table, and what comes of it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_all_orders_are_there():
 
 @pytest.mark.parametrize("order", ROWS)
 def test_a_decaying_mode_dies(order: int):
-    """|R(z)| < 0.75 from z = 2.5 up to the row's z, where the series itself amplifies; exact arithmetic, no rounding."""
+    """|R(z)| < 0.75 from z = 2.5 up to the row's z, where the series itself amplifies; in exact arithmetic."""
     factors, reach = ROWS[order]
     weights = [Fraction(1)] * (order - 2) + list(factors)
     # the last tenth printed may be rounded up, and the edge is steep
