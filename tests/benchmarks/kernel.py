@@ -17,6 +17,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +68,62 @@ def work() -> list[dict[str, Any]]:
                 }
             )
     return rows
+
+
+def beside() -> list[dict[str, Any]]:
+    """The cheapest CPU time at a largest error of 1e-8, kernel, `collide_many` and heyoka taking turns."""
+    if find_spec("heyoka") is None:
+        return [{"task": "heyoka is not installed"}]
+    from wetdoublet.solvers.benchmarks.peer_heyoka import collisions
+
+    rows = []
+    for task in TASKS:
+        impacts = task.impacts()
+        stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
+        exact = collide_many(task.scene, stokes=stokes, angle=angle, rtol=1e-12, engine="rosenbrock").restitution.values
+        found = engine.answers(engine.Impacts(task.scene, task.scene.speed_of(stokes), angle, {}), 1e-9)
+        assert found is not None
+        left = np.flatnonzero(found["status"] != 1)
+        truth = np.tile(exact[left], 2 * REPEATS)
+        st, theta = np.tile(stokes[left], 2 * REPEATS), np.tile(angle[left], 2 * REPEATS)
+        many = engine.Impacts(task.scene, task.scene.speed_of(st), theta, {})
+        runs: list[tuple[str, Callable[[], Any]]] = []
+        for rtol in (1e-7, 3e-8, 1e-8, 3e-9):
+            runs.append(("kernel", partial(_kernel, many, rtol)))
+            runs.append(("collide_many", partial(_collided, task.scene, st, theta, rtol)))
+        for rtol in (1e-8, 1e-9, 1e-10, 1e-11):
+            batch = collisions(task.scene, [impacts[k] for k in left] * (2 * REPEATS), rtol)
+            runs.append(("heyoka", partial(_batch, batch)))
+        least = [math.inf] * len(runs)
+        exactly = [True] * len(runs)
+        for _ in range(RUNS + 1):
+            for k, (_, run) in enumerate(runs):
+                before = time.process_time()
+                values = run()
+                least[k] = min(least[k], time.process_time() - before)
+                exactly[k] &= bool(np.abs(values - truth).max() <= 1e-8)
+        best = {
+            name: min(1e6 * least[k] / st.size for k, (own, _) in enumerate(runs) if own == name and exactly[k])
+            for name in ("kernel", "collide_many", "heyoka")
+        }
+        ratios = {f"heyoka / {name}": best["heyoka"] / best[name] for name in ("kernel", "collide_many")}
+        rows.append({"task": task.preset, **best, **ratios})
+    return rows
+
+
+def _kernel(impacts: engine.Impacts, rtol: float) -> Any:
+    found = engine.answers(impacts, rtol)
+    assert found is not None
+    return found["shown"][:, 0]
+
+
+def _collided(scene: Scene, stokes: Any, angle: Any, rtol: float) -> Any:
+    return collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine="taylor").restitution.values
+
+
+def _batch(batch: Any) -> Any:
+    batch.run()
+    return np.array(batch.restitutions)
 
 
 def near() -> list[dict[str, Any]]:
@@ -141,10 +200,15 @@ def main() -> None:
     assert Scene.load("granulation")
     record = {"environment": environment(), "lanes": library.lanes(), "flags": library.FLAGS}
     record |= {"work": work(), "near": near(), "growth": growth(), "cold": cold()}
+    record["beside"] = beside()  # last: heyoka takes memory
     text = f"""{BEGIN}
 {record["lanes"]} lanes. CPU time a collision that is not decided at first touch:
 
 {table(record["work"])}
+
+Microseconds of CPU a collision, cheapest tolerance whose largest error is below 1e-8, all in one run:
+
+{table(record["beside"])}
 
 Near the S/SRS separatrix at 45 degrees (relative distance in St), milliseconds a collision on all cores:
 

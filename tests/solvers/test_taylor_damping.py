@@ -1,4 +1,4 @@
-"""The damped sum of creeping flights (solvers/taylor/runtime/damped.h): what its table does, and what comes of it."""
+"""The damped sum of creeping flights (solvers/taylor/runtime/damped.h): its table, and what comes of it."""
 
 from __future__ import annotations
 
