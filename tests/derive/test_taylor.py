@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.printer import EmissionError
+from wetdoublet.derive.emit.taylor import structure_header
 from wetdoublet.derive.emit.taylor_laws import fits, law_header, signatures
 from wetdoublet.derive.emit.taylor_program import Program, cheapest
 from wetdoublet.derive.emit.taylor_work import antiderivative
 from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.model import derive
+from wetdoublet.derive.structure import Structure
 
 x, y = sp.symbols("x y", positive=True)
 c = sp.Symbol("c", positive=True)
@@ -104,3 +109,13 @@ def test_arguments_that_move():
     assert signatures()["bridge", "force"] == (True, False, False)
     assert signatures()["shear", "edge"] == (False,)
     assert signatures()["strings", "stiffness"] == (False, True)
+
+
+def test_margins_of_the_stick_proof_hand_nan_on():
+    """Rotating strings with a film alone have the proof's margins, by maxima that are NaN where either argument is."""
+    text = structure_header(derive(Structure(oblique=True, bridge=False, strings=True)), "0", "by a test", "")
+    assert "#if defined(FILM_STOPPING) && defined(GLASS_REACH)" in text
+    assert "vec_larger(y[ORBIT], spun_up)" in text
+    assert not re.search(r"vec_(max|min)\(", text)
+    without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)), "0", "by a test", "")
+    assert "tethered" not in without
