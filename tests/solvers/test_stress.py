@@ -171,6 +171,7 @@ def test_what_chatter_takes_is_booked() -> None:
             "liquid": {"viscosity": 5e-3, "film_thickness": 5e-10, "glass_transition_pressure": 5e4},
             "bridge": {"surface_tension": 0.37, "volume": 1.5e-4, "contact_angle": 0.94},
             "pendulum": {"length": 1e-3},
+            "model": {"arm": "surface"},  # with the other it is proved to stick before it moves
         }
     )
     found = collide(scene, stokes=1.7e-6, angle="14 deg")
