@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from functools import cache
-from importlib import import_module
-from importlib.util import find_spec
 
 import sympy as sp
 
 from .checks.closed import filled
 from .checks.conservation import momentum_rate
 from .custom import UserModel
+from .invariants import invariants
 from .laws import LAWS
 from .laws.base import Law
 from .model import derive
@@ -30,15 +29,10 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
 
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
-    """What stays the same along a flight without strings and without solids, whatever the other laws are.
-
-    Invariants linear in the momenta where the derivation can find them, else angular momentum, if it is one.
-    """
-    if find_spec(".invariants", __package__) is None:
-        return (_ANGULAR_MOMENTUM,) if torque(model) == 0 else ()
-    found = import_module(".invariants", __package__)
+    """What stays the same along a flight without strings and without solids, whatever the other laws are."""
     arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
-    return tuple(each.describe() for each in found.invariants(model.extended(derive(_FULL)), {"arm": arm}))
+    found = invariants(model.extended(derive(_FULL)), {"arm": arm})
+    return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in found)
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:

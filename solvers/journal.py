@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -51,8 +52,17 @@ class Journal:
             file.write(b"\n%s %s %s\n" % (self.key.encode(), _checksum(text), text))
 
     def remove(self) -> None:
-        """Remove the file: it is no longer needed."""
-        self.path.unlink(missing_ok=True)
+        """Remove what is kept of this request; the file too, unless another request's work is in it."""
+        if not self.path.is_file():
+            return
+        lines = self.path.read_bytes().split(b"\n")
+        others = [line for line in lines if line and not line.startswith(self.key.encode() + b" ")]
+        if not others:
+            self.path.unlink(missing_ok=True)
+            return
+        beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
+        beside.write_bytes(b"\n".join(others) + b"\n")
+        beside.replace(self.path)
 
 
 def kept_in(path: Path) -> int:

@@ -93,6 +93,12 @@ def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[st
     return values
 
 
+def _as_given(scene: Scene, speed: float, stokes: float) -> float:
+    """The Stokes number as the impact says it, if it does: not rounded on its way through the speed."""
+    given = scene.impact.stokes
+    return given if given is not None and scene.speed_of(given) == speed else stokes
+
+
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
 _VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "generalised_centrifugal")
 
@@ -176,7 +182,7 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
         time=x0 / speed,
         rate=groups["initial_rate"],
         energy=scene.reduced_mass * speed**2,
-        stokes=groups["stokes"],
+        stokes=_as_given(scene, speed, groups["stokes"]),
         centrifugal=groups.get("centrifugal"),
         capillary=groups.get("capillary"),
         reynolds=groups.get("reynolds"),

@@ -30,6 +30,14 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
     return engine
 
 
+def check_plugin(engine: object, label: str = "engine") -> str | None:
+    """As `check_engine`, for what needs an integrator that CasADi can differentiate: the kernel has no derivatives."""
+    found = check_engine(engine, label)
+    if found == "taylor":
+        raise InputError(label, found, ", ".join(ENGINES[:2]), "has no derivatives")
+    return found
+
+
 def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
     """The engine for `count` collisions of a scene, if it is not asked for: the Taylor kernel where they are not few.
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import click
 
 from ..errors import InputError
-from ..settings import RTOL, check_engine, check_rtol
+from ..settings import RTOL, check_plugin, check_rtol
 from . import options
 
 
@@ -68,7 +68,7 @@ def command(
     from ..sensitivity.uncertainty import deviations, first_order, spoken
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
-    chosen = check_engine(engine, "--engine")
+    chosen = check_plugin(engine, "--engine")
     how = "forward" if method is None else check_method(method, "--method")
     held = "speed" if hold is None else check_hold(hold, "--hold")
     asked = ("restitution",) if of is None else check_of(_names(of), "--of")

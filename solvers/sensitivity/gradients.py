@@ -10,7 +10,7 @@ import numpy as np
 from ..buffered import LOCK
 from ..errors import InputError, did_you_mean
 from ..scene import Scene
-from ..settings import check_engine, check_rtol
+from ..settings import check_plugin, check_rtol
 from .parameters import check_hold, check_wrt
 from .problem import Along, Problem, Slopes
 from .quantities import SPENT, check_of, computed
@@ -69,7 +69,7 @@ def sensitivities(
         True
     """
     of, method, hold = check_of(of), check_method(method), check_hold(hold)
-    rtol, plugin = check_rtol(rtol), check_engine(engine) or _BEST
+    rtol, plugin = check_rtol(rtol), check_plugin(engine) or _BEST
     if hessian is not False and plugin != "rosenbrock":
         raise InputError("engine", plugin, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)

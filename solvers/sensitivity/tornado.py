@@ -32,6 +32,11 @@ def draw(found: Sensitivities) -> Any:
     for axis, name in zip(axes, panels):
         _panel(axis, found, name, order)
     left_out = [name for name in found.parameters if name not in order]
+    if not order:
+        axes[0].text(
+            0.5, 0.5, "nothing moves it: a stick has e_n = 0" if found.outcome == "stick" else "no elasticity here",
+            ha="center", va="center", transform=axes[0].transAxes, fontsize=9, color=_INK,
+        )  # fmt: skip
     notes = [f"{found.outcome}, e_n = {found.value['restitution']:.4g}" if _has_value(found) else found.outcome]
     notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
     figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", fontsize=11, color=_INK)

@@ -22,7 +22,7 @@ from ..locate import Path
 from ..model import choose
 from ..phases import Flow, expressions
 from ..scene import Scene
-from ..settings import check_engine, check_rtol
+from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
 from .directions import landed, spanning
 from .flight import Course, course_of, ending, flown, influential, symbols
@@ -73,7 +73,7 @@ def trajectory_sensitivities(
     """
     import xarray as xr
 
-    rtol, plugin, hold = check_rtol(rtol), check_engine(engine) or "rosenbrock", check_hold(hold)
+    rtol, plugin, hold = check_rtol(rtol), check_plugin(engine) or "rosenbrock", check_hold(hold)
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     names = check_wrt(loaded, wrt)
     with LOCK:

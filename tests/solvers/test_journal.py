@@ -36,6 +36,11 @@ def test_journal(tmp_path):
         np.testing.assert_array_equal(back[name], values)
         assert back[name].dtype == values.dtype
     assert len(theirs.read()) == 1
+    ours.remove()
+    assert not ours.read()
+    assert len(theirs.read()) == 1  # what another request has finished stays usable
+    theirs.remove()
+    assert not path.exists()
 
 
 def test_another_request_never_uses_a_journal(tmp_path):

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from wetdoublet.solvers import collide
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.scene import Scene
 from wetdoublet.solvers.scenefile import PRESETS
@@ -361,3 +362,9 @@ def test_the_other_way_of_saying_it():
     """A radius beside the scene's reduced radius is told what to set instead; both at once stay an error."""
     with pytest.raises(InputError, match=r"set particles\.reduced_radius here, or edit the scene file"):
         Scene.load("granulation").with_entries({"particles.radius": "100 um"})
+
+
+def test_a_stokes_number_comes_back_as_it_was_given():
+    """The Stokes number of a result is the one asked for, to the bit, and not what is left of it after the speed."""
+    for stokes in (1.5, 0.005, 0.03, 1.3):
+        assert collide("pendulum", stokes=stokes, angle="10 deg", ledger=False, rtol=1e-6).stokes == stokes

@@ -319,3 +319,9 @@ def test_partners_attractions_and_films(entries: dict[str, object], names: tuple
         difference = (e_n[1] - e_n[0]) / (2e-4 * base)
         slope = found.gradient["restitution"][name]
         assert abs(slope - difference) * base < 1e-6 * found.value["restitution"]
+
+
+def test_the_kernel_has_no_derivatives() -> None:
+    """`engine="taylor"` is bad input for sensitivities, which names what is accepted."""
+    with pytest.raises(InputError, match="cvodes, rosenbrock"):
+        sensitivities("granulation", engine="taylor")
