@@ -25,7 +25,8 @@ _WORDS = {
     "LOG": "log({0})", "POW": "{0} ** {1}", "CONSTPOW": "{0} ** {1}", "SQRT": "sqrt({0})", "SQ": "{0} * {0}",
     "TWICE": "2.0 * {0}", "SIN": "sin({0})", "COS": "cos({0})", "TAN": "tan({0})", "INV": "1.0 / {0}",
     "FMIN": "min({0}, {1})", "FMAX": "max({0}, {1})", "LT": "(1.0 if {0} < {1} else 0.0)",
-    "LE": "(1.0 if {0} <= {1} else 0.0)",
+    "LE": "(1.0 if {0} <= {1} else 0.0)", "AND": "(1.0 if {0} != 0.0 and {1} != 0.0 else 0.0)",
+    "OR": "(1.0 if {0} != 0.0 or {1} != 0.0 else 0.0)",
     "NOT": "(1.0 if {0} == 0.0 else 0.0)", "IF_ELSE_ZERO": "{1} if {0} != 0.0 else 0.0", "FABS": "abs({0})",
 }  # fmt: skip
 _OPERATIONS = {getattr(casadi, f"OP_{name}"): text for name, text in _WORDS.items()}
