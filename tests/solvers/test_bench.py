@@ -197,17 +197,21 @@ def test_tables_line_up() -> None:
     assert table(["a", "long"], [["bcd", "1"]]) == "| a   | long |\n| --- | ---: |\n| bcd |    1 |"
 
 
-def test_what_a_gradient_costs_is_measured_as_soon_as_there_are_gradients(monkeypatch: pytest.MonkeyPatch) -> None:
-    """`sensitivities` is asked for 1, 4 and 12 parameters by both methods; central differences stand beside it."""
-    import wetdoublet.solvers as package
-
+def test_what_a_gradient_costs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`sensitivities` is asked for 1, 4 and 12 parameters by both methods, on the collision's own engine."""
     monkeypatch.setattr(needs, "REPEATS", 1)
     monkeypatch.setattr(needs, "differences", lambda *_, **__: {})
     asked: list[tuple[str, int]] = []
-    stand_in = lambda *_, method, wrt, **__: asked.append((method, len(wrt)))  # noqa: E731 # as it is called
-    monkeypatch.setattr(package, "sensitivities", stand_in, raising=False)
+    engines: set[str] = set()
+
+    def gradient(*_: object, method: str, wrt: list[str], engine: str, **__: object) -> None:
+        asked.append((method, len(wrt)))
+        engines.add(engine)
+
+    monkeypatch.setattr(needs, "sensitivities", gradient)
     rows = needs.gradients()
     assert set(asked) == {(method, count) for method in ("forward", "adjoint") for count in (1, 4, 12)}
+    assert engines == {"rosenbrock"}
     assert [row["method"] for row in rows][-1] == "central differences"
     assert rows[0]["ratio"] == 1.0
 
