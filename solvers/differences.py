@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 from .bounds import boundary
 from .custom import Package, open_package
 from .emitted import text
-from .errors import ComputationError, InputError
+from .errors import ComputationError, InputError, did_you_mean
 from .model import Choice, choose
 from .scene import Scene
+from .scenefile import PRESETS
 from .simulate import collide
 
 if TYPE_CHECKING:
@@ -100,6 +101,10 @@ def _scene(source: str, probe: str, label: str) -> Scene:
         return Scene.load(probe)
     if Path(source).is_dir() or source.endswith(".py"):
         return Scene.load(probe, open_package(source, label))
+    if source not in PRESETS and not Path(source).is_file():
+        known = (LIBRARY, *PRESETS)
+        accepted = f"{', '.join(known)}, a scene file, a folder of `generate`, or MODEL.py"
+        raise InputError(label, source, accepted, "is none of these" + did_you_mean(source, known))
     return Scene.load(source)
 
 

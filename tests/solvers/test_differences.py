@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.compare import compare, equations, plain, same, typeset
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import Scene, cli, differences
+from wetdoublet.solvers import InputError, Scene, cli, differences
 from wetdoublet.solvers.ccode import texts as c_texts
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
@@ -179,3 +179,12 @@ def test_the_manifest_covers_every_module():
     listed = json.loads((GENERATED / "manifest.json").read_text())["files"]
     emitted = [path for kind in ("*.py", "*.h") for path in GENERATED.rglob(kind)]
     assert set(listed) == {path.relative_to(GENERATED).as_posix() for path in emitted}
+
+
+@pytest.mark.parametrize(("arguments", "field"), [(("librry", "granulation"), "A"), (("library", "nope"), "B")])
+def test_a_misspelt_side_is_named(arguments: tuple[str, str], field: str):
+    """Which of the two is wrong, and everything that it may be."""
+    done = run("diff", *arguments)
+    assert isinstance(done.exception, InputError)
+    assert done.exception.field == field
+    assert "library, granulation" in str(done.exception)
