@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from .. import locate
-from ..certificate import NoProof
 from ..errors import ComputationError
 from ..locate import Locate
 from ..many import OUTCOMES, collide_many
 from ..model import choose, load
 from ..phases import Phase
+from ..proofs import NoProof
 from ..scene import Scene
 from ..settings import ENGINES
 from ..simulate import collide

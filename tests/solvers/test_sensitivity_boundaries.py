@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities
-from wetdoublet.solvers.certificate import FilmProof
 from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.paper.factors import DOUBLED
+from wetdoublet.solvers.proofs import FilmProof
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving
 
 from .sensitive import HARD

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.certificate import HeldProof, NoProof
 from wetdoublet.solvers.locate import Locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.proofs import HeldProof, NoProof
 
 _HELD_LAWS = ("mikami", "willett-simple", "lambert", "soulie", "constant")
 

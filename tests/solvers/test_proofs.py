@@ -10,9 +10,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.certificate import BarrierProof, NoProof, energy_proof
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.proofs import BarrierProof, NoProof, energy_proof
 
 from .independent import Spheres
 
