@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from wetdoublet.solvers import Boundaries, ComputationError, InputError, Scene, boundary, collide, collide_many
-from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.probe import Line
+
+from .command import run
 
 PRESETS = ("granulation", "pendulum")
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
@@ -217,7 +217,7 @@ def test_a_line_that_fails_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("name", PRESETS)
 def test_json_of_the_command(name: str, reference_boundaries: dict[str, Any]) -> None:
     """`wetdoublet boundary --json`: angles in rad, changes ascending; Ce null without a bridge."""
-    outcome = CliRunner().invoke(cli, ["boundary", name, "--angle", "35:65:3", "--stokes", "0.02:5", "--json"])
+    outcome = run("boundary", name, "--angle", "35:65:3", "--stokes", "0.02:5", "--json")
     assert outcome.exit_code == 0, outcome.output
     found = json.loads(outcome.stdout)
     assert set(found) == {"angles", "changes"}

@@ -7,17 +7,12 @@ import sys
 from types import ModuleType, SimpleNamespace
 
 import pytest
-from click.testing import CliRunner
-from wetdoublet.solvers import cli as command_line
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError
 from wetdoublet.solvers.ranges import parse_range
 from wetdoublet.solvers.scene import Scene
 from wetdoublet.solvers.settings import check_engine, check_rtol
 
-
-def run(*arguments):
-    """Run the command line in this process."""
-    return CliRunner().invoke(command_line.cli, list(arguments))
+from .command import run
 
 
 @pytest.fixture

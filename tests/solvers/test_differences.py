@@ -11,22 +11,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
-from click.testing import CliRunner
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.compare import compare, equations, plain, same, typeset
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import InputError, Scene, cli, differences
+from wetdoublet.solvers import InputError, Scene, differences
 from wetdoublet.solvers.ccode import texts as c_texts
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 
+from .command import run
+
 GENERATED = Path(differences.__file__).parents[1] / "generated"
 MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in ("__init__.py", "assemble.py"))
-
-
-def run(*arguments: str):
-    """Run the command line in this process."""
-    return CliRunner().invoke(cli.cli, list(arguments))
 
 
 def edited(path: str, before: str, after: str):

@@ -7,13 +7,12 @@ import math
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities
-from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.paper.factors import DOUBLED
 from wetdoublet.solvers.proofs import FilmProof
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving
 
+from .command import run
 from .sensitive import HARD
 
 # scene, its changes, degrees, Stokes numbers about the one change that is looked at
@@ -158,8 +157,8 @@ def test_the_angle_is_the_slope_of_the_curve() -> None:
 def test_on_the_command_line() -> None:
     """`boundary --wrt` adds "sensitivities" to each change, and leaves the rest as it is without it."""
     plain = ["boundary", "granulation", "--angle", "55:55:1", "--stokes", "0.02:0.07", "--json"]
-    with_ = json.loads(CliRunner().invoke(cli, [*plain, "--wrt", "bridge.volume"]).stdout)
-    without = json.loads(CliRunner().invoke(cli, plain).stdout)
+    with_ = json.loads(run(*plain, "--wrt", "bridge.volume").stdout)
+    without = json.loads(run(*plain).stdout)
     for one, other in zip(with_["changes"][0], without["changes"][0], strict=True):
         both = one.pop("sensitivities")
         assert set(both) == {"stokes", "centrifugal"}

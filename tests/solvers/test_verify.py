@@ -7,8 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from wetdoublet.solvers import Scene, cli, collide
+from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
@@ -24,6 +23,8 @@ from wetdoublet.solvers.verify import (
     surface,
 )
 from wetdoublet.solvers.verify.draw import draw_budget
+
+from .command import run
 
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
@@ -167,7 +168,7 @@ def test_the_report_as_markdown() -> None:
 def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: report())
-    result = CliRunner().invoke(cli.cli, ["verify", "granulation"])
+    result = run("verify", "granulation")
     assert result.exit_code == 1
     line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
     assert result.stderr == f"verify: {line}\n"
@@ -178,7 +179,7 @@ def test_the_command_draws(monkeypatch, tmp_path) -> None:
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
     good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: good)
-    result = CliRunner().invoke(cli.cli, ["verify", "pendulum", "--plot", str(tmp_path / "p.png")])
+    result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
     assert result.exit_code == 0
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
 
