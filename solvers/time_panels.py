@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
+from . import ticks
 from .frames import Frame
 from .result import Collision
 from .show import prefix, quantity
@@ -146,8 +147,7 @@ def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision, la
     if low > 0 and high > _DECADE / 2 * low:
         axes.set_yscale("log")
         axes.set_ylim(low / 1.3, high * 1.35)
-        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 200 * low else (1,)))
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ticks.plain(axes.yaxis, (1, 2, 5) if high < 200 * low else (1,))
         axes.yaxis.set_minor_locator(NullLocator())
     else:
         axes.set_ylim(0, 1.2 * high)

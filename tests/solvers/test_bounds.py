@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Boundaries, ComputationError, InputError, Scene, boundary, collide, collide_many
+from wetdoublet.solvers.boundary_plot import draw
+from wetdoublet.solvers.bounds import closed
 from wetdoublet.solvers.probe import Line
 
 from .command import run
@@ -241,3 +243,24 @@ def test_a_span_cuts_the_line() -> None:
     assert boundary("granulation", angle=angle, stokes=(first * 1.01, second * 0.99)).changes == ((),)
     (only,) = boundary("granulation", angle=angle, stokes=(first * 1.01, second * 1.01)).changes[0]
     assert only.stokes == pytest.approx(second, rel=3e-9)
+
+
+def test_the_picture_closes_where_curves_meet() -> None:
+    """Between an angle with one change and one with two, more are traced: the curves end where they meet.
+
+    Six halvings leave 1/64 of the step in angle; the curves are apart there by no more than their slope over it.
+    """
+    scene, span = Scene.load("granulation"), (0.05, 0.2)
+    found = boundary(scene, angle=np.radians([22.0, 25.0]), stokes=span)
+    whole = closed(scene, found, span)
+    assert [len(line) for line in found.changes] == [1, 2]
+    assert len(whole.angles) == 8 and sorted(whole.angles) == list(whole.angles)
+    first = next(k for k, line in enumerate(whole.changes) if len(line) == 2)
+    assert math.degrees(whole.angles[first] - whole.angles[first - 1]) == pytest.approx(3 / 64)
+    assert whole.changes[first - 1][0].stokes == pytest.approx(whole.changes[first][1].stokes, rel=1e-4)
+    apart = [math.log(line[1].stokes / line[0].stokes) for line in whole.changes[first:]]
+    slope = (apart[-1] - apart[0]) / (whole.angles[-1] - whole.angles[first])
+    assert 0 < apart[0] < 1.2 * slope * math.radians(3 / 64)  # the slope falls by a few percent on the way
+    figure = draw(scene, whole)
+    names = {text.get_text().replace("\n", "") for text in figure.axes[0].texts}
+    assert names == set(OUTCOMES)

@@ -10,7 +10,7 @@ import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, many, regime_map
 from wetdoublet.solvers.draw_map import draw_map
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.regime_map import write
+from wetdoublet.solvers.regimes import write
 from wetdoublet.solvers.show_map import failures, table
 
 from .command import run

@@ -122,7 +122,7 @@ def test_a_scene_pickles_and_compares_with_its_model(mine: Path):
 
 def test_a_map_is_drawn_without_the_models_folder(mine: Path, tmp_path: Path):
     """What a map keeps of the model describes its scene, and holds no code."""
-    from wetdoublet.solvers.regime_map import scene_of
+    from wetdoublet.solvers.regimes import scene_of
 
     data = regime_map(with_model(mine, custom__yield_stress="7 Pa"), stokes=[0.01], angle=[0.1], of=["restitution"])
     scene = scene_of(data)
