@@ -147,7 +147,7 @@ def judge(case: Case) -> Verdict:
     try:
         return _judged(case, runs())
     finally:
-        locating._MAX_STEPS = usual  # noqa: SLF001
+        locating._MAX_STEPS = usual  # noqa: SLF001 # as above
 
 
 def _judged(case: Case, engines: dict[str, Run]) -> Verdict:

@@ -83,14 +83,14 @@ def test_no_change_is_missed(name: str, span: tuple[float, float]) -> None:
         assert [OUTCOMES[one] for one in seen[clear]] == np.array(expected)[clear].tolist()
 
 
-# ---- numbers of MODEL.md section 8, other structures
+# ---- numbers of an independent prototype (80 bits), other structures
 
 
 @pytest.mark.parametrize(
     ("arm", "expected"), [("surface", (4.266, 4.205, 4.149, 4.081)), ("midgap", (4.187, 4.121, 4.063, 3.995))]
 )
 def test_critical_centrifugal_number(arm: str, expected: tuple[float, ...]) -> None:
-    """Ce* on S/SRS at 30, 45, 60, 75 deg, as MODEL.md prints it for both arms."""
+    """Ce* on S/SRS at 30, 45, 60, 75 deg, as the independent prototype has it for both arms."""
     scene = Scene.load("granulation").with_entries({"model.arm": arm})
     found = boundary(scene, angle=np.radians([30, 45, 60, 75]))
     for line, number in zip(found.changes, expected, strict=True):
@@ -99,7 +99,7 @@ def test_critical_centrifugal_number(arm: str, expected: tuple[float, ...]) -> N
 
 
 def test_critical_centrifugal_number_scales() -> None:
-    """Ce* at 45 deg, glass off, when V, x0, mu, sigma, m, a is doubled: the factors of MODEL.md."""
+    """Ce* at 45 deg, glass off, when V, x0, mu, sigma, m, a is doubled: the independent prototype's factors."""
     scene = Scene.load("granulation").with_entries({"liquid.glass_transition_pressure": "1e6 GPa"})
 
     def critical(one: Scene) -> float:
@@ -123,7 +123,7 @@ def test_critical_centrifugal_number_scales() -> None:
      ("constant", 6.8)],
 )  # fmt: skip
 def test_other_bridges(law: str, expected: float) -> None:
-    """Ce* at 45 deg, surface arm, for other bridge laws (MODEL.md section 9); `constant` has its barrier at x_f."""
+    """Ce* at 45 deg, surface arm, other bridge laws, by the prototype; `constant` has its barrier at x_f."""
     scene = Scene.load("granulation").with_entries({"bridge.law": law, "model.arm": "surface"})
     found = boundary(scene, angle=math.pi / 4)
     # as printed: half a unit of the last digit

@@ -51,7 +51,7 @@ def _held_sticks(count: int, seed: int, monkeypatch: pytest.MonkeyPatch) -> tupl
         n = numbers(scene, scene.speed_of(stokes), angle)
         model = load(choose(scene, oblique=True))
         start = model.start(model.group_values(n.groups))
-        if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]
+        if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
             continue
         held += 1
         with monkeypatch.context() as patch:

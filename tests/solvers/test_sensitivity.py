@@ -93,7 +93,7 @@ def test_an_independent_model_has_the_same_derivatives() -> None:
     for name in names:
         slope = (e_n(name, 2e-3) - e_n(name, -2e-3)) / 4e-3
         # the differences' own error: a third derivative of order one times h^2 = 4e-6
-        expected = found.gradient["restitution"][name] * float(scene.entries[name])  # type: ignore[operator]
+        expected = found.gradient["restitution"][name] * float(scene.entries[name])  # type: ignore[operator]  # not None here
         assert expected == pytest.approx(slope, abs=1e-5)
     assert found.gradient["restitution"]["particles.roughness"] == 0.0
 
@@ -247,7 +247,7 @@ def test_only_what_is_asked_for() -> None:
 
 
 def test_json_of_the_command() -> None:
-    """The object of INTERFACE.md, and nothing but numbers and null in its rows."""
+    """The documented object, and nothing but numbers and null in its rows."""
     arguments = ["sensitivity", "granulation", "--of", "restitution,energy.capillary", "--wrt",
                  "liquid.viscosity,impact.angle", "--method", "adjoint", "--json"]  # fmt: skip
     found = json.loads(run(*arguments).stdout)

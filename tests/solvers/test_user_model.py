@@ -40,7 +40,9 @@ def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
     assert done.exception is None, done.exception
     assert file.is_file()
     line = run("boundary", "granulation", "--model", str(mine), "--angle", "45:45:1", "--stokes", "0.03:0.08", "--json")
-    assert json.loads(line.output)["changes"][0][0]["centrifugal"] == pytest.approx(4.121, abs=2e-3)  # MODEL.md, 8
+    assert json.loads(line.output)["changes"][0][0]["centrifugal"] == pytest.approx(
+        4.121, abs=2e-3
+    )  # an independent prototype's
     own = ("--model", str(mine), "--set", "custom.yield_stress=20 Pa", "--stokes", "0.06")
     slope = run("sensitivity", "granulation", *own, "--wrt", "custom.yield_stress", "--json")
     derivative = json.loads(slope.output)["gradient"]["restitution"]["custom.yield_stress"]

@@ -63,7 +63,7 @@ def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
     found = {finding.name: finding for finding in findings}
     assert found["angular momentum"].ok is None
     drift = float(found["angular momentum"].figure.split()[1].rstrip(":"))
-    assert 1e-3 < drift < 2e-2  # MODEL.md section 6: 0.2 to 1 %
+    assert 1e-3 < drift < 2e-2  # x/4a is 0.2 to 1 % here
     assert found["dL = -int x F_t dt"].ok is True
     assert not [law for law, finding in found.items() if finding.ok is False]
 
@@ -74,7 +74,7 @@ def test_the_budget_adds_up() -> None:
     assert budget["outcome"].values.tolist() == [[0, 1]]
     assert math.isnan(budget["excess"][0, 0])
     at = budget.isel(angle=0, stokes=1)
-    assert float(at["restitution"]) == pytest.approx(1.4, abs=0.1)  # MODEL.md section 8
+    assert float(at["restitution"]) == pytest.approx(1.4, abs=0.1)  # an independent prototype's, two digits
     losses = ("normal_lubrication", "tangential_lubrication", "capillary", "dry_contact", "strings", "residual")
     lost = sum(float(at[name]) for name in losses)
     # rounding of sums of terms of about 7
