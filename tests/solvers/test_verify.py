@@ -167,18 +167,34 @@ def test_the_report_as_markdown() -> None:
 
 def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: report())
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: report())
     result = run("verify", "granulation")
     assert result.exit_code == 1
     line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
     assert result.stderr == f"verify: {line}\n"
 
 
+def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
+    """Exit 130; the findings made so far are on standard output, what they leave open on standard error."""
+
+    def stopped(scene, progress):
+        for finding in report().findings:
+            progress(finding)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", stopped)
+    result = run("verify", "granulation")
+    assert result.exit_code == 130
+    assert result.stdout.rstrip("\n") == str(report())
+    last = report().findings[-1].name
+    assert result.stderr == f"interrupted after 3 checks, the last of them {last}; what follows is not checked\n"
+
+
 def test_the_command_draws(monkeypatch, tmp_path) -> None:
     """`--plot` draws the budget of the report; the report goes to standard output all the same."""
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
     good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: good)
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: good)
     result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
     assert result.exit_code == 0
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
