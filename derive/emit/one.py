@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .. import structure as shapes
 from ..laws import LAWS
 from ..model import derive
 from ..modelfile import read
-from ..structure import Structure
+from ..structure import Structure, known
 from .modules import law_module, structure_module
 from .user import own_names
 
 
 def named(name: str) -> Structure:
     """The structure whose module has this name; KeyError if there is none."""
-    every = {each.name: each for each in (*shapes.structures(), *getattr(shapes, "committed", tuple)())}
-    return every[name]
+    return {each.name: each for each in known()}[name]
 
 
 def structure_text(name: str) -> str:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import os
 import platform
-import shutil
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -18,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import emitted
-from ..compiled import cache_folder, compiler
+from ..compiled import build, cache_folder, compiler
 from ..model import Choice, choose
 
 if TYPE_CHECKING:
@@ -154,17 +151,11 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
 
 
 def _built(path: str, text: str, library: Path) -> bool:
-    """Compile; built under a name of its own and then moved into place, so that several processes may do so at once."""
+    """Compile; safe with several processes."""
     with tempfile.TemporaryDirectory(prefix="wetdoublet-") as work:
-        written, fresh = Path(work) / "kernel.c", Path(work) / "kernel.so"
+        written = Path(work) / "kernel.c"
         written.write_text(text)
-        command = [path, *FLAGS, "-o", str(fresh), str(written), "-lm"]
-        built = subprocess.run(command, capture_output=True, text=True, check=False)
-        if built.returncode:
-            last = (built.stderr.strip().splitlines() or ["no message"])[-1]
-            sys.stderr.write(f"{path} cannot compile the Taylor kernel ({last}): other engines answer\n")
-            return False
-        beside = library.with_suffix(f".{os.getpid()}")
-        shutil.copyfile(fresh, beside)
-        beside.replace(library)
-    return True
+        said = build(path, FLAGS, written, library)
+    if said:
+        sys.stderr.write(f"{path} cannot compile the Taylor kernel ({said}): other engines answer\n")
+    return not said
