@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a5d3879c8615a47ba86cb9b3b353c0c002f54ac4889a6bf86155dd81b938b198
+# Equations sha256 4af5469fb39320595c3e01e80ecb3bda26cf0219eb9e4a6d41e59540ffd93ae8
 """Oblique doublet with a liquid bridge and another attraction, a film whose rim follows the bridge's volume,
 spin eliminated through the conserved angular momentum.
 
@@ -64,12 +64,13 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "held",
+    "orbital",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a5d3879c8615a47ba86cb9b3b353c0c002f54ac4889a6bf86155dd81b938b198"
+DIGEST = "4af5469fb39320595c3e01e80ecb3bda26cf0219eb9e4a6d41e59540ffd93ae8"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -347,6 +348,28 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "hold": hold,
         "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
+    either arm: margins of the proof by the orbit's momentum.
+
+    Total operations: 24
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    slip = orbital_rate - spin
+    rotation_energy_unit = obliquity**2/16
+    return {
+        "slip": slip,
+        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 
 

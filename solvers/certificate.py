@@ -17,6 +17,8 @@ import numpy as np
 from casadi import SX, Function
 
 from .model import Model
+from .orbital import Orbital
+from .orbital import knows as knows_orbital
 from .phases import CLOSING, Phase, tethered_margin
 
 # A proof holds by more than this many times the relative tolerance of the largest energy of the flight: an error made
@@ -296,10 +298,34 @@ class HeldProof:
         return hold > 0 and found["rebound"] < -self.margin * hold and found["flight"] < -self.margin * energy
 
 
+class OrbitalProof:
+    """The momentum of the orbit (orbital.py), after what another proof has to say.
+
+    Arguments:
+        beside: another proof for the same model, tried first; it is what a flight watches for.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
+        self.beside, self.orbital = beside, Orbital(model, p, rtol)
+        self.theorem = beside.theorem
+        self.watches = beside.watches
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self.beside.level(y, phase)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        if self.beside.decided(y, phase):
+            self.theorem = self.beside.theorem
+            return True
+        self.theorem = self.orbital.theorem
+        return self.orbital.decided(y, phase)
+
+
 def energy_proof(proof: Proof) -> BarrierProof | None:
     """The proof by energy that a flight has, alone or beside another."""
-    found = proof.beside if isinstance(proof, HeldProof) else proof
-    return found if isinstance(found, BarrierProof) else None
+    while isinstance(proof, (HeldProof, OrbitalProof)):
+        proof = proof.beside
+    return proof if isinstance(proof, BarrierProof) else None
 
 
 def _holds(model: Model) -> bool:
@@ -360,6 +386,11 @@ class AttractedProof(BarrierProof):
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
+    found = _usual(model, p, rtol)
+    return OrbitalProof(model, p, rtol, found) if knows_orbital(model) else found
+
+
+def _usual(model: Model, p: np.ndarray, rtol: float) -> Proof:
     if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
         return TetherProof(model, p, rtol)
     turning = model.oblique and not model.wall

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 95a919cba056a51875b980b7ac3e7f9923b884890dae2cffbb40301514d2c5d2 */
+ * Equations sha256 f7c870f4f684cfc15df4060090d4a3cee9e17c40883dc8fca70ff35ce6d5e28d */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007 */
+ * Equations sha256 4f5aea8e4ce9ff05ac82d059a26c0f0c0529692e5846e0485ac329001dacccf8 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e7edde922bf9837f511d911d314167005029a1d6fac22cef9f5a7ff54c0b983d */
+ * Equations sha256 e2594dc6307e841f0cd045a568823c47b53e031bba1b4623000d90eaec14493d */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
