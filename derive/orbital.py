@@ -81,6 +81,10 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """omega - xi at the state's gap, and the slip energy over m v0^2: with the midgap arm, with the surface arm."""
-    found = {"slip": SLIP, "midgap": UNIT * midgap(DISTANCE, orbit, spin)}
+    """omega - xi and J^2/(2 r^2) at the state's gap; the slip energy for either arm; energies over m v0^2."""
+    found = {
+        "slip": SLIP,
+        "orbit_energy": UNIT * orbit**2 / (2 * DISTANCE**2),
+        "midgap": UNIT * midgap(DISTANCE, orbit, spin),
+    }
     return found if structure.reduced else {**found, "surface": UNIT * surface(DISTANCE, orbit, spin, RIGID)}

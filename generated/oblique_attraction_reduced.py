@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 acff8dd3fab2d556e415ffde962895902efcea8ab4cb5d1dce34fe5172f69c00
+# Equations sha256 55a3b643d0f49913ca98660ad4c4926ef513f808b02ca367cd5753caca28ee7e
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -61,7 +61,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "acff8dd3fab2d556e415ffde962895902efcea8ab4cb5d1dce34fe5172f69c00"
+DIGEST = "55a3b643d0f49913ca98660ad4c4926ef513f808b02ca367cd5753caca28ee7e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -320,7 +320,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 24
+    Total operations: 29
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -334,6 +334,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rotation_energy_unit = obliquity**2/16
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 

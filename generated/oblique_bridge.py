@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f7c870f4f684cfc15df4060090d4a3cee9e17c40883dc8fca70ff35ce6d5e28d
+# Equations sha256 8cf569f8d1325f5c4f77980f2b79e06807d92f95b1751050a00368c78e3e48bc
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -69,7 +69,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f7c870f4f684cfc15df4060090d4a3cee9e17c40883dc8fca70ff35ce6d5e28d"
+DIGEST = "8cf569f8d1325f5c4f77980f2b79e06807d92f95b1751050a00368c78e3e48bc"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -369,7 +369,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 68
+    Total operations: 73
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -383,6 +383,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
         "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

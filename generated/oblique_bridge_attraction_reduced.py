@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 0bf325ff10e37904c968fe726c224836a15f12f216e45ab97bb32e69826e8c3e
+# Equations sha256 0fbe32a91a4309db39962ebd122e8ce5e65225fbb4aebaefd6c6deaa40a7ca4e
 """Oblique doublet with a liquid bridge and another attraction, spin eliminated through the conserved angular
 momentum.
 
@@ -70,7 +70,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "0bf325ff10e37904c968fe726c224836a15f12f216e45ab97bb32e69826e8c3e"
+DIGEST = "0fbe32a91a4309db39962ebd122e8ce5e65225fbb4aebaefd6c6deaa40a7ca4e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -356,7 +356,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 24
+    Total operations: 29
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -370,6 +370,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rotation_energy_unit = obliquity**2/16
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 4af5469fb39320595c3e01e80ecb3bda26cf0219eb9e4a6d41e59540ffd93ae8
+# Equations sha256 b0d9009b27e4c9bf2d8abfc779d599b2c19f8e12078f5b7eda87aacafab72d25
 """Oblique doublet with a liquid bridge and another attraction, a film whose rim follows the bridge's volume,
 spin eliminated through the conserved angular momentum.
 
@@ -70,7 +70,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "4af5469fb39320595c3e01e80ecb3bda26cf0219eb9e4a6d41e59540ffd93ae8"
+DIGEST = "b0d9009b27e4c9bf2d8abfc779d599b2c19f8e12078f5b7eda87aacafab72d25"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -355,7 +355,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 24
+    Total operations: 29
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -369,6 +369,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rotation_energy_unit = obliquity**2/16
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 4f5aea8e4ce9ff05ac82d059a26c0f0c0529692e5846e0485ac329001dacccf8
+# Equations sha256 45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -67,7 +67,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "4f5aea8e4ce9ff05ac82d059a26c0f0c0529692e5846e0485ac329001dacccf8"
+DIGEST = "45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -340,7 +340,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 24
+    Total operations: 29
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -354,6 +354,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rotation_energy_unit = obliquity**2/16
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 

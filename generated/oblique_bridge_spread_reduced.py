@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 6b7cd6d8eefa643400c00e131929ee9ddfc09379bf96378260ef75e3b8f5c153
+# Equations sha256 6a6d83c8f1c98f94342aeec1a68e4a2346365b685dc86e436555c671d9c4f107
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -68,7 +68,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "6b7cd6d8eefa643400c00e131929ee9ddfc09379bf96378260ef75e3b8f5c153"
+DIGEST = "6a6d83c8f1c98f94342aeec1a68e4a2346365b685dc86e436555c671d9c4f107"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -340,7 +340,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 24
+    Total operations: 29
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -354,6 +354,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rotation_energy_unit = obliquity**2/16
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 

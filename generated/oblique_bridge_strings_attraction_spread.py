@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 ded527fd71028d24803e77be6360adcf12c8065dfe8c8cec0c7a0e344393c89f
+# Equations sha256 a5807e2e97003061f0569524d030ad811ac0c182a551e31e3c62dcf888976d60
 """Oblique doublet with a liquid bridge and pendulum strings and another attraction, a film whose rim follows the
 bridge's volume.
 
@@ -74,7 +74,7 @@ FUNCTIONS = (
     "orbital",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "ded527fd71028d24803e77be6360adcf12c8065dfe8c8cec0c7a0e344393c89f"
+DIGEST = "a5807e2e97003061f0569524d030ad811ac0c182a551e31e3c62dcf888976d60"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -436,7 +436,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 68
+    Total operations: 73
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -450,6 +450,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
         "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

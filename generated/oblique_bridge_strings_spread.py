@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a31c01dc653bd5030460eeb871f3393398a87e84eea77f719b38a4228e2a9827
+# Equations sha256 ee2bb926b7bda9ca462aa23b1432f068f8025953d0403ce169612374bca627fe
 """Oblique doublet with a liquid bridge and pendulum strings, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "orbital",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a31c01dc653bd5030460eeb871f3393398a87e84eea77f719b38a4228e2a9827"
+DIGEST = "ee2bb926b7bda9ca462aa23b1432f068f8025953d0403ce169612374bca627fe"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -420,7 +420,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 68
+    Total operations: 73
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -434,6 +434,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
         "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

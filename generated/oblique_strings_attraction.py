@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e37fd2d25da6c564ef9c0a786f97c053961700bd3052e08a51de5dd4108662a2
+# Equations sha256 081ac3694e40f423119bd934d22f65f7f1aa74785ad90b4879cf29279636bec2
 """Oblique doublet with pendulum strings and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -65,7 +65,7 @@ FUNCTIONS = (
     "orbital",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e37fd2d25da6c564ef9c0a786f97c053961700bd3052e08a51de5dd4108662a2"
+DIGEST = "081ac3694e40f423119bd934d22f65f7f1aa74785ad90b4879cf29279636bec2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -400,7 +400,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbit's momentum.
 
-    Total operations: 68
+    Total operations: 73
     """
     gap = state["gap"]
     orbit = state["orbit"]
@@ -414,6 +414,7 @@ def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
     return {
         "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
         "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
         "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

@@ -302,19 +302,21 @@ class OrbitalProof:
     """The momentum of the orbit (orbital.py), after what another proof has to say.
 
     Arguments:
-        beside: another proof for the same model, tried first; it is what a flight watches for.
+        beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
+            flight watches for.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
         self.beside, self.orbital = beside, Orbital(model, p, rtol)
         self.theorem = beside.theorem
-        self.watches = beside.watches
+        self._drifts = model.choice.law("arm") == "surface"
+        self.watches = None if self._drifts else beside.watches
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self.beside.level(y, phase)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        if self.beside.decided(y, phase):
+        if not self._drifts and self.beside.decided(y, phase):
             self.theorem = self.beside.theorem
             return True
         self.theorem = self.orbital.theorem

@@ -66,8 +66,8 @@ class Orbital:
         distance = 4 + self.aspect * gap
         slip = self.model.values("orbital", y, self.p)["slip"]
         turning = orbit / distance**2 - slip
-        if self.lever == "surface" and not (turning >= 0 and orbit >= 16 * turning and self.aspect * self.end <= 4):
-            return False  # beyond what is proved of the surface arm's exchange
+        if self.lever == "surface" and not self.model.strings and orbit < 16 * turning:
+            return False  # beyond what is proved of the surface arm's exchange: rho < 4 a
         edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
         inward, attraction = self._work(edges, y, orbit), self._work(edges, y, 0.0)
         found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbit), self.p).full())

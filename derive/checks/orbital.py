@@ -107,6 +107,7 @@ def as_emitted() -> Check:
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
         left.append(found["slip"] - (orbit / here**2 - turning))
+        left.append(found["orbit_energy"] - unit * orbit**2 / (2 * here**2))
         left.append(found["midgap"] - unit * midgap(here, orbit, turning))
         if "surface" in found:
             own = surface(here, orbit, turning, rigid_share(orbit, turning))

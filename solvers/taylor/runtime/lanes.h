@@ -98,7 +98,7 @@ static void fly(queue *q)
         mask sticks = splat_mask(0);
         if (turn++ % 2 == 0) {
 #if PROOF_BY_ENERGY
-        sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
+        sticks = below_barrier(&f.c, l.y, &f.b, q->rtol);
 #elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
         sticks = held_by_strings(&f.c, l.y, q->rtol);
 #elif !OBLIQUE

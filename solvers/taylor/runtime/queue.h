@@ -130,7 +130,7 @@ static void fill_queue(queue *q)
 #else
         f.b.touch = splat(0.0);
 #endif
-        proved = bits(below_barrier(&f.c, y, &f.b, splat_mask(0), q->rtol));
+        proved = bits(below_barrier(&f.c, y, &f.b, q->rtol));
 #elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
         proved = bits(held_by_strings(&f.c, y, q->rtol));
 #elif !OBLIQUE
