@@ -81,7 +81,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """omega - xi and J^2/(2 r^2) at the state's gap; the slip energy for either arm; energies over m v0^2."""
+    """Omega - xi and J^2/(2 r^2) at the state's gap; the slip energy for either arm; energies over m v0^2."""
     found = {
         "slip": SLIP,
         "orbit_energy": UNIT * orbit**2 / (2 * DISTANCE**2),

@@ -1,4 +1,4 @@
-"""The proof by the momentum of the orbit: what holds a doublet now holds it for good (derive/orbital.py).
+"""By the momentum of the orbit: what holds a doublet now holds it for good (derive/orbital.py).
 
 It decides where energy does not: fast spin that the orbit will never get back, resting contact, cycles on glassy liquid
 that lose next to nothing, and the surface arm, for which angular momentum is not conserved.
@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .model import Model
-from .phases import CLOSING, Phase
+from ..model import Model
+from ..phases import CLOSING, Phase
+from .base import SAFETY, Proof
+from .panels import panels
 
-_SAFETY = 30.0  # times the relative tolerance: errors accumulate over some tens of steps
+_LEVERS = ("midgap", "surface")
 _GAPS = 49  # at which the doublet is asked whether it gets there
 _CYCLES = 20  # maxima of the gap, each below the one before, that are taken for chatter on strings
 _STILL = 1e-9  # of v0: slower is a turning point
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 def knows(model: Model) -> bool:
@@ -23,31 +24,43 @@ def knows(model: Model) -> bool:
     return model.has("orbital") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
 
 
-_LEVERS = ("midgap", "surface")
+class OrbitalProof:
+    """Asks, after another proof, whether some gap ahead is out of reach for good.
 
+    On strings no proof covers the slip that their torque makes; there it ends chatter, after some cycles whose maxima
+    fall, and the stick is not called a theorem. Nor is it with the surface arm (MODEL.md section 6).
 
-class Orbital:
-    """Asks at a state whether some gap ahead is out of reach for good."""
+    Arguments:
+        beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
+            flight watches for.
+    """
 
-    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
-        self.model, self.p, self.margin = model, p, _SAFETY * rtol
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
+        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
         groups = dict(zip(model.groups, p, strict=True))
         self.end = groups.get("rupture_gap", 1.0)
         self.aspect, self.obliquity = groups["aspect"], groups["obliquity"]
         self.lever = model.choice.law("arm") or "midgap"
+        self.theorem = beside.theorem
+        self.watches = None if self._drifts else beside.watches
         self._maxima: list[float] = []
 
+    @property
+    def _drifts(self) -> bool:
+        return self.lever == "surface"
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self.beside.level(y, phase)
+
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        """Whether the doublet is held; on strings, which no proof covers to the end, after some cycles of chatter."""
+        if not self._drifts and self.beside.decided(y, phase):
+            self.theorem = self.beside.theorem
+            return True
+        self.theorem = not (self._drifts or self.model.strings)
         if self.model.strings:
             return self._chatters(y, phase) and self.holds(y)
         turned_back = phase.resting or (phase.motion == CLOSING and y[1] > -_STILL)
-        return (turned_back or self.lever == "surface") and self.holds(y)
-
-    @property
-    def theorem(self) -> bool:
-        """Whether a stick found so is called proved (MODEL.md section 6 has it so for the surface arm)."""
-        return self.lever == "midgap" and not self.model.strings
+        return bool((turned_back or self._drifts) and self.holds(y))
 
     def _chatters(self, y: np.ndarray, phase: Phase) -> bool:
         """Whether each of the last maxima of the gap was below the one before."""
@@ -63,10 +76,8 @@ class Orbital:
         gap, opening, orbit = map(float, y[:3])
         if not gap < self.end:
             return False
-        distance = 4 + self.aspect * gap
-        slip = self.model.values("orbital", y, self.p)["slip"]
-        turning = orbit / distance**2 - slip
-        if self.lever == "surface" and not self.model.strings and orbit < 16 * turning:
+        turning = orbit / (4 + self.aspect * gap) ** 2 - self.model.values("orbital", y, self.p)["slip"]
+        if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbit:
             return False  # beyond what is proved of the surface arm's exchange: rho < 4 a
         edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
         inward, attraction = self._work(edges, y, orbit), self._work(edges, y, 0.0)
@@ -74,16 +85,16 @@ class Orbital:
         names = self.model.names("orbital")
         slips, energy = found[names.index("slip")], found[names.index(self.lever)]
         needed = opening**2 / 2 - inward + np.where(slips < 0, energy, 0.0)
-        turned = (self.obliquity**2 / 16) * abs(orbit) * np.where(slips < 0, -slips, 0.0)
+        turned = (self.obliquity**2 / 16) * abs(orbit) * np.maximum(-slips, 0.0)
         error = opening**2 + abs(opening) + 2 * np.abs(attraction) + np.abs(inward) + turned
         return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
         """Work against what pulls inward from the first gap to each of the others, the orbit's momentum as given."""
-        low, high = edges[:-1], edges[1:]
-        nodes = low + np.outer(_NODES + 1, high - low) / 2
-        force = np.asarray(self.model.function("inward_force")(self._states(nodes.ravel(), y, orbit), self.p).full())
-        work: np.ndarray = np.cumsum((_WEIGHTS @ force.reshape(nodes.shape)) * (high - low) / 2)
+        force = self.model.function("inward_force")
+        work: np.ndarray = np.cumsum(
+            panels(lambda gaps: np.asarray(force(self._states(gaps, y, orbit), self.p).full()), edges)
+        )
         return work
 
     def _states(self, gaps: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
