@@ -61,7 +61,7 @@ def rigid_share(momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
 
 
 def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Expr) -> sp.Expr:
-    """Slip energy over m a^2 omega0^2 with the surface arm: J^2/(2 d^2) less what is left of it once omega = xi there."""
+    """Slip energy over m a^2 omega0^2 with the surface arm: J^2/(2 d^2) less what is left once omega = xi there."""
     conserved = (sp.sqrt(momentum) + lag() * sp.sqrt(turning)) ** 4
     there = 1 / (distance + lag())
     return momentum**2 / (2 * distance**2) - conserved * (

@@ -20,7 +20,7 @@ _REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <=
 
 
 def exchange() -> Check:
-    """The emitted rates of J and xi are in the ratio that `exchanged` says, for every arm; J then falls with the slip."""
+    """The emitted rates of J and xi are in the ratio that `exchanged` says, for every arm."""
     left = []
     for structure in structures():
         if not admits(structure) or structure.reduced or structure.strings:
@@ -36,7 +36,7 @@ def exchange() -> Check:
 
 
 def stationary() -> Check:
-    """The slip energy is zero where omega = xi at d; its sum with J^2/2 (1/r^2 - 1/d^2) is stationary where omega = xi."""
+    """The slip energy is zero where omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
     left: list[sp.Expr] = []
     for lever, energy in (("midgap", _midgap()), ("surface", _surface())):
         left += [_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q))]
