@@ -58,6 +58,7 @@ class Path:
     time: float = 0.0  # of the last state
     smallest_gap: float = 1.0
     extras: tuple[str, ...] = ()
+    dry_loss: float = 0.0  # taken by reversals and rests, over m v0^2
 
     @property
     def kinds(self) -> list[str]:
@@ -98,7 +99,8 @@ class Locate:
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
         self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
-        self.extras = extras + (model.works if self.proof.watches == "energy" else ())
+        works = self.proof.watches == "energy" or any(work in extras for work in model.works)
+        self.extras = tuple(name for name in extras if name not in model.works) + (model.works if works else ())
         self.path = Path(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
@@ -260,6 +262,7 @@ class Locate:
         """
         at_touch = not self.path.steps and flown == 0.0
         after = self.model.values("reversal", self.y, self.p)
+        self.path.dry_loss += self.model.values("reversal_loss", self.y, self.p)["dry_contact"]
         self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
         if at_touch and not self.model.bridge:
             self.path.separated = True
@@ -270,6 +273,7 @@ class Locate:
         holds = inward > 0 and self._too_weak(after["opening"], inward)
         if holds:
             kinds += ("rests",)
+            self.path.dry_loss += float(self.y[1]) ** 2 / 2
             self.y[1] = 0.0
             phase = self.phase.with_(resting=True, motion=OPENING)
         else:

@@ -164,7 +164,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 #endif
 }
 
-#if SURFACE_ARM
+#if SURFACE_ARM && BRIDGE
 /* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/orbital.py). */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
@@ -184,7 +184,7 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
     return out_of_reach(c, y, b, b->near_gap, b->near_work, tolerance)
            | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
 }
-#else
+#elif !SURFACE_ARM
 /* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
