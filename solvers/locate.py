@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .errors import ComputationError
-from .integrators import IntegrationFailed, Locator, Stop, locator, plain, tolerance
+from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, plain, tolerance
 from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
 from .proofs import Proof, proof_for
@@ -21,7 +21,8 @@ LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from an
 REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
-_MAX_STEPS = 20_000  # phases of one flight
+_MAX_STEPS = 1_000  # phases of one flight
+_LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 
 
 @dataclass(frozen=True)
@@ -181,7 +182,20 @@ class Locate:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level) if stop.event == "turning" else stop
         except IntegrationFailed as error:
+            if self._loosened():
+                return self._advance(locator(self._flow(), self.watch, self.tolerance, self.machine_code), stretch, level)
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
+
+    def _loosened(self) -> bool:
+        """Go on with a looser tolerance, where it had been tightened for the start of a grazing flight.
+
+        Further on that may be below the rounding of what has become large.
+        """
+        if self.tolerance.relative >= self.rtol:
+            return False
+        looser = min(self.tolerance.relative * _LOOSER, self.rtol)
+        self.tolerance = Tolerance(looser, self.tolerance.absolute * looser / self.tolerance.relative)
+        return True
 
     def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
         """What a gap met on its way to an extremum: out and back within one step shows no change of sign.

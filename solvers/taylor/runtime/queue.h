@@ -80,14 +80,17 @@ static unsigned set_tolerance(const queue *q, fixed *f)
     f->tolerance = splat(q->rtol);
     f->rest = splat(1e-3);
 #if OBLIQUE
-    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
+#if STRINGS
+    net -= f->c.weight*f->c.aspect/f->c.string_ratio;
+#endif
     EACH_LANE(lane)
     {
         double of = centrifugal[lane];
         if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
             f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
-        if (of > 1.0)
-            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(of))), fmin(q->rtol, TIGHTEST));
+        if (net[lane] > 1.0)
+            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(q->rtol, TIGHTEST));
         if (of > MOST_OBLIQUE)
             beyond |= 1u << lane;
     }
