@@ -1,4 +1,4 @@
-"""Flights that creep for long (solvers/taylor/runtime/crawl.h): beside a saddle, and in a film that nothing opens quickly."""
+"""Flights that creep for long (solvers/taylor/runtime/crawl.h): beside a saddle, and in a film that opens slowly."""
 
 from __future__ import annotations
 
@@ -41,9 +41,7 @@ def test_every_decade_nearer_the_saddle_costs_the_same_time():
     """
     scene, angle, boundary = escape()
     distances = [1e-4, 1e-5, 1e-6, 1e-7]
-    found = flown(
-        scene, [boundary * (1 + d) for d in distances] + [boundary * (1 - d) for d in distances], angle, 1e-12
-    )
+    found = flown(scene, [boundary * (1 + side * d) for side in (1, -1) for d in distances], angle, 1e-12)
     away, held = found[:4], found[4:]
     assert away["outcome"].tolist() == [1] * 4
     assert held["outcome"].tolist() == [0] * 4
@@ -68,8 +66,8 @@ def test_beside_the_saddle_as_rosenbrock():
 
 
 def test_creeping_in_a_film_as_rosenbrock():
-    """Without a bridge a slow oblique impact is opened by rotation alone, through the whole film; then it is as Rosenbrock
-    has it: outcome, restitution, contact time.
+    """Without a bridge a slow oblique impact is opened by rotation alone, through the whole film, as Rosenbrock has it:
+    outcome, restitution, contact time.
     """
     changes: dict[str, Any] = Scene.load("granulation").to_dict()
     del changes["bridge"]

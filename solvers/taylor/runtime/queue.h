@@ -4,6 +4,7 @@ enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
 enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
@@ -78,7 +79,7 @@ static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;
     f->tolerance = splat(q->rtol);
-    f->rest = splat(1e-3);
+    f->rest = splat(SLOW);
 #if OBLIQUE
     vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
 #if STRINGS
