@@ -263,6 +263,15 @@ class Header:
                     f"static inline vec potential_{key}(const constants *c, const vec *y)",
                     {key: "return"},
                 )
+        if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
+            lines.append("enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };")
+            lines += self._value(
+                "orbital",
+                "static inline void orbital(const constants *c, const vec *y, vec *found)",
+                {"slip": "found[SLIP_RATE]", "orbit_energy": "found[ORBIT_ENERGY]", "surface": "found[SLIP_ENERGY]"},
+                "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
+                "(surface arm), over m v0^2 (derive/orbital.py).",
+            )
         if any(each.name == "tethered" for each in model.functions):
             prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
             lines += tethered_functions(model, self.constants, prepared)

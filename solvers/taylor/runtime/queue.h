@@ -81,14 +81,17 @@ static unsigned set_tolerance(const queue *q, fixed *f)
     f->tolerance = splat(q->rtol);
     f->rest = splat(SLOW);
 #if OBLIQUE
-    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
+#if STRINGS
+    net -= f->c.weight*f->c.aspect/f->c.string_ratio;
+#endif
     EACH_LANE(lane)
     {
         double of = centrifugal[lane];
         if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
             f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
-        if (of > 1.0)
-            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(of))), fmin(q->rtol, TIGHTEST));
+        if (net[lane] > 1.0)
+            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(q->rtol, TIGHTEST));
         if (of > MOST_OBLIQUE)
             beyond |= 1u << lane;
     }
@@ -134,7 +137,7 @@ static void fill_queue(queue *q)
 #else
         f.b.touch = splat(0.0);
 #endif
-        proved = bits(below_barrier(&f.c, y, &f.b, splat_mask(0), q->rtol));
+        proved = bits(below_barrier(&f.c, y, &f.b, q->rtol));
 #elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
         proved = bits(held_by_strings(&f.c, y, q->rtol));
 #elif !OBLIQUE
@@ -250,7 +253,7 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
 static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
 {
 #if PROOF_BY_ENERGY
-    return below_barrier(&f->c, l->y, &f->b, l->resting, tolerance);
+    return below_barrier(&f->c, l->y, &f->b, tolerance);
 #elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
     return held_by_strings(&f->c, l->y, tolerance);
 #elif !OBLIQUE
