@@ -73,6 +73,16 @@ static __attribute__((noinline)) void expand_glass(series *s, const constants *c
     EVERY(GLASS_TERM)
 }
 
+/* Where the film acts: a liquid that cavitates does not while it is opened. */
+static inline vec acting(const flights *l)
+{
+#if defined(FILM_CAVITATES)
+    return only(l->closing, l->film);
+#else
+    return l->film;
+#endif
+}
+
 static void fly(queue *q)
 {
     flights l;
@@ -95,16 +105,9 @@ static void fly(queue *q)
     unsigned turn = 0;
     while (bits(l.alive)) {
         /* a stick is as good a step later: the level is looked at in every second turn */
-        mask sticks = splat_mask(0);
-        if (turn++ % 2 == 0) {
-#if PROOF_BY_ENERGY
-        sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
-#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
-        sticks = held_by_strings(&f.c, l.y, q->rtol);
-#elif !OBLIQUE
-        sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
-#endif
-        }
+        mask sticks = held_sticks(&f.c, l.y, l.alive & (l.fresh | ((l.steps & 15) == 0)), q->rtol);
+        if (turn++ % 2 == 0)
+            sticks |= proved_sticks(&f.c, l.y, &f.b, f.contact, l.closing, l.resting, q->rtol);
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         if (!bits(l.alive))
@@ -114,7 +117,7 @@ static void fly(queue *q)
             break;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
         vec h = only(l.alive, step_size(&s, &f, &creeps));
         if (bits(creeps))
