@@ -130,7 +130,7 @@ class Header:
         for name, (slot, call, arguments) in self.calls.items():
             passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
-        body.append("glass_pressure_clearance_prepare(&c->glass, c->glass_number);")
+        body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
         return [
             *lines,
             *scale_function(self.model, self.beside.definitions),
@@ -145,6 +145,11 @@ class Header:
     @property
     def _attracting(self) -> list[str]:
         return [slot for slot in _WORKS.values() if slot in self.model.slots]
+
+    def _glass_groups(self) -> str:
+        """What a user's glass law takes beside gap and approach, as arguments."""
+        (call,) = (node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node))
+        return "".join(f", {self._passed(argument)}" for argument in call.args[2:])
 
     def _passed(self, argument: sp.Expr) -> str:
         text = self.constants.factor(argument, "argument")

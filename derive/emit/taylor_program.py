@@ -127,6 +127,8 @@ class Program:
             return self._add(kind, (inner,), name, f"{kind}_of_{inner}")
         if isinstance(node, (sp.sin, sp.cos)):
             return self._circular(node, name)
+        if isinstance(node, (sp.sinh, sp.cosh, sp.tanh)):
+            return self.series(node.rewrite(sp.exp), name)
         raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")
 
     def _sum(self, node: sp.Add, name: str | None) -> str:
