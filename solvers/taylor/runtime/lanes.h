@@ -105,7 +105,7 @@ static void fly(queue *q)
     unsigned turn = 0;
     while (bits(l.alive)) {
         /* a stick is as good a step later: the level is looked at in every second turn */
-        mask sticks = held_sticks(&f.c, l.y, l.alive & (l.fresh | ((l.steps & 15) == 0)), q->rtol);
+        mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
             sticks |= proved_sticks(&f.c, l.y, &f.b, f.contact, l.closing, l.resting, q->rtol);
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)

@@ -135,7 +135,16 @@ static inline mask proved_sticks(
     return proved;
 }
 
-/* The same where it is looked at now and then: where a phase starts, and after every sixteenth step. */
+/* When to look at what holds for good: where a phase starts, and after some steps. Beside a proof by energy, which most
+ * sticks meet first, only once a flight has become long. */
+enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, EVERY = PROOF_BY_ENERGY ? 64 : 16 };
+
+static inline mask now_and_then(mask fresh, mask phases, mask steps)
+{
+    return (fresh & (phases >= EARLIEST_PHASE)) | ((steps & (EVERY - 1)) == EVERY - 1);
+}
+
+/* The same where it is looked at now and then. */
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)tolerance;
