@@ -37,7 +37,10 @@ FLAGS = (
     "-w",
 )
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
-_DRIVER = ("roots.h", "barrier.h", "proofs.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
+_DRIVER = (
+    "roots.h", "barrier.h", "proofs.h", "queue.h", "rules.h", "events.h", "damped.h", "crawl.h",
+    "lanes.h",
+)  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
