@@ -84,7 +84,7 @@ def compiled(function: Function) -> Function:
 
 
 def build(path: str, flags: tuple[str, ...], source: Path, library: Path) -> str:
-    """Compile a C file beside which there is room; what the compiler says last if it fails, else "".
+    """Compile a C file beside which there is room; the error if it fails, else "".
 
     The library is built under a name of its own and then moved into place: several processes may do so at once.
     """
@@ -93,7 +93,8 @@ def build(path: str, flags: tuple[str, ...], source: Path, library: Path) -> str
         [path, *flags, "-o", str(fresh), str(source), "-lm"], capture_output=True, text=True, check=False
     )
     if built.returncode:
-        return (built.stderr.strip().splitlines() or ["no message"])[-1]
+        said = built.stderr.strip().splitlines() or ["no message"]
+        return next((line for line in said if "error" in line), said[-1])
     beside = library.with_suffix(f".{os.getpid()}")
     shutil.copyfile(fresh, beside)
     beside.replace(library)
