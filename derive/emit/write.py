@@ -5,7 +5,10 @@ from __future__ import annotations
 import difflib
 import hashlib
 import json
+from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 
 from ..laws import LAWS
 from ..model import derive
@@ -36,7 +39,8 @@ def sha256(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def emitted() -> dict[str, str]:
+@cache
+def emitted() -> Mapping[str, str]:
     """Relative path -> text of every file of `generated/`, manifest included."""
     files = {
         "__init__.py": _package("Emitted CasADi modules: a structure a module, laws in `laws`, groups in `scaling`."),
@@ -59,7 +63,7 @@ def emitted() -> dict[str, str]:
         manifest["structures"][structure.name] = model_digest(model)
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
-    return dict(sorted(files.items()))
+    return MappingProxyType(dict(sorted(files.items())))
 
 
 def generate(out: Path = GENERATED) -> list[Path]:
