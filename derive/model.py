@@ -104,7 +104,7 @@ def derive(structure: Structure) -> Model:
     return Model(
         structure,
         states,
-        groups=tuple(q for q in _GROUP_ORDER if q in used),
+        groups=tuple(q for q in GROUPS if q in used),
         slots=_slots(structure),
         definitions=tuple((symbol, expression) for symbol, expression in definitions if symbol in used),
         functions=functions,
@@ -116,7 +116,7 @@ def _tethered(structure: Structure) -> bool:
     return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
 
 
-_GROUP_ORDER = (
+GROUPS = (
     stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
     radius_ratio, mass_ratio, glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
 )  # fmt: skip

@@ -30,6 +30,9 @@
 #define BRIDGE 1
 #define STRINGS 0
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #if defined(BRIDGE_FORCE_WORK)
 #define CAPILLARY_STATE 0
 #else
@@ -67,6 +70,9 @@ typedef struct {
     vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
     vec rotation_energy_unit;
     vec orbit_energy_per_orbit_squared_over_distance_squared;
+    vec contact;
+    vec nearest;
+    vec farthest;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -113,6 +119,10 @@ static inline void scale(constants *c, const vec *q)
     c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*(0.5*q[SI_CONTACT_ANGLE] +
         1.0)*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
     c->dry_restitution = q[SI_DRY_RESTITUTION];
+#if OWN_RUPTURE
+    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance(q[SI_VOLUME],
+        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
+#endif
 }
 
 /* What is computed once a collision, from its groups. */
@@ -132,6 +142,9 @@ static inline void prepare(constants *c)
         -0.0625*c->aspect*(c->obliquity*c->obliquity);
     c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
     c->orbit_energy_per_orbit_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
+    c->nearest = c->aspect*c->contact + 4.0;
+    c->farthest = c->aspect*c->rupture_gap + 4.0;
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -337,6 +350,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
+#define BY_ORBIT 1
 enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/orbital.py). */
@@ -378,6 +392,27 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
     found[ORBIT_ENERGY] = orbit_energy;
     found[SLIP_ENERGY] = surface;
 }
+
+#if defined(BRIDGE_FORCE_FALLS)
+#define HELD (REDUCED || MIDGAP_ARM)
+/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py). */
+static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
+{
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
+    vec largest_orbit = vec_larger(y[ORBIT], spun_up);
+    vec least_attraction = bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
+    vec hold = least_attraction -
+        0.0625*c->aspect*(largest_orbit*largest_orbit)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+    *hold_margin = hold;
+    *flight = 0.5*(vec_larger(y[OPENING], -c->dry_restitution*y[OPENING])*vec_larger(y[OPENING],
+        -c->dry_restitution*y[OPENING])) - hold*(c->rupture_gap - y[GAP]);
+    *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;
+}
+#else
+#define HELD 0
+#endif
 
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */

@@ -4,9 +4,14 @@
  * and never makes a wrong one.
  */
 
+#define ATTRACTS (BRIDGE || ATTRACTION)
+#if !defined(BY_ORBIT) /* derive/orbital.py knows the model */
+#define BY_ORBIT 0
+#endif
+
 typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
-    vec far_gap, far_height;   /* heights count the capillary work from first touch; -infinity where there is none */
+    vec far_gap, far_height;   /* heights count the work against attractions from first touch; -infinity where there is none */
 #if SURFACE_ARM
     vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
 #endif
@@ -15,6 +20,30 @@ typedef struct {
 } barrier;
 
 static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificate.py has it */
+
+static const double NODES[6] = {
+    0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
+    0.769902674194304687, 0.904117256370474857, 0.981560634246719251};
+static const double WEIGHTS[6] = {
+    0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
+    0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
+
+/* Integral over ln(gap) by Gauss-Legendre panels; the integrand takes the gap. */
+static vec integral(
+    const constants *c, const vec *y, vec low, vec high, vec (*integrand)(const constants *, const vec *, vec))
+{
+    vec whole = high - low;
+    double longest = 0.0;
+    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
+    int panels = 2 + (int)(2.0*longest);
+    vec half = whole*(0.5/panels), sum = splat(0.0);
+    for (int panel = 0; panel < panels; panel++)
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            sum += WEIGHTS[node % 6]*integrand(c, y, vec_exp(low + half*(2*panel + 1 + place)));
+        }
+    return sum*half;
+}
 
 #if defined(POTENTIAL)
 enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grids in the film and beyond, steps to a maximum */
@@ -36,34 +65,20 @@ static vec energy_at(const constants *c, const vec *y, vec gap)
 }
 
 #if CAPILLARY_STATE
-static const double NODES[6] = {
-    0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
-    0.769902674194304687, 0.904117256370474857, 0.981560634246719251};
-static const double WEIGHTS[6] = {
-    0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
-    0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
+static inline vec slope_in_logarithm(const constants *c, const vec *y, vec gap)
+{
+    return slope_at(c, y, gap)*gap;
+}
 
-/* Capillary work from first touch to a gap, by Gauss-Legendre panels in ln(gap): potential without rotation. */
 static vec height_at(const constants *c, const vec *y, vec gap)
 {
-    vec whole = vec_log(gap);
-    double longest = 0.0;
-    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
-    int panels = 2 + (int)(2.0*longest);
-    vec half = whole*(0.5/panels), sum = splat(0.0);
-    for (int panel = 0; panel < panels; panel++)
-        for (int node = 0; node < 12; node++) {
-            double place = node < 6 ? NODES[node] : -NODES[node - 6];
-            vec here = vec_exp(half*(2*panel + 1 + place));
-            sum += WEIGHTS[node % 6]*slope_at(c, y, here)*here;
-        }
-    return energy_at(c, y, splat(1.0)) + sum*half;
+    return energy_at(c, y, splat(1.0)) + integral(c, y, splat(0.0), vec_log(gap), slope_in_logarithm);
 }
 #else
 static vec height_at(const constants *c, const vec *y, vec gap)
 {
     vec height = energy_at(c, y, gap);
-#if BRIDGE
+#if ATTRACTS
     height += capillary_work(c, gap) - capillary_work(c, splat(1.0));
 #endif
     return height;
@@ -154,7 +169,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
     (void)c;
     (void)b;
     return y[CAPILLARY_WORK];
-#elif BRIDGE
+#elif ATTRACTS
     return capillary_work(c, y[GAP]) - b->touch;
 #else
     (void)c;
@@ -164,7 +179,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 #endif
 }
 
-#if SURFACE_ARM && BRIDGE
+#if SURFACE_ARM && BY_ORBIT
 /* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/orbital.py). */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
@@ -193,43 +208,4 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
     return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
 }
 #endif
-#endif
-
-#if !OBLIQUE && !BRIDGE && !STRINGS
-enum { DEPTHS = 16 };
-
-/* Head-on with a film alone: velocity at every gap is known in advance. Closing, the film stops the motion at a gap where
- * this speed would not yet meet the glass criterion; opening, before its surface. */
-static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
-{
-    double margin = SAFETY*tolerance;
-    vec gap = y[GAP], speed = -y[OPENING], here = film_momentum(c, gap), there[STATES];
-    mask stopped = ~closing & (y[OPENING] - (film_momentum(c, splat(1.0)) - here) < -margin);
-    vec deepest = vec_max(contact, gap*1e-40);
-    vec ratio = vec_exp(vec_log(deepest/gap)*(1.0/DEPTHS));
-    there[GAP] = gap;
-    there[OPENING] = y[OPENING]*(1.0/(1.0 - margin));
-    for (int k = 0; k < DEPTHS; k++) {
-        there[GAP] *= ratio;
-        mask slow = speed - (here - film_momentum(c, there[GAP])) < -margin;
-        stopped |= closing & slow & (glass_clearance(c, there) > 0.0);
-    }
-    return stopped;
-}
-#endif
-
-#if OBLIQUE && STRINGS && !BRIDGE && TETHERED
-/* Strings that turn and a film: lanes where the margins of derive/tethered.py hold by more than their error, as
- * solvers/phases.py `tethered_margin` has it. */
-static mask held_by_strings(const constants *c, const vec *y, double tolerance)
-{
-    double margin = SAFETY*tolerance;
-    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
-    tethered_inward(c, y, &outward, &pull);
-    mask held = outward - pull + margin*(outward + pull) < 0.0;
-    if (!bits(held))
-        return held;
-    tethered_stops(c, y, &film, &recoil);
-    return held & (film + slack < 0.0) & (recoil + slack < 0.0);
-}
 #endif

@@ -101,9 +101,9 @@ static void fly(queue *q)
         if (!bits(l.alive))
             break;
         /* a stick is as good a step later: the level is looked at in every second turn */
-        mask sticks = splat_mask(0);
+        mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
-            sticks = proved_in_flight(&l, &f, q->rtol);
+            sticks |= proved_in_flight(&l, &f, q->rtol);
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         criteria_met(q, &l, &f);
@@ -111,7 +111,7 @@ static void fly(queue *q)
             continue;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
         vec h = only(l.alive, step_size(&s, &f, &creeps));
         if (bits(creeps))
