@@ -47,8 +47,9 @@ def over_impacts(found: Stress) -> Figure:
         for outcome, marker in _MARKERS.items():
             here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.found.values())]
             here.sort(key=lambda k: values[k])  # used at once; the worst on top
-            style: Any = {"c": [values[k] for k in here], "norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
-            drawn = axes.scatter(*_places(sampled, here), marker=marker, s=_size(len(sampled)), **style)
+            style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
+            coloured = [values[k] for k in here]
+            drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
             axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
         figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")

@@ -45,7 +45,7 @@ def test_what_separates_is_never_held(arm: str, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(locate, "_MAX_STEPS", 60)
     monkeypatch.setattr(locate, "STRETCHES", 5)
     parted = held = kept = 0
-    for scene in impacts(48, arm, 5):
+    for scene in impacts(32, arm, 5):
         followed = flight(scene)
         proof, followed.proof = followed.proof, NoProof()
         followed.watch = locate.Watch(tangential_edge=followed.watch.tangential_edge)
@@ -62,8 +62,8 @@ def test_what_separates_is_never_held(arm: str, monkeypatch: pytest.MonkeyPatch)
         else:
             kept += 1
             held += any(proof.holds(y) for y in states)
-    assert parted > 10
-    assert held > 0.8 * kept > 8
+    assert parted > 8
+    assert held > 0.8 * kept > 6
 
 
 CHATTER = {
