@@ -15,6 +15,8 @@ from ..scaling import group_definitions, scale_definitions
 from .printer import Printer
 from .taylor import structure_header
 from .taylor_laws import law_header
+from .taylor_slopes import slopes_header
+from .taylor_tangent import tangent_header
 from .text import INDENT, assignment, docstring, module, needed, operations
 
 _PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
@@ -180,6 +182,16 @@ def law_kernel(law: Law) -> str:
 def structure_kernel(model: Model) -> str:
     """The C header of a structure, for the Taylor kernel."""
     return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, {}))
+
+
+def law_slopes(law: Law) -> str:
+    """The C header with the slopes of a law, for the kernel's derivatives."""
+    return slopes_header(law, law_digest(law), _PROVENANCE)
+
+
+def structure_tangent(model: Model) -> str:
+    """The C header of a structure's tangent, for the kernel's derivatives."""
+    return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, {}))
 
 
 def scaling_digest() -> str:

@@ -66,11 +66,13 @@ class Variant:
     Arguments:
         order: of the series, 8 to LARGEST_ORDER.
         rotation: the angle turned is integrated along where it is no state.
+        gradients: derivatives by the groups are carried along.
     """
 
     choice: Choice
     order: int
     rotation: bool = False
+    gradients: bool = False
 
 
 @cache
@@ -118,6 +120,7 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
+        "GRADIENTS": int(variant.gradients),
         "PROOF_BY_ENERGY": int(by_energy and not unproved),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
@@ -125,10 +128,11 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [emitted.header(path) for path in paths]
-    parts += [
-        (_RUNTIME / name).read_text()
-        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
-    ]
+    runtime = ["roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h"]
+    if variant.gradients:
+        parts += [emitted.header(path.replace("taylor/", "taylor/tangent/", 1)) for path in paths]
+        runtime = ["roots.h", "barrier.h", "along.h", *runtime[2:6], "carry.h", "lanes.h"]
+    parts += [(_RUNTIME / name).read_text() for name in runtime]
     return "\n".join(parts)
 
 
@@ -150,6 +154,10 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     loaded.collide.restype = ctypes.c_int
     pointer, number = ctypes.c_void_p, ctypes.c_int
     loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, pointer]
+    if variant.gradients:
+        loaded.collide_along.restype = ctypes.c_int
+        given = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer]
+        loaded.collide_along.argtypes = [*given, ctypes.c_uint, pointer, pointer]
     return loaded
 
 

@@ -47,20 +47,8 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
     return power_of(step);
 }
 
-/* The series of creeping lanes as the damped sum has them, so that events see what the states become. */
-static inline void damp(vec (*a)[TERMS], mask creeps)
-{
-    for (int state = 0; state < STATES; state++)
-        for (int k = EXACT + 1; k <= ORDER; k++)
-            a[state][k] = choose(creeps, damping(k)*a[state][k], a[state][k]);
-}
-
-/* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
 #define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
 #define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
-#define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
-    term(11) term(12) term(13) term(14) term(15) term(16)
-_Static_assert(ORDER <= 16, "EVERY names all orders");
 
 static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
 {
@@ -78,6 +66,10 @@ static void fly(queue *q)
     flights l;
     fixed f;
     series s;
+#if GRADIENTS
+    slopes d;
+    memset(&d, 0, sizeof d);
+#endif
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
     memset(&f, 0, sizeof f);
@@ -115,6 +107,9 @@ static void fly(queue *q)
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, l.film, l.shear, ~l.resting);
+#if GRADIENTS
+        expand_slopes(&d, &f.slopes, &s, &f.c, l.film, l.shear);
+#endif
         mask creeps;
         vec h = only(l.alive, step_size(&s, &f, &creeps));
         if (bits(creeps))
@@ -125,6 +120,9 @@ static void fly(queue *q)
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
+#if GRADIENTS
+        carry(&l, &f, &s, &d, h, creeps, falls, found.event, q->asked);
+#endif
         for (int state = 0; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
@@ -163,3 +161,29 @@ int collide(long count, const double *const *quantities, const unsigned char *va
     fly(&q);
     return (int)sizeof(answer);
 }
+
+#if GRADIENTS
+/* The same with derivatives by the quantities; both buffers come zeroed.
+ *
+ * by_group: RESULTS for each of `group_names` a collision; gradients: RESULTS for each of `quantity_names`.
+ * asked: the groups whose derivatives are carried, as bits.
+ */
+int collide_along(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget,
+    answer *answers, unsigned asked, double *by_group, double *gradients)
+{
+    queue q;
+    memset(&q, 0, sizeof q);
+    q.quantities = quantities;
+    q.varies = varies;
+    q.rtol = rtol;
+    q.answers = answers;
+    q.count = count;
+    q.budget = budget;
+    q.asked = asked;
+    q.by_group = by_group;
+    q.gradients = gradients;
+    fly(&q);
+    in_quantities(&q);
+    return (int)sizeof(answer);
+}
+#endif

@@ -25,6 +25,9 @@ typedef struct {
     barrier b;
     vec tolerance, rest; /* relative error of a step, and the opening velocity that counts as none */
     vec contact, end, edge;
+#if GRADIENTS
+    slope_constants slopes;
+#endif
 } fixed;
 
 typedef struct {
@@ -32,6 +35,9 @@ typedef struct {
     vec time, smallest, film, shear;
     mask alive, closing, resting, fresh;
     mask index, steps, phases, reversal;
+#if GRADIENTS
+    carried along;
+#endif
 } flights;
 
 typedef struct {
@@ -46,6 +52,10 @@ typedef struct {
     long waiting[LANES];
     double rows[LANES][sizeof(fixed)/sizeof(vec)];
     double starts[LANES][STATES];
+#if GRADIENTS
+    double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
+    unsigned asked;               /* groups, as bits */
+#endif
 } queue;
 
 enum { FIXED = sizeof(fixed)/sizeof(vec) };
@@ -107,6 +117,9 @@ static void fill_queue(queue *q)
             EACH_LANE(lane) given[k][lane] = q->quantities[k][q->varies[k] ? first + (lane < many ? lane : 0) : 0];
         scale(&f.c, given);
         prepare(&f.c);
+#if GRADIENTS
+        prepare_slopes(&f.slopes, &f.c);
+#endif
         unsigned beyond = set_tolerance(q, &f);
         memset(y, 0, sizeof y);
         start(&f.c, y);
@@ -178,6 +191,9 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
     l->resting[lane] = 0;
     l->steps[lane] = l->phases[lane] = 0;
     l->reversal[lane] = -1;
+#if GRADIENTS
+    along_start(&l->along, &f->c, lane);
+#endif
 }
 
 /* The flight of a lane is over: what came of it, and the next one. */
@@ -200,6 +216,9 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
         outputs(&f->c, l->y, shown);
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
+#if GRADIENTS
+        along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
+#endif
     }
     refill(q, l, f, lane);
 }

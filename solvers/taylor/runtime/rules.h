@@ -24,6 +24,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
     vec after[STATES];
     memcpy(after, l->y, sizeof after);
     reversal(&f->c, l->y, after);
+#if GRADIENTS
+    along_reversed(&l->along, &f->c, l->y, lane);
+#endif
     l->y[OPENING][lane] = after[OPENING][lane];
     if (l->reversal[lane] < 0)
         l->reversal[lane] = kind;
