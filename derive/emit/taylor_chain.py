@@ -6,7 +6,7 @@ that the series of them which a flow has already made are used again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -22,9 +22,13 @@ class Chain:
     Arguments:
         definitions: in order, each in terms of those before it.
         slope: the symbol for the derivative of a law's call by its argument of that number.
+        constant: symbols that do not move along a flight, which cost nothing to divide by.
     """
 
-    def __init__(self, definitions: Sequence[Definition], slope: Slope | None = None) -> None:
+    def __init__(
+        self, definitions: Sequence[Definition], slope: Slope | None = None, constant: Collection[sp.Symbol] = ()
+    ) -> None:
+        self._constant = constant
         self._definitions = dict(definitions)
         self._slope = slope
         self._known: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = {}
@@ -68,7 +72,8 @@ class Chain:
             inner = self.by(base, variable)
             if inner == 0:
                 continue
-            whole = symbol / base if base.is_Symbol and base.is_positive else value / base
+            kept = base.is_Symbol and base.is_positive and (power != 1 or base in self._constant)
+            whole = symbol / base if kept else value / base
             total += power * whole * inner
         return _expanded(total)
 

@@ -118,6 +118,9 @@ class Program:
         for known in (*self._before, *self.operations):
             if (known.kind, known.series, known.factors, known.call) == (kind, series, factors, call):
                 return known.name
+            if kind == "product" and self._before and (known.kind, known.series) == (kind, series):
+                ratio = factors[0] / known.factors[0]  # the same but for its factor
+                return self._add("linear", (known.name,), name, hint, (ratio, sp.Integer(0)))
         chosen = self._free(name or hint)
         self.operations.append(Operation(chosen, kind, series, factors, call))
         return chosen

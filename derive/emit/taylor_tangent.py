@@ -38,7 +38,7 @@ class Tangent:
         self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
         self.program = flow.continued()
         self._slopes: dict[str, str] = {}  # name of a law's slope -> its array
-        self.chain = Chain(model.definitions, self._slope)
+        self.chain = Chain(model.definitions, self._slope, model.groups)
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
         self._differentiate()
@@ -104,7 +104,7 @@ class Tangent:
         return "\n".join(lines).rstrip() + "\n"
 
     def _enumerations(self) -> list[str]:
-        groups = [group.name for group in self.model.groups]
+        groups = self._groups
         flags = ", ".join(str(int(name in self.flowing)) for name in groups)
         return [
             f"enum {{ {', '.join(f'BY_{name.upper()}' for name in groups)} }};",
@@ -141,19 +141,48 @@ class Tangent:
         return [f"{row}_by_{by}" for (row, by), entry in self.sources.items() if not isinstance(entry, str)]
 
     def _coefficients(self) -> list[str]:
-        body = ["(void)film; (void)shear; (void)c;"]
+        body = ["(void)film; (void)shear; (void)c; (void)asked;"]
         for name, (slot, call, given) in self._laws().items():
             passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
             body.append(f"{slot}_{call}_slopes_next(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed}, k);")
-        body += self.made.lines()
+        body += self._guarded()
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
                 body.append(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);")
         head = (
             "INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, "
-            "vec film, vec shear, int k)"
+            "vec film, vec shear, unsigned asked, int k)"
         )
-        return [*comment("Coefficient k of what the rates change by with states and groups."), *function(head, body), ""]
+        doc = "Coefficient k of what the rates change by with the states, and with the groups that are asked for."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _guarded(self) -> list[str]:
+        """Lines of the operations, those that only some groups need under a test of these."""
+        always = {entry for entry in self.matrix.values() if isinstance(entry, str)}
+        needs = {entry: {by} for (_, by), entry in self.sources.items() if isinstance(entry, str)}
+        for (_, by), entry in self.sources.items():
+            if isinstance(entry, str):
+                needs[entry].add(by)
+        for operation in reversed(self.program.operations):
+            for part in operation.series:
+                if operation.name in always:
+                    always.add(part)
+                needs.setdefault(part, set()).update(needs.get(operation.name, ()))
+        lines: list[str] = []
+        before: tuple[str, ...] = ()
+        for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
+            own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
+            if own != before:
+                lines += (["}"] if before else []) + (
+                    [f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"] if own else []
+                )
+                before = own
+            lines.append(_IN + line if own else line)
+        return lines + (["}"] if before else [])
+
+    @property
+    def _groups(self) -> list[str]:
+        return [group.name for group in self.model.groups]
 
     def _array(self, name: str) -> str:
         return self.made.array(name)

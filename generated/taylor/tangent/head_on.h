@@ -50,17 +50,19 @@ typedef struct {
     vec opening_by_stokes[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap, k);
     s->opening_by_gap[k] = film*c->opening_by_gap_factor*product(s->film_resistance_law.by_gap, of->opening,
         k);
     s->opening_by_opening[k] = film*c->opening_by_gap_factor*of->film_resistance_law.result[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

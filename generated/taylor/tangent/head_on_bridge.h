@@ -76,11 +76,11 @@ typedef struct {
     vec opening_by_contact_angle[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap, k);
     bridge_force_slopes_next(&s->bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
@@ -91,15 +91,25 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
     s->opening_by_opening[k] =
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
         c->opening_by_stokes_per_bridge_force*of->film_force[k];
-    s->opening_by_aspect[k] = c->opening_by_aspect_factor*product(s->bridge_force_law.by_gap_over_radius,
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->opening_by_aspect[k] = c->opening_by_aspect_factor*product(s->bridge_force_law.by_gap_over_radius,
         of->gap, k);
-    s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
-    s->opening_by_volume[k] =
+    }
+    if (asked & (1u << BY_CAPILLARY)) {
+        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        s->opening_by_volume[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
-    s->opening_by_contact_angle[k] =
+    }
+    if (asked & (1u << BY_CONTACT_ANGLE)) {
+        s->opening_by_contact_angle[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

@@ -23,7 +23,7 @@
  *
  * Law slots: film, glass, bridge, strings.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 7 and those of the laws, then 2 a
+ * Its tangent: derivatives of the states by the groups. Products of series: 6 and those of the laws, then 2 a
  * direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
@@ -45,6 +45,7 @@ static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 
 
 typedef struct {
     vec string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
+    vec string_pull_by_gap_per_strings_stiffness_law;
     vec string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared;
     vec string_pull_by_aspect_per_string_pull;
     vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
@@ -65,6 +66,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared =
         2.0*v->aspect*v->weight;
+    c->string_pull_by_gap_per_strings_stiffness_law = v->aspect*v->weight;
     c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared =
         2.0*v->weight;
     c->string_pull_by_aspect_per_string_pull = 1.0/v->aspect;
@@ -86,8 +88,6 @@ typedef struct {
     bridge_force_slopes bridge_force_law;
     strings_stiffness_slopes strings_stiffness_law;
     vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec string_pull_over_gap[TERMS];
-    vec over_string_pull_over_gap;
     vec string_pull_by_gap[TERMS];
     vec gap_by_offset_squared[TERMS];
     vec gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
@@ -105,11 +105,11 @@ typedef struct {
     vec opening_by_string_ratio[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap, k);
     bridge_force_slopes_next(&s->bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
@@ -118,17 +118,17 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared, k);
     s->offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
         s->strings_stiffness_law.by_offset_squared, k);
-    s->string_pull_over_gap[k] = quotient(of->string_pull, of->gap, s->string_pull_over_gap,
-        &s->over_string_pull_over_gap, k);
     s->string_pull_by_gap[k] =
         c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*s->offset_squared_by_strings_stiffness_law_by_offset_squared[k]
-        + s->string_pull_over_gap[k];
-    s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
-    s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(s->gap_by_offset_squared,
-        s->strings_stiffness_law.by_offset_squared, k);
-    s->string_pull_by_aspect[k] =
+        + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
+        s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
+        product(s->gap_by_offset_squared, s->strings_stiffness_law.by_offset_squared, k);
+        s->string_pull_by_aspect[k] =
         c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
         + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];
+    }
     s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
     s->opening_by_gap[k] =
         c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*s->bridge_force_law.by_gap_over_radius[k] +
@@ -136,21 +136,35 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         - s->string_pull_by_gap[k];
     s->opening_by_opening[k] =
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
         c->opening_by_stokes_per_bridge_force*of->film_force[k];
-    s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
         of->gap, k);
-    s->opening_by_aspect[k] =
+        s->opening_by_aspect[k] =
         c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap*s->bridge_force_law_by_gap_over_radius_by_gap[k]
         - s->string_pull_by_aspect[k];
-    s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
-    s->opening_by_volume[k] =
+    }
+    if (asked & (1u << BY_CAPILLARY)) {
+        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        s->opening_by_volume[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
-    s->opening_by_contact_angle[k] =
+    }
+    if (asked & (1u << BY_CONTACT_ANGLE)) {
+        s->opening_by_contact_angle[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
-    s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
-    s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
+    }
+    if (asked & (1u << BY_WEIGHT)) {
+        s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
+    }
+    if (asked & (1u << BY_STRING_RATIO)) {
+        s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
         s->strings_stiffness_law.by_string_ratio, k);
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

@@ -19,7 +19,7 @@
  *
  * Law slots: film, glass, strings.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 6 and those of the laws, then 2 a
+ * Its tangent: derivatives of the states by the groups. Products of series: 5 and those of the laws, then 2 a
  * direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
@@ -37,6 +37,7 @@ static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 0, 0, 0, 0 };
 
 typedef struct {
     vec string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
+    vec string_pull_by_gap_per_strings_stiffness_law;
     vec string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared;
     vec string_pull_by_aspect_per_string_pull;
     vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
@@ -52,6 +53,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared =
         2.0*v->aspect*v->weight;
+    c->string_pull_by_gap_per_strings_stiffness_law = v->aspect*v->weight;
     c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared =
         2.0*v->weight;
     c->string_pull_by_aspect_per_string_pull = 1.0/v->aspect;
@@ -67,8 +69,6 @@ typedef struct {
     film_resistance_slopes film_resistance_law;
     strings_stiffness_slopes strings_stiffness_law;
     vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec string_pull_over_gap[TERMS];
-    vec over_string_pull_over_gap;
     vec string_pull_by_gap[TERMS];
     vec gap_by_offset_squared[TERMS];
     vec gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
@@ -82,39 +82,47 @@ typedef struct {
     vec opening_by_string_ratio[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap, k);
     strings_stiffness_slopes_next(&s->strings_stiffness_law, &c->strings_stiffness_law,
         &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared, k);
     s->offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
         s->strings_stiffness_law.by_offset_squared, k);
-    s->string_pull_over_gap[k] = quotient(of->string_pull, of->gap, s->string_pull_over_gap,
-        &s->over_string_pull_over_gap, k);
     s->string_pull_by_gap[k] =
         c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*s->offset_squared_by_strings_stiffness_law_by_offset_squared[k]
-        + s->string_pull_over_gap[k];
-    s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
-    s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(s->gap_by_offset_squared,
-        s->strings_stiffness_law.by_offset_squared, k);
-    s->string_pull_by_aspect[k] =
+        + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
+        s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
+        product(s->gap_by_offset_squared, s->strings_stiffness_law.by_offset_squared, k);
+        s->string_pull_by_aspect[k] =
         c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
         + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];
+    }
     s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
     s->opening_by_gap[k] =
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k]
         - s->string_pull_by_gap[k];
     s->opening_by_opening[k] =
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
-    s->opening_by_aspect[k] = -s->string_pull_by_aspect[k];
-    s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
-    s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->opening_by_aspect[k] = -s->string_pull_by_aspect[k];
+    }
+    if (asked & (1u << BY_WEIGHT)) {
+        s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
+    }
+    if (asked & (1u << BY_STRING_RATIO)) {
+        s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
         s->strings_stiffness_law.by_string_ratio, k);
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

@@ -20,7 +20,7 @@
  *
  * Law slots: film, glass, shear, arm.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 31 and those of the laws, then 9
+ * Its tangent: derivatives of the states by the groups. Products of series: 24 and those of the laws, then 9
  * a direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
@@ -36,22 +36,21 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 0, 0, 0, 0 };
 
 typedef struct {
-    vec centrifugal_force_by_gap_per_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_centrifugal_force;
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec opening_by_gap_per_orbital_rate_squared;
     vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
     vec opening_by_orbit_per_orbital_rate_over_distance;
     vec opening_by_stokes_per_film_force;
-    vec opening_by_obliquity_factor;
+    vec opening_by_obliquity_per_centrifugal_force;
     vec orbit_by_gap_per_shear_force;
     vec orbit_by_orbit_per_shear_log_factor_law_over_distance;
     vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
     vec spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec spin_by_spin_factor;
-    vec spin_by_stokes_factor;
+    vec spin_by_spin_per_arm_lever_law_by_shear_log_factor_law;
     vec turned_by_gap_per_orbital_rate_over_distance;
     vec turned_by_orbit_per_inverse_distance_squared;
     vec turned_by_aspect_per_gap_by_orbital_rate_over_distance;
@@ -65,27 +64,25 @@ typedef struct {
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
-    c->centrifugal_force_by_gap_per_orbital_rate_squared =
-        -0.25*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
-        -0.25*v->aspect*(v->obliquity*v->obliquity);
+        -0.1875*v->aspect*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
     c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
     c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*v->aspect/v->stokes;
+    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
     c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
     c->opening_by_stokes_per_film_force = 1.0/v->stokes;
-    c->opening_by_obliquity_factor = 0.125*v->aspect*v->obliquity;
+    c->opening_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
     c->orbit_by_gap_per_shear_force = -v->aspect;
     c->orbit_by_orbit_per_shear_log_factor_law_over_distance = -1.3333333333333333*v->aspect/v->stokes;
     c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
     c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
         0.4166666666666667*v->aspect/v->stokes;
-    c->spin_by_spin_factor = -0.4166666666666667*v->aspect/v->stokes;
-    c->spin_by_stokes_factor = -0.3125/v->stokes;
+    c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law = -0.4166666666666667*v->aspect/v->stokes;
     c->turned_by_gap_per_orbital_rate_over_distance = -0.5*(v->aspect*v->aspect)*v->obliquity;
     c->turned_by_orbit_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
     c->turned_by_aspect_per_gap_by_orbital_rate_over_distance = -0.5*v->aspect*v->obliquity;
@@ -100,13 +97,7 @@ typedef struct {
     shear_log_factor_slopes shear_log_factor_law;
     film_resistance_slopes film_resistance_law;
     arm_lever_slopes arm_lever_law;
-    vec centrifugal_force_over_distance[TERMS];
-    vec over_centrifugal_force_over_distance;
-    vec centrifugal_force_by_gap[TERMS];
     vec gap_by_orbital_rate_squared[TERMS];
-    vec centrifugal_force_by_gap_2[TERMS];
-    vec centrifugal_force_by_gap_2_over_distance[TERMS];
-    vec over_centrifugal_force_by_gap_2_over_distance;
     vec centrifugal_force_by_aspect[TERMS];
     vec orbital_rate_by_shear_log_factor_law[TERMS];
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
@@ -159,30 +150,23 @@ typedef struct {
     vec turned_by_obliquity[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_next(&s->shear_log_factor_law, &c->shear_log_factor_law,
         &of->shear_log_factor_law, &v->shear_log_factor_law, of->gap, k);
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap, k);
     arm_lever_slopes_next(&s->arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance, k);
-    s->centrifugal_force_over_distance[k] = quotient(of->centrifugal_force, of->distance,
-        s->centrifugal_force_over_distance, &s->over_centrifugal_force_over_distance, k);
-    s->centrifugal_force_by_gap[k] =
-        c->centrifugal_force_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        v->aspect*s->centrifugal_force_over_distance[k];
-    s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
-    s->centrifugal_force_by_gap_2[k] = product(of->centrifugal_force, of->gap, k);
-    s->centrifugal_force_by_gap_2_over_distance[k] = quotient(s->centrifugal_force_by_gap_2, of->distance,
-        s->centrifugal_force_by_gap_2_over_distance, &s->over_centrifugal_force_by_gap_2_over_distance, k);
-    s->centrifugal_force_by_aspect[k] =
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
+        s->centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*s->gap_by_orbital_rate_squared[k] +
-        s->centrifugal_force_by_gap_2_over_distance[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];
+    }
     s->orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate, of->shear_log_factor_law.result,
         k);
     s->orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -194,21 +178,24 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*s->orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_gap_by_slip[k];
-    s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip, k);
-    s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-    s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(s->gap_by_orbital_rate,
+    if (asked & (1u << BY_ASPECT)) {
+        s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
+        k);
+        s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
+        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(s->gap_by_orbital_rate,
         of->shear_log_factor_law.result, k);
-    s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
         quotient(s->gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
         &s->over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);
-    s->shear_force_by_aspect[k] =
+        s->shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];
+    }
     s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] = s->centrifugal_force_by_gap[k] +
+    s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
     s->opening_by_opening[k] =
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
@@ -216,9 +203,12 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         &s->over_orbital_rate_over_distance, k);
     s->opening_by_orbit[k] =
         c->opening_by_orbit_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
-    s->opening_by_obliquity[k] = c->opening_by_obliquity_factor*product(of->distance,
-        of->orbital_rate_squared, k);
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->opening_by_obliquity[k] = c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];
+    }
     s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
     s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
         s->distance_by_shear_force_by_gap[k];
@@ -229,10 +219,15 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     s->orbit_by_spin[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
         of->shear_log_factor_law.result, k);
-    s->orbit_by_stokes[k] = c->opening_by_stokes_per_film_force*product(of->distance, of->shear_force, k);
-    s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
-    s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
-    s->orbit_by_aspect[k] = -s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->orbit_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
+        s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
+        s->orbit_by_aspect[k] = -s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k];
+    }
     s->arm_lever_law_by_distance_by_shear_force[k] = product(s->arm_lever_law.by_distance, of->shear_force,
         k);
     s->arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, s->shear_force_by_gap, k);
@@ -247,25 +242,34 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         &s->over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);
     s->spin_by_orbit[k] =
         shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*s->arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];
-    s->spin_by_spin[k] = shear*c->spin_by_spin_factor*product(of->arm_lever_law.result,
-        of->shear_log_factor_law.result, k);
-    s->spin_by_stokes[k] = c->spin_by_stokes_factor*product(of->arm_lever_law.result, of->shear_force, k);
-    s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
-    s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(s->arm_lever_law_by_distance_by_gap,
+    s->spin_by_spin[k] =
+        shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*s->arm_lever_law_by_shear_log_factor_law[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->spin_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
+        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(s->arm_lever_law_by_distance_by_gap,
         of->shear_force, k);
-    s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result, s->shear_force_by_aspect,
-        k);
-    s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +
+        s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
+        s->shear_force_by_aspect, k);
+        s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +
         0.3125*s->arm_lever_law_by_shear_force_by_aspect[k];
+    }
     s->turned_by_gap[k] = c->turned_by_gap_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
     s->inverse_distance_squared[k] = reciprocal(of->distance_squared, s->inverse_distance_squared, k);
     s->turned_by_orbit[k] = c->turned_by_orbit_per_inverse_distance_squared*s->inverse_distance_squared[k];
-    s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
         s->gap_by_orbital_rate_over_distance, &s->over_gap_by_orbital_rate_over_distance, k);
-    s->turned_by_aspect[k] =
+        s->turned_by_aspect[k] =
         c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*s->gap_by_orbital_rate_over_distance[k] +
         c->turned_by_aspect_per_orbital_rate*of->orbital_rate[k];
-    s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

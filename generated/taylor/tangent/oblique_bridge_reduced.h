@@ -23,7 +23,7 @@
  *
  * Law slots: film, glass, shear, bridge.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 22 and those of the laws, then 5
+ * Its tangent: derivatives of the states by the groups. Products of series: 17 and those of the laws, then 5
  * a direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
@@ -44,18 +44,18 @@ static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 };
 
 typedef struct {
     vec momentum_by_aspect;
-    vec centrifugal_force_by_gap_per_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_centrifugal_force;
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec slip_by_aspect_offset;
+    vec opening_by_gap_per_orbital_rate_squared;
     vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
     vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
     vec opening_by_orbit_per_orbital_rate_over_distance;
     vec opening_by_stokes_per_bridge_force;
     vec opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap;
-    vec opening_by_obliquity_factor;
+    vec opening_by_obliquity_per_centrifugal_force;
     vec opening_by_capillary_per_bridge_force;
     vec opening_by_volume_per_bridge_force_law_by_volume;
     vec orbit_by_gap_per_shear_force;
@@ -74,21 +74,20 @@ typedef struct {
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->momentum_by_aspect = 2.0*v->aspect + 8.0;
-    c->centrifugal_force_by_gap_per_orbital_rate_squared =
-        -0.25*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
-        -0.25*v->aspect*(v->obliquity*v->obliquity);
+        -0.1875*v->aspect*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
     c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
     c->slip_by_aspect_offset = -0.15625*c->momentum_by_aspect;
+    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
     c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
     c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
     c->opening_by_stokes_per_bridge_force = 1.0/v->stokes;
     c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap = -0.5/(v->capillary*v->stokes);
-    c->opening_by_obliquity_factor = 0.125*v->aspect*v->obliquity;
+    c->opening_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
     c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
     c->opening_by_volume_per_bridge_force_law_by_volume = -1.0/(v->capillary*v->stokes);
     c->orbit_by_gap_per_shear_force = -v->aspect;
@@ -107,13 +106,7 @@ typedef struct {
     shear_log_factor_slopes shear_log_factor_law;
     film_resistance_slopes film_resistance_law;
     bridge_force_slopes bridge_force_law;
-    vec centrifugal_force_over_distance[TERMS];
-    vec over_centrifugal_force_over_distance;
-    vec centrifugal_force_by_gap[TERMS];
     vec gap_by_orbital_rate_squared[TERMS];
-    vec centrifugal_force_by_gap_2[TERMS];
-    vec centrifugal_force_by_gap_2_over_distance[TERMS];
-    vec over_centrifugal_force_by_gap_2_over_distance;
     vec centrifugal_force_by_aspect[TERMS];
     vec orbital_rate_by_shear_log_factor_law[TERMS];
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
@@ -156,30 +149,23 @@ typedef struct {
     vec turned_by_obliquity[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_next(&s->shear_log_factor_law, &c->shear_log_factor_law,
         &of->shear_log_factor_law, &v->shear_log_factor_law, of->gap, k);
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap, k);
     bridge_force_slopes_next(&s->bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
         &v->bridge_force_law, of->scaled_gap, k);
-    s->centrifugal_force_over_distance[k] = quotient(of->centrifugal_force, of->distance,
-        s->centrifugal_force_over_distance, &s->over_centrifugal_force_over_distance, k);
-    s->centrifugal_force_by_gap[k] =
-        c->centrifugal_force_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        v->aspect*s->centrifugal_force_over_distance[k];
-    s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
-    s->centrifugal_force_by_gap_2[k] = product(of->centrifugal_force, of->gap, k);
-    s->centrifugal_force_by_gap_2_over_distance[k] = quotient(s->centrifugal_force_by_gap_2, of->distance,
-        s->centrifugal_force_by_gap_2_over_distance, &s->over_centrifugal_force_by_gap_2_over_distance, k);
-    s->centrifugal_force_by_aspect[k] =
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
+        s->centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*s->gap_by_orbital_rate_squared[k] +
-        s->centrifugal_force_by_gap_2_over_distance[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];
+    }
     s->orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate, of->shear_log_factor_law.result,
         k);
     s->orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -193,23 +179,25 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_gap_by_slip[k];
     s->inverse_distance_squared[k] = reciprocal(of->distance_squared, s->inverse_distance_squared, k);
     s->slip_by_orbit[k] = k == 0 ? s->inverse_distance_squared[k] + 0.15625 : s->inverse_distance_squared[k];
-    s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-    s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
+        s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
         s->gap_by_orbital_rate_over_distance, &s->over_gap_by_orbital_rate_over_distance, k);
-    s->slip_by_aspect[k] = k == 0 ? -2.0*s->gap_by_orbital_rate_over_distance[k] + c->slip_by_aspect_offset :
-        -2.0*s->gap_by_orbital_rate_over_distance[k];
-    s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip, k);
-    s->slip_by_aspect_by_shear_log_factor_law[k] = product(s->slip_by_aspect, of->shear_log_factor_law.result,
+        s->slip_by_aspect[k] = k == 0 ? -2.0*s->gap_by_orbital_rate_over_distance[k] +
+        c->slip_by_aspect_offset : -2.0*s->gap_by_orbital_rate_over_distance[k];
+        s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
         k);
-    s->shear_force_by_aspect[k] =
+        s->slip_by_aspect_by_shear_log_factor_law[k] = product(s->slip_by_aspect,
+        of->shear_log_factor_law.result, k);
+        s->shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->slip_by_aspect_by_shear_log_factor_law[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];
+    }
     s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] =
+    s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
         c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*s->bridge_force_law.by_gap_over_radius[k] +
-        s->centrifugal_force_by_gap[k] +
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
     s->opening_by_opening[k] =
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
@@ -217,36 +205,56 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         &s->over_orbital_rate_over_distance, k);
     s->opening_by_orbit[k] =
         c->opening_by_orbit_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
         c->opening_by_stokes_per_bridge_force*of->film_force[k];
-    s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
         of->gap, k);
-    s->opening_by_aspect[k] =
+        s->opening_by_aspect[k] =
         c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap*s->bridge_force_law_by_gap_over_radius_by_gap[k]
         + s->centrifugal_force_by_aspect[k];
-    s->opening_by_obliquity[k] = c->opening_by_obliquity_factor*product(of->distance,
-        of->orbital_rate_squared, k);
-    s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
-    s->opening_by_volume[k] =
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->opening_by_obliquity[k] = c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];
+    }
+    if (asked & (1u << BY_CAPILLARY)) {
+        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        s->opening_by_volume[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
-    s->opening_by_contact_angle[k] =
+    }
+    if (asked & (1u << BY_CONTACT_ANGLE)) {
+        s->opening_by_contact_angle[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
+    }
     s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
     s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
         s->distance_by_shear_force_by_gap[k];
     s->distance_by_slip_by_orbit[k] = product(of->distance, s->slip_by_orbit, k);
     s->orbit_by_orbit[k] = shear*c->orbit_by_orbit_factor*product(s->distance_by_slip_by_orbit,
         of->shear_log_factor_law.result, k);
-    s->orbit_by_stokes[k] = c->opening_by_stokes_per_bridge_force*product(of->distance, of->shear_force, k);
-    s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
-    s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
-    s->orbit_by_aspect[k] = -s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->orbit_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
+        s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
+        s->orbit_by_aspect[k] = -s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k];
+    }
     s->turned_by_gap[k] = c->turned_by_gap_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
     s->turned_by_orbit[k] = c->turned_by_orbit_per_inverse_distance_squared*s->inverse_distance_squared[k];
-    s->turned_by_aspect[k] =
+    if (asked & (1u << BY_ASPECT)) {
+        s->turned_by_aspect[k] =
         c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*s->gap_by_orbital_rate_over_distance[k] +
         c->turned_by_aspect_per_orbital_rate*of->orbital_rate[k];
-    s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

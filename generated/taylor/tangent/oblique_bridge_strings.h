@@ -27,7 +27,7 @@
  *
  * Law slots: film, glass, shear, arm, bridge, strings.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 73 and those of the laws, then 13
+ * Its tangent: derivatives of the states by the groups. Products of series: 67 and those of the laws, then 13
  * a direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
@@ -49,7 +49,6 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 };
 
 typedef struct {
-    vec centrifugal_force_by_gap_per_orbital_rate_squared;
     vec offset_squared_by_gap_per_gap;
     vec offset_squared_by_gap_per_sine_of_scaled_rotation_squared;
     vec string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared;
@@ -64,12 +63,13 @@ typedef struct {
     vec string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation;
     vec string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec opening_by_gap_per_orbital_rate_squared;
     vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
     vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
     vec opening_by_orbit_per_orbital_rate_over_distance;
     vec opening_by_stokes_per_bridge_force;
     vec opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap;
-    vec opening_by_obliquity_factor;
+    vec opening_by_obliquity_per_centrifugal_force;
     vec opening_by_capillary_per_bridge_force;
     vec opening_by_volume_per_bridge_force_law_by_volume;
     vec opening_by_weight_per_string_pull;
@@ -79,8 +79,7 @@ typedef struct {
     vec orbit_by_obliquity_factor;
     vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
     vec spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec spin_by_spin_factor;
-    vec spin_by_stokes_factor;
+    vec spin_by_spin_per_arm_lever_law_by_shear_log_factor_law;
     vec rotation_by_gap_per_orbital_rate_over_distance;
     vec rotation_by_orbit_per_inverse_distance_squared;
     vec rotation_by_aspect_per_gap_by_orbital_rate_over_distance;
@@ -96,8 +95,6 @@ typedef struct {
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
-    c->centrifugal_force_by_gap_per_orbital_rate_squared =
-        -0.25*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->offset_squared_by_gap_per_gap = 0.5*(v->aspect*v->aspect);
     c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared = 4.0*v->aspect;
     c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared =
@@ -109,7 +106,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     c->string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation
         = 32.0*v->weight;
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
-        -0.25*v->aspect*(v->obliquity*v->obliquity);
+        -0.1875*v->aspect*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
     c->offset_squared_by_aspect_per_gap_squared = 0.5*v->aspect;
     c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance =
@@ -121,12 +118,13 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
         16.0*v->weight/v->obliquity;
     c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*v->aspect/v->stokes;
+    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
     c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
     c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
     c->opening_by_stokes_per_bridge_force = 1.0/v->stokes;
     c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap = -0.5/(v->capillary*v->stokes);
-    c->opening_by_obliquity_factor = 0.125*v->aspect*v->obliquity;
+    c->opening_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
     c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
     c->opening_by_volume_per_bridge_force_law_by_volume = -1.0/(v->capillary*v->stokes);
     c->opening_by_weight_per_string_pull = -1.0/v->weight;
@@ -138,8 +136,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
     c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
         0.4166666666666667*v->aspect/v->stokes;
-    c->spin_by_spin_factor = -0.4166666666666667*v->aspect/v->stokes;
-    c->spin_by_stokes_factor = -0.3125/v->stokes;
+    c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law = -0.4166666666666667*v->aspect/v->stokes;
     c->rotation_by_gap_per_orbital_rate_over_distance = -0.5*(v->aspect*v->aspect)*v->obliquity;
     c->rotation_by_orbit_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
     c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance = -0.5*v->aspect*v->obliquity;
@@ -158,9 +155,6 @@ typedef struct {
     bridge_force_slopes bridge_force_law;
     strings_stiffness_slopes strings_stiffness_law;
     arm_lever_slopes arm_lever_law;
-    vec centrifugal_force_over_distance[TERMS];
-    vec over_centrifugal_force_over_distance;
-    vec centrifugal_force_by_gap[TERMS];
     vec offset_squared_by_gap[TERMS];
     vec gap_by_offset_squared_by_gap[TERMS];
     vec gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
@@ -179,9 +173,6 @@ typedef struct {
     vec strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_pull_by_rotation[TERMS];
     vec gap_by_orbital_rate_squared[TERMS];
-    vec centrifugal_force_by_gap_2[TERMS];
-    vec centrifugal_force_by_gap_2_over_distance[TERMS];
-    vec over_centrifugal_force_by_gap_2_over_distance;
     vec centrifugal_force_by_aspect[TERMS];
     vec gap_by_sine_of_scaled_rotation_squared[TERMS];
     vec offset_squared_by_aspect[TERMS];
@@ -273,11 +264,11 @@ typedef struct {
     vec rotation_by_obliquity[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with states and groups. */
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
 INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, int k)
+    film, vec shear, unsigned asked, int k)
 {
-    (void)film; (void)shear; (void)c;
+    (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_next(&s->shear_log_factor_law, &c->shear_log_factor_law,
         &of->shear_log_factor_law, &v->shear_log_factor_law, of->gap, k);
     film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
@@ -288,11 +279,6 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared, k);
     arm_lever_slopes_next(&s->arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance, k);
-    s->centrifugal_force_over_distance[k] = quotient(of->centrifugal_force, of->distance,
-        s->centrifugal_force_over_distance, &s->over_centrifugal_force_over_distance, k);
-    s->centrifugal_force_by_gap[k] =
-        c->centrifugal_force_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        v->aspect*s->centrifugal_force_over_distance[k];
     s->offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
         c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];
     s->gap_by_offset_squared_by_gap[k] = product(of->gap, s->offset_squared_by_gap, k);
@@ -339,38 +325,39 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         c->string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         +
         c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];
-    s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
-    s->centrifugal_force_by_gap_2[k] = product(of->centrifugal_force, of->gap, k);
-    s->centrifugal_force_by_gap_2_over_distance[k] = quotient(s->centrifugal_force_by_gap_2, of->distance,
-        s->centrifugal_force_by_gap_2_over_distance, &s->over_centrifugal_force_by_gap_2_over_distance, k);
-    s->centrifugal_force_by_aspect[k] =
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
+        s->centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*s->gap_by_orbital_rate_squared[k] +
-        s->centrifugal_force_by_gap_2_over_distance[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];
-    s->gap_by_sine_of_scaled_rotation_squared[k] = product(of->gap, of->sine_of_scaled_rotation_squared, k);
-    s->offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k] +
+        s->gap_by_sine_of_scaled_rotation_squared[k] = product(of->gap, of->sine_of_scaled_rotation_squared,
+        k);
+        s->offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k] +
         4.0*s->gap_by_sine_of_scaled_rotation_squared[k];
-    s->gap_by_offset_squared_by_aspect[k] = product(of->gap, s->offset_squared_by_aspect, k);
-    s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
+        s->gap_by_offset_squared_by_aspect[k] = product(of->gap, s->offset_squared_by_aspect, k);
+        s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
         product(s->gap_by_offset_squared_by_aspect, s->strings_stiffness_law.by_offset_squared, k);
-    s->gap_by_strings_stiffness_law[k] = product(of->gap, of->strings_stiffness_law.result, k);
-    s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
+        s->gap_by_strings_stiffness_law[k] = product(of->gap, of->strings_stiffness_law.result, k);
+        s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
         product(s->offset_squared_by_aspect, s->strings_stiffness_law.by_offset_squared, k);
     s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
         = product(s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared,
         of->sine_of_scaled_rotation_squared, k);
-    s->string_pull_by_aspect[k] =
+        s->string_pull_by_aspect[k] =
         c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k]
         + v->weight*s->gap_by_strings_stiffness_law[k] +
         c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];
-    s->gap_by_strings_stiffness_law_by_string_ratio[k] = product(of->gap,
+    }
+    if (asked & (1u << BY_STRING_RATIO)) {
+        s->gap_by_strings_stiffness_law_by_string_ratio[k] = product(of->gap,
         s->strings_stiffness_law.by_string_ratio, k);
-    s->strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k] =
+        s->strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k] =
         product(s->strings_stiffness_law.by_string_ratio, of->sine_of_scaled_rotation_squared, k);
-    s->string_pull_by_string_ratio[k] =
+        s->string_pull_by_string_ratio[k] =
         c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_strings_stiffness_law_by_string_ratio[k]
         +
         c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k];
+    }
     s->orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate, of->shear_log_factor_law.result,
         k);
     s->orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -399,23 +386,25 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         c->string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation*s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         +
         c->string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation*s->strings_stiffness_law_by_cosine_of_rotation[k];
-    s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip, k);
-    s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-    s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(s->gap_by_orbital_rate,
+    if (asked & (1u << BY_ASPECT)) {
+        s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
+        k);
+        s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
+        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(s->gap_by_orbital_rate,
         of->shear_log_factor_law.result, k);
-    s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
         quotient(s->gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
         &s->over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);
-    s->shear_force_by_aspect[k] =
+        s->shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];
+    }
     s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] =
+    s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
         c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*s->bridge_force_law.by_gap_over_radius[k] +
-        s->centrifugal_force_by_gap[k] +
         film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k]
         - s->string_pull_by_gap[k];
     s->opening_by_opening[k] =
@@ -425,22 +414,37 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     s->opening_by_orbit[k] =
         c->opening_by_orbit_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
     s->opening_by_rotation[k] = -s->string_pull_by_rotation[k];
-    s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
         c->opening_by_stokes_per_bridge_force*of->film_force[k];
-    s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
         of->gap, k);
-    s->opening_by_aspect[k] =
+        s->opening_by_aspect[k] =
         c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap*s->bridge_force_law_by_gap_over_radius_by_gap[k]
         + s->centrifugal_force_by_aspect[k] - s->string_pull_by_aspect[k];
-    s->opening_by_obliquity[k] = c->opening_by_obliquity_factor*product(of->distance,
-        of->orbital_rate_squared, k);
-    s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
-    s->opening_by_volume[k] =
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->opening_by_obliquity[k] = c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];
+    }
+    if (asked & (1u << BY_CAPILLARY)) {
+        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        s->opening_by_volume[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
-    s->opening_by_contact_angle[k] =
+    }
+    if (asked & (1u << BY_CONTACT_ANGLE)) {
+        s->opening_by_contact_angle[k] =
         c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
-    s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
-    s->opening_by_string_ratio[k] = -s->string_pull_by_string_ratio[k];
+    }
+    if (asked & (1u << BY_WEIGHT)) {
+        s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
+    }
+    if (asked & (1u << BY_STRING_RATIO)) {
+        s->opening_by_string_ratio[k] = -s->string_pull_by_string_ratio[k];
+    }
     s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
     s->distance_by_offset_squared_by_gap[k] = product(of->distance, s->offset_squared_by_gap, k);
     s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
@@ -460,29 +464,40 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
         of->shear_log_factor_law.result, k);
     s->orbit_by_rotation[k] = -product(of->distance, s->string_sideways_by_rotation, k);
-    s->orbit_by_stokes[k] = c->opening_by_stokes_per_bridge_force*product(of->distance, of->shear_force, k);
-    s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
-    s->distance_by_offset_squared_by_aspect[k] = product(of->distance, s->offset_squared_by_aspect, k);
-    s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
+    if (asked & (1u << BY_STOKES)) {
+        s->orbit_by_stokes[k] = c->opening_by_stokes_per_bridge_force*product(of->distance, of->shear_force,
+        k);
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
+        s->distance_by_offset_squared_by_aspect[k] = product(of->distance, s->offset_squared_by_aspect, k);
+        s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
         product(s->distance_by_offset_squared_by_aspect, s->strings_stiffness_law.by_offset_squared, k);
     s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
         = product(s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared,
         s->sine_of_rotation, k);
-    s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
-    s->gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);
-    s->orbit_by_aspect[k] =
+        s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
+        s->gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);
+        s->orbit_by_aspect[k] =
         c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
         - s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k] - s->gap_by_string_sideways[k];
-    s->distance_by_strings_stiffness_law[k] = product(of->distance, of->strings_stiffness_law.result, k);
-    s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(s->distance_by_strings_stiffness_law,
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->distance_by_strings_stiffness_law[k] = product(of->distance, of->strings_stiffness_law.result, k);
+        s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(s->distance_by_strings_stiffness_law,
         s->sine_of_rotation, k);
-    s->orbit_by_weight[k] = c->opening_by_weight_per_string_pull*product(of->distance, of->string_sideways,
-        k);
-    s->distance_by_strings_stiffness_law_by_string_ratio[k] = product(of->distance,
+    }
+    if (asked & (1u << BY_WEIGHT)) {
+        s->orbit_by_weight[k] = c->opening_by_weight_per_string_pull*product(of->distance,
+        of->string_sideways, k);
+    }
+    if (asked & (1u << BY_STRING_RATIO)) {
+        s->distance_by_strings_stiffness_law_by_string_ratio[k] = product(of->distance,
         s->strings_stiffness_law.by_string_ratio, k);
-    s->orbit_by_string_ratio[k] =
+        s->orbit_by_string_ratio[k] =
         c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*product(s->distance_by_strings_stiffness_law_by_string_ratio,
         s->sine_of_rotation, k);
+    }
     s->arm_lever_law_by_distance_by_shear_force[k] = product(s->arm_lever_law.by_distance, of->shear_force,
         k);
     s->arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, s->shear_force_by_gap, k);
@@ -497,27 +512,36 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         &s->over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);
     s->spin_by_orbit[k] =
         shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*s->arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];
-    s->spin_by_spin[k] = shear*c->spin_by_spin_factor*product(of->arm_lever_law.result,
-        of->shear_log_factor_law.result, k);
-    s->spin_by_stokes[k] = c->spin_by_stokes_factor*product(of->arm_lever_law.result, of->shear_force, k);
-    s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
-    s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(s->arm_lever_law_by_distance_by_gap,
+    s->spin_by_spin[k] =
+        shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*s->arm_lever_law_by_shear_log_factor_law[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->spin_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
+        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(s->arm_lever_law_by_distance_by_gap,
         of->shear_force, k);
-    s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result, s->shear_force_by_aspect,
-        k);
-    s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +
+        s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
+        s->shear_force_by_aspect, k);
+        s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +
         0.3125*s->arm_lever_law_by_shear_force_by_aspect[k];
+    }
     s->rotation_by_gap[k] =
         c->rotation_by_gap_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
     s->inverse_distance_squared[k] = reciprocal(of->distance_squared, s->inverse_distance_squared, k);
     s->rotation_by_orbit[k] =
         c->rotation_by_orbit_per_inverse_distance_squared*s->inverse_distance_squared[k];
-    s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
         s->gap_by_orbital_rate_over_distance, &s->over_gap_by_orbital_rate_over_distance, k);
-    s->rotation_by_aspect[k] =
+        s->rotation_by_aspect[k] =
         c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance*s->gap_by_orbital_rate_over_distance[k] +
         c->rotation_by_aspect_per_orbital_rate*of->orbital_rate[k];
-    s->rotation_by_obliquity[k] = c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->rotation_by_obliquity[k] = c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
 }
 
 /* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */

@@ -1,10 +1,11 @@
 /* Derivatives over a step: matrix and sources once, a linear recurrence for each direction, the saltation at an event. */
 
-#define SLOPE_TERM(k) if (k < ORDER) slope_coefficients(d, c, s, v, film, shear, k);
+#define SLOPE_TERM(k) if (k < ORDER) slope_coefficients(d, c, s, v, film, shear, asked, k);
 #define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, d, c, s, v, film, shear, source, k);
 
 static __attribute__((noinline)) void expand_slopes(
-    slopes *d, const slope_constants *c, const series *s, const constants *v, vec film, vec shear)
+    slopes *d, const slope_constants *c, const series *s, const constants *v, vec film, vec shear,
+    unsigned asked)
 {
     EVERY(SLOPE_TERM)
 }

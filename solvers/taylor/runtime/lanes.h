@@ -108,7 +108,8 @@ static void fly(queue *q)
             a[state][0] = l.y[state];
         expand(&s, &f.c, l.film, l.shear, ~l.resting);
 #if GRADIENTS
-        expand_slopes(&d, &f.slopes, &s, &f.c, l.film, l.shear);
+        if (q->asked)
+            expand_slopes(&d, &f.slopes, &s, &f.c, l.film, l.shear, q->asked);
 #endif
         mask creeps;
         vec h = only(l.alive, step_size(&s, &f, &creeps));

@@ -3,14 +3,14 @@
 
 /* Slopes of the bridge law `willett-simple`. */
 
-typedef struct { vec by_gap_over_radius_per_scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared, by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared, by_contact_angle_per_inverse_combination; } bridge_force_slope_constants;
+typedef struct { vec by_gap_over_radius_per_combination_2_over_combination_3_squared, by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared, by_contact_angle_per_inverse_combination; } bridge_force_slope_constants;
 
 static inline void bridge_force_slope_prepare(bridge_force_slope_constants *c, const bridge_force_constants
     *v)
 {
     (void)c; (void)v;
-    c->by_gap_over_radius_per_scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared =
-        -40.0*vec_cos(v->contact_angle);
+    c->by_gap_over_radius_per_combination_2_over_combination_3_squared =
+        -40.0*vec_cos(v->contact_angle)/vec_sqrt(v->volume);
     c->by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared =
         20.0*vec_cos(v->contact_angle)/v->volume;
     c->by_contact_angle_per_inverse_combination = -2.0*vec_sin(v->contact_angle);
@@ -18,39 +18,32 @@ static inline void bridge_force_slope_prepare(bridge_force_slope_constants *c, c
 
 typedef struct {
     vec combination_2[TERMS];
-    vec scaled_gap_by_combination_2[TERMS];
-    vec scaled_gap_by_combination_2_over_gap_over_radius[TERMS];
-    vec over_scaled_gap_by_combination_2_over_gap_over_radius;
     vec combination_3[TERMS];
     vec combination_3_squared[TERMS];
-    vec scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared[TERMS];
-    vec over_scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared;
+    vec combination_2_over_combination_3_squared[TERMS];
+    vec over_combination_2_over_combination_3_squared;
     vec by_gap_over_radius[TERMS];
+    vec scaled_gap_by_combination_2[TERMS];
     vec scaled_gap_by_combination_2_over_combination_3_squared[TERMS];
     vec over_scaled_gap_by_combination_2_over_combination_3_squared;
     vec by_volume[TERMS];
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
 
-/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 4.5. */
+/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 3.5. */
 INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_slope_constants *c, const
     bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius, int k)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
     s->combination_2[k] = k == 0 ? 100.0*of->scaled_gap[k] + 21.0 : 100.0*of->scaled_gap[k];
-    s->scaled_gap_by_combination_2[k] = product(of->scaled_gap, s->combination_2, k);
-    s->scaled_gap_by_combination_2_over_gap_over_radius[k] = quotient(s->scaled_gap_by_combination_2,
-        gap_over_radius, s->scaled_gap_by_combination_2_over_gap_over_radius,
-        &s->over_scaled_gap_by_combination_2_over_gap_over_radius, k);
     s->combination_3[k] = k == 0 ? 50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k] + 20.0 :
         50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k];
     s->combination_3_squared[k] = square(s->combination_3, k);
-    s->scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared[k] =
-        quotient(s->scaled_gap_by_combination_2_over_gap_over_radius, s->combination_3_squared,
-        s->scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared,
-        &s->over_scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared, k);
+    s->combination_2_over_combination_3_squared[k] = quotient(s->combination_2, s->combination_3_squared,
+        s->combination_2_over_combination_3_squared, &s->over_combination_2_over_combination_3_squared, k);
     s->by_gap_over_radius[k] =
-        c->by_gap_over_radius_per_scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared*s->scaled_gap_by_combination_2_over_gap_over_radius_over_combination_3_squared[k];
+        c->by_gap_over_radius_per_combination_2_over_combination_3_squared*s->combination_2_over_combination_3_squared[k];
+    s->scaled_gap_by_combination_2[k] = product(of->scaled_gap, s->combination_2, k);
     s->scaled_gap_by_combination_2_over_combination_3_squared[k] = quotient(s->scaled_gap_by_combination_2,
         s->combination_3_squared, s->scaled_gap_by_combination_2_over_combination_3_squared,
         &s->over_scaled_gap_by_combination_2_over_combination_3_squared, k);
