@@ -27,11 +27,13 @@ class Carried:
     Arguments:
         answers: of ANSWER, a collision each.
         slopes: (collisions, quantities, RESULTS); zero where nothing separated.
+        near: (collisions, 2); of what separated, the least measure of its nearness to a boundary, and which (along.h).
         quantities: names in the vocabulary, in the order of `slopes`.
     """
 
     answers: np.ndarray
     slopes: np.ndarray
+    near: np.ndarray
     quantities: tuple[str, ...]
 
 
@@ -61,18 +63,19 @@ def carried(
     asked = _asked(library, names, moved)
     count = impacts.angle.size
     answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(names), RESULTS))
+    near = np.full((count, 2), np.inf)
     for first in range(0, count, _CHUNK):
         size = min(_CHUNK, count - first)
         parts = [column[first : first + size] if own else column for column, own in zip(columns, varies, strict=True)]
         pointers = (ctypes.c_void_p * len(parts))(*(part.ctypes.data for part in parts))
         by_group = np.zeros((size, len(groups), RESULTS))
-        into, out = answers[first : first + size], slopes[first : first + size]
+        into, out, least = (all_[first : first + size] for all_ in (answers, slopes, near))
         done = library.collide_along(
             size, pointers, bytes(varies), min(rtol, _LOOSEST), budget, into.ctypes.data, asked,
-            by_group.ctypes.data, out.ctypes.data,
+            by_group.ctypes.data, out.ctypes.data, least.ctypes.data,
         )  # fmt: skip
         assert done == ANSWER.itemsize
-    return Carried(answers, slopes, names)
+    return Carried(answers, slopes, near, names)
 
 
 def _library(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> ctypes.CDLL | None:

@@ -131,7 +131,7 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
     runtime = ["roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h"]
     if variant.gradients:
         parts += [emitted.header(path.replace("taylor/", "taylor/tangent/", 1)) for path in paths]
-        runtime = ["roots.h", "barrier.h", "along.h", *runtime[2:6], "carry.h", "lanes.h"]
+        runtime = ["roots.h", "barrier.h", "along.h", *runtime[2:6], "carry.h", "near.h", "lanes.h"]
     parts += [(_RUNTIME / name).read_text() for name in runtime]
     return "\n".join(parts)
 
@@ -157,7 +157,7 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     if variant.gradients:
         loaded.collide_along.restype = ctypes.c_int
         given = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer]
-        loaded.collide_along.argtypes = [*given, ctypes.c_uint, pointer, pointer]
+        loaded.collide_along.argtypes = [*given, ctypes.c_uint, pointer, pointer, pointer]
     return loaded
 
 

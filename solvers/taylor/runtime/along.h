@@ -9,13 +9,22 @@ enum { BY_TIME = 4, BY_SMALLEST, BY_TURNED, RESULTS = 8 }; /* after the outputs;
 /* How near a flight comes to a boundary between outcomes, by its own measures (solvers/sensitivity/nearness.py). */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
 
+/* What the glass criterion's clearance is of that without motion: one less the pressure over its limit. */
+static inline vec spare(const constants *c, const vec *y)
+{
+    vec still[STATES];
+    memcpy(still, y, sizeof still);
+    still[OPENING] = splat(0.0);
+    return glass_clearance(c, y)/glass_clearance(c, still);
+}
+
 typedef struct {
     vec t[GROUPS][STATES];
     vec time[GROUPS], smallest[GROUPS];
     mask there[GROUPS]; /* the group has changed something by now */
-    vec least;          /* smallest gap at an end of a phase */
-    vec near, slow;     /* least measure so far, and the speed a step before */
-    mask boundary, slowing;
+    vec least; /* smallest gap at an end of a phase */
+    vec near;  /* least measure so far, and of which boundary */
+    mask boundary;
 } carried;
 
 static void along_start(carried *a, const constants *v, int lane)
@@ -31,9 +40,7 @@ static void along_start(carried *a, const constants *v, int lane)
     }
     a->least[lane] = 1.0;
     a->near[lane] = INFINITY;
-    a->slow[lane] = INFINITY;
     a->boundary[lane] = FAR;
-    a->slowing[lane] = 0;
 }
 
 static void along_near(carried *a, int lane, double measure, int boundary)

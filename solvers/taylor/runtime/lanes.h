@@ -122,7 +122,9 @@ static void fly(queue *q)
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
 #if GRADIENTS
-        carry(&l, &f, &s, &d, h, creeps, falls, found.event, q->asked);
+        measure(&l, &f, &s, h, falls, found.event);
+        if (q->asked)
+            carry(&l, &f, &s, &d, h, creeps, falls, found.event, q->asked);
 #endif
         for (int state = 0; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
@@ -168,9 +170,10 @@ int collide(long count, const double *const *quantities, const unsigned char *va
  *
  * by_group: RESULTS for each of `group_names` a collision; gradients: RESULTS for each of `quantity_names`.
  * asked: the groups whose derivatives are carried, as bits.
+ * near: for each that separated, the least measure of nearness to a boundary, and its kind (along.h).
  */
 int collide_along(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget,
-    answer *answers, unsigned asked, double *by_group, double *gradients)
+    answer *answers, unsigned asked, double *by_group, double *gradients, double *near)
 {
     queue q;
     memset(&q, 0, sizeof q);
@@ -183,6 +186,7 @@ int collide_along(long count, const double *const *quantities, const unsigned ch
     q.asked = asked;
     q.by_group = by_group;
     q.gradients = gradients;
+    q.near = near;
     fly(&q);
     in_quantities(&q);
     return (int)sizeof(answer);

@@ -54,6 +54,7 @@ typedef struct {
     double starts[LANES][STATES];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
+    double *near;                 /* least measure of nearness, and its boundary */
     unsigned asked;               /* groups, as bits */
 #endif
 } queue;
@@ -217,6 +218,8 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
 #if GRADIENTS
+        q->near[2*l->index[lane]] = l->along.near[lane];
+        q->near[2*l->index[lane] + 1] = l->along.boundary[lane];
         along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
 #endif
     }
