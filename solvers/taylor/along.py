@@ -16,6 +16,7 @@ from .library import ANSWER, Variant, kernel, knows
 
 RESULTS = 8  # as runtime/along.h has them
 COLUMNS = {"time": 4, "smallest_gap": 5, "turned": 6}  # after the outputs
+CHATTERS = 5  # the boundary of a flight that rested on the solids
 _CHUNK = 1024  # collisions whose derivatives are in work at a time
 _LOOSEST = 1e-6
 
@@ -43,14 +44,16 @@ def carried(
     rtol: float,
     rotation: bool,
     moved: Sequence[str] | None = None,
+    order: int | None = None,
     budget: int = BUDGET,
 ) -> Carried | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
 
     Arguments:
         moved: quantities that are differentiated by; None: all.
+        order: of the series; None: the cheapest for the tolerance.
     """
-    library = _library(impacts.scene, oblique, rtol, rotation)
+    library = _library(impacts.scene, oblique, order or order_for(min(rtol, _LOOSEST)), rotation)
     if library is None:
         return None
     names = _names(library, "quantity_names")
@@ -78,8 +81,7 @@ def carried(
     return Carried(answers, slopes, near, names)
 
 
-def _library(scene: Scene, oblique: bool, rtol: float, rotation: bool) -> ctypes.CDLL | None:
-    order = order_for(min(rtol, _LOOSEST))
+def _library(scene: Scene, oblique: bool, order: int, rotation: bool) -> ctypes.CDLL | None:
     return kernel(Variant(choose(scene, oblique), order, rotation, gradients=True)) if knows(scene) else None
 
 

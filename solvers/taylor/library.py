@@ -109,19 +109,28 @@ def knows(scene: Scene) -> bool:
     return common and compiler() is not None and all(headers(choose(scene, oblique)) for oblique in (True, False))
 
 
+def _by_energy(slots: dict[str, str]) -> bool:
+    held = "bridge" in slots or ("strings" in slots and "shear" not in slots)
+    unproved = "shear" in slots and ("strings" in slots or "bridge" not in slots)
+    return held and not unproved
+
+
+def by_energy(scene: Scene, oblique: bool) -> bool:
+    """Whether a scene's sticks are proved by their energy, a level below a barrier."""
+    return _by_energy(dict(choose(scene, oblique).laws))
+
+
 def source(variant: Variant, paths: tuple[str, ...]) -> str:
     """C source of a kernel."""
     choice = variant.choice
     slots = dict(choice.laws)
-    by_energy = "bridge" in slots or ("strings" in slots and "shear" not in slots)
-    unproved = "shear" in slots and ("strings" in slots or "bridge" not in slots)
     settings = {
         "LANES": lanes(),
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
         "GRADIENTS": int(variant.gradients),
-        "PROOF_BY_ENERGY": int(by_energy and not unproved),
+        "PROOF_BY_ENERGY": int(_by_energy(slots)),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
