@@ -27,6 +27,15 @@ typedef struct {
     mask boundary;
 } carried;
 
+/* The series of a step: of each group that is carried, and by what they are measured. */
+typedef struct {
+    vec t[GROUPS][STATES][TERMS];
+    mask scale[GROUPS][STATES];
+    unsigned asked;
+} tangents;
+
+static const double DERIVATIVES = 4.0; /* of a derivative's error, to that of a state */
+
 static void along_start(carried *a, const constants *v, int lane)
 {
     vec at[STATES];

@@ -16,6 +16,32 @@ static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slop
     EVERY(TANGENT_TERM)
 }
 
+static const vec NOTHING[TERMS];
+
+/* The derivatives' series, and what each coefficient is measured by: its own size, and what the state would change by if
+ * its elasticity were one. A mode that decays fast may be gone from the states and not from these: they share the step. */
+static void expand_along(tangents *all, const flights *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
+{
+    const vec *groups = (const void *)&f->c;
+    all->asked = 0;
+    for (int group = 0; group < GROUPS; group++) {
+        if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
+            continue;
+        all->asked |= 1u << group;
+        const vec *source[STATES];
+        vec(*t)[TERMS] = all->t[group], size = vec_abs(groups[group]);
+        size = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
+        for (int state = 0; state < STATES; state++) {
+            source[state] = NOTHING;
+            t[state][0] = l->along.t[group][state];
+            vec own = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
+            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + size*own);
+        }
+        sources(d, s, group, source);
+        expand_tangent(t, d, &f->slopes, s, &f->c, l->film, l->shear, source);
+    }
+}
+
 /* What an event asks of the states: its function's derivatives by the states, along the flight, and by the groups. */
 typedef struct {
     mask gap, turned, glass;   /* lanes by what is zero */
@@ -73,34 +99,20 @@ static inline vec target_along(const fixed *f, const meeting *m, int group)
 }
 
 /* The derivatives at the end of a step, on the surface of the event that ends it. */
-static void carry(flights *l, const fixed *f, series *s, const slopes *d, vec h, mask creeps, mask falls, mask event,
+static void carry(flights *l, const fixed *f, const series *s, const tangents *all, vec h, mask falls, mask event,
     unsigned asked)
 {
-    static const vec nothing[TERMS];
     carried *a = &l->along;
     meeting m;
     int meets = bits(falls) != 0;
     if (meets)
         m = met(l, f, (const void *)s, h, falls, event);
-    vec t[STATES][TERMS];
     for (int group = 0; group < GROUPS; group++) {
         if (!(asked >> group & 1))
             continue;
-        mask there = a->there[group] & l->alive;
-        if (bits(there)) {
-            const vec *source[STATES];
-            for (int state = 0; state < STATES; state++) {
-                source[state] = nothing;
-                t[state][0] = a->t[group][state];
-            }
-            sources(d, s, group, source);
-            expand_tangent(t, d, &f->slopes, s, &f->c, l->film, l->shear, source);
-            if (bits(creeps))
-                damp(t, creeps);
+        if (all->asked >> group & 1)
             for (int state = 0; state < STATES; state++)
-                if (state != CAPILLARY_WORK || !CAPILLARY_STATE)
-                    a->t[group][state] = choose(there, sum_at(t[state], h), a->t[group][state]);
-        }
+                a->t[group][state] = choose(l->alive, sum_at(all->t[group][state], h), a->t[group][state]);
         if (!meets)
             continue;
         vec *here = a->t[group], target = target_along(f, &m, group);

@@ -13,17 +13,33 @@ static inline vec power_of(vec logarithm)
 }
 
 /* What a share of coefficient k may still grow by in the state that allows least, as a logarithm. */
-static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share)
+static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
-    mask least_room = splat_mask(INT64_MAX);
     for (int state = 0; state < STATES; state++)
         least_room = least(scale[state] - (mask)vec_abs(share*a[state][k]), least_room);
-    return __builtin_convertvector(least_room, vec);
+    return least_room;
 }
+
+#if GRADIENTS
+#define ALONG , const tangents *along
+static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share ALONG)
+{
+    mask found = room_of(scale, a, k, share, splat_mask(INT64_MAX));
+    for (unsigned left = along->asked; left; left &= left - 1) {
+        int group = __builtin_ctz(left);
+        found = room_of(along->scale[group], (const void *)along->t[group], k, share, found);
+    }
+    return __builtin_convertvector(found, vec);
+}
+#define ROOM(k, share) room(scale, a, k, share, along)
+#else
+#define ALONG
+#define ROOM(k, share) __builtin_convertvector(room_of(scale, a, k, share, splat_mask(INT64_MAX)), vec)
+#endif
 
 /* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2); lanes that a decaying
  * mode holds to it are in `creeps`, and take the step of the damped sum. */
-static inline vec step_size(const series *s, const fixed *f, mask *creeps)
+static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 {
     const vec(*a)[TERMS] = (const void *)s;
     mask scale[STATES];
@@ -32,14 +48,14 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
         scale[state] = (mask)(state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
     vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
-    vec last = room(scale, a, ORDER, 1.0), before = room(scale, a, ORDER - 1, 1.0);
+    vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);
     vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
     /* of a mode exp(-z), z is the order times the last term over the one before */
     *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
     if (bits(*creeps)) {
         vec damped = splat(INFINITY);
         for (int k = EXACT + 1; k <= ORDER; k++) {
-            vec own = room(scale, a, k, STRICTER*(1.0 - damping(k)));
+            vec own = ROOM(k, STRICTER*(1.0 - damping(k)));
             damped = vec_min(damped, (allowed + own)*(1.0/k));
         }
         step = choose(*creeps, damped, step);
@@ -68,7 +84,9 @@ static void fly(queue *q)
     series s;
 #if GRADIENTS
     slopes d;
+    tangents t;
     memset(&d, 0, sizeof d);
+    memset(&t, 0, sizeof t);
 #endif
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
@@ -107,12 +125,17 @@ static void fly(queue *q)
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        mask creeps;
 #if GRADIENTS
         if (q->asked)
             expand_slopes(&d, &f.slopes, &s, &f.c, l.film, l.shear, q->asked);
-#endif
-        mask creeps;
+        expand_along(&t, &l, &f, &s, &d, q->asked);
+        vec h = only(l.alive, step_size(&s, &f, &creeps, &t));
+        for (int group = 0; group < GROUPS && bits(creeps); group++)
+            damp(t.t[group], creeps);
+#else
         vec h = only(l.alive, step_size(&s, &f, &creeps));
+#endif
         if (bits(creeps))
             damp(a, creeps);
         if (bits(l.alive & l.closing))
@@ -124,7 +147,7 @@ static void fly(queue *q)
 #if GRADIENTS
         measure(&l, &f, &s, h, falls, found.event);
         if (q->asked)
-            carry(&l, &f, &s, &d, h, creeps, falls, found.event, q->asked);
+            carry(&l, &f, &s, &t, h, falls, found.event, q->asked);
 #endif
         for (int state = 0; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
