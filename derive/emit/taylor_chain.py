@@ -35,7 +35,7 @@ class Chain:
         self.named: list[Definition] = []  # derivatives with more than one term, under a name of their own
 
     def by(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-        """d expression/d variable, all other states and groups held."""
+        """D expression/d variable, all other states and groups held."""
         calls = {node: sp.Dummy(positive=True) for node in expression.atoms(AppliedUndef) if is_slot_call(node)}
         hidden = expression.xreplace(calls)
         shown = {dummy: node for node, dummy in calls.items()}

@@ -292,7 +292,7 @@ class Tangent:
         used = set().union(*(expression.free_symbols for expression in wanted.values()))
         names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
         text = Text(lambda symbol: self._quantity_name(symbol))
-        bits = {name: 0 for name in names}
+        bits = dict.fromkeys(names, 0)
         body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
         for name in names:
             symbol = VOCABULARY[name].symbol
@@ -328,7 +328,7 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
 
 
 def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
-    """d group/d symbol; by the group itself where the symbol is a factor that is never zero."""
+    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
     if expression == symbol:
         return sp.Integer(1)
     power = expression.as_powers_dict().get(symbol, 0)

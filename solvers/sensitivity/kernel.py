@@ -117,7 +117,7 @@ def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Ne
         return None
     answer = found.flown.answers[0]
     outcome = ("stick", "stick-rotate-separate", "bounce")[answer["outcome"]]
-    if answer["status"] > 1 or outcome != path.outcome or CHATTERS == found.flown.near[0, 1]:
+    if answer["status"] > 1 or outcome != path.outcome or found.flown.near[0, 1] == CHATTERS:
         return None
     return Slopes(found.value[:, 0], found.first[:, 0], None)
 
