@@ -243,10 +243,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
         s->string_pull[k];
     s->combination_2[k] = s->shear_force[k] + s->string_sideways[k];
     s->rate_of_orbit[k] = -product(s->distance, s->combination_2, k);
-    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_spin[k] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

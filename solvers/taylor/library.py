@@ -137,10 +137,10 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [emitted.header(path) for path in paths]
-    runtime = ["roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h"]
+    runtime = ["roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "crawl.h", "lanes.h"]
     if variant.gradients:
         parts += [emitted.header(path.replace("taylor/", "taylor/tangent/", 1)) for path in paths]
-        runtime = ["roots.h", "barrier.h", "along.h", *runtime[2:6], "carry.h", "near.h", "lanes.h"]
+        runtime = ["roots.h", "barrier.h", "along.h", *runtime[2:6], "carry.h", "near.h", *runtime[6:]]
     parts += [(_RUNTIME / name).read_text() for name in runtime]
     return "\n".join(parts)
 

@@ -99,7 +99,7 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     if (asked & (1u << BY_ASPECT)) {
         s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
         s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->gap_by_offset_squared, s->strings_stiffness_law.by_offset_squared, k);
+        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared, k);
         s->string_pull_by_aspect[k] =
         c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
         + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];

@@ -208,8 +208,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
         k);
         s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(s->gap_by_orbital_rate,
-        of->shear_log_factor_law.result, k);
+        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        s->gap_by_orbital_rate, k);
         s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
         quotient(s->gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
@@ -296,8 +296,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     }
     if (asked & (1u << BY_ASPECT)) {
         s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
-        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(s->arm_lever_law_by_distance_by_gap,
-        of->shear_force, k);
+        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
+        s->arm_lever_law_by_distance_by_gap, k);
         s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
         s->shear_force_by_aspect, k);
         s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +

@@ -187,8 +187,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         c->slip_by_aspect_offset : -2.0*s->gap_by_orbital_rate_over_distance[k];
         s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
         k);
-        s->slip_by_aspect_by_shear_log_factor_law[k] = product(s->slip_by_aspect,
-        of->shear_log_factor_law.result, k);
+        s->slip_by_aspect_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        s->slip_by_aspect, k);
         s->shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
         +
@@ -234,8 +234,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
         s->distance_by_shear_force_by_gap[k];
     s->distance_by_slip_by_orbit[k] = product(of->distance, s->slip_by_orbit, k);
-    s->orbit_by_orbit[k] = shear*c->orbit_by_orbit_factor*product(s->distance_by_slip_by_orbit,
-        of->shear_log_factor_law.result, k);
+    s->orbit_by_orbit[k] = shear*c->orbit_by_orbit_factor*product(of->shear_log_factor_law.result,
+        s->distance_by_slip_by_orbit, k);
     if (asked & (1u << BY_STOKES)) {
         s->orbit_by_stokes[k] =
         c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];

@@ -258,12 +258,12 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];
     s->gap_by_offset_squared_by_gap[k] = product(of->gap, s->offset_squared_by_gap, k);
     s->gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->gap_by_offset_squared_by_gap, s->strings_stiffness_law.by_offset_squared, k);
-    s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] = product(s->offset_squared_by_gap,
-        s->strings_stiffness_law.by_offset_squared, k);
+        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared_by_gap, k);
+    s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
+        product(s->strings_stiffness_law.by_offset_squared, s->offset_squared_by_gap, k);
     s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
-        = product(s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared,
-        of->sine_of_scaled_rotation_squared, k);
+        = product(of->sine_of_scaled_rotation_squared,
+        s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);
     s->string_pull_by_gap[k] =
         c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k]
         +
@@ -271,29 +271,29 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         +
         c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];
     s->distance_by_gap[k] = product(of->distance, of->gap, k);
-    s->distance_by_gap_by_strings_stiffness_law_by_offset_squared[k] = product(s->distance_by_gap,
-        s->strings_stiffness_law.by_offset_squared, k);
+    s->distance_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
+        product(s->strings_stiffness_law.by_offset_squared, s->distance_by_gap, k);
     s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
-        product(s->distance_by_gap_by_strings_stiffness_law_by_offset_squared, of->sine_of_scaled_rotation,
+        product(of->sine_of_scaled_rotation, s->distance_by_gap_by_strings_stiffness_law_by_offset_squared,
         k);
     s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        = product(s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation,
-        of->cosine_of_scaled_rotation, k);
+        = product(of->cosine_of_scaled_rotation,
+        s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);
     s->sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k] =
         product(of->sine_of_scaled_rotation_squared, of->sine_of_scaled_rotation, k);
     s->distance_by_strings_stiffness_law_by_offset_squared[k] = product(of->distance,
         s->strings_stiffness_law.by_offset_squared, k);
     s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k]
-        = product(s->distance_by_strings_stiffness_law_by_offset_squared,
-        s->sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation, k);
+        = product(s->sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
+        s->distance_by_strings_stiffness_law_by_offset_squared, k);
     s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        =
-        product(s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
-        of->cosine_of_scaled_rotation, k);
+        = product(of->cosine_of_scaled_rotation,
+        s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
+        k);
     s->strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
         of->sine_of_scaled_rotation, k);
     s->strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        product(s->strings_stiffness_law_by_sine_of_scaled_rotation, of->cosine_of_scaled_rotation, k);
+        product(of->cosine_of_scaled_rotation, s->strings_stiffness_law_by_sine_of_scaled_rotation, k);
     s->string_pull_by_rotation[k] =
         c->string_pull_by_rotation_per_distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         +
@@ -311,13 +311,13 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         4.0*s->gap_by_sine_of_scaled_rotation_squared[k];
         s->gap_by_offset_squared_by_aspect[k] = product(of->gap, s->offset_squared_by_aspect, k);
         s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->gap_by_offset_squared_by_aspect, s->strings_stiffness_law.by_offset_squared, k);
+        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared_by_aspect, k);
         s->gap_by_strings_stiffness_law[k] = product(of->gap, of->strings_stiffness_law.result, k);
         s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->offset_squared_by_aspect, s->strings_stiffness_law.by_offset_squared, k);
+        product(s->strings_stiffness_law.by_offset_squared, s->offset_squared_by_aspect, k);
     s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
-        = product(s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared,
-        of->sine_of_scaled_rotation_squared, k);
+        = product(of->sine_of_scaled_rotation_squared,
+        s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);
         s->string_pull_by_aspect[k] =
         c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k]
         + v->weight*s->gap_by_strings_stiffness_law[k] +
@@ -345,14 +345,14 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_gap_by_slip[k];
     s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
-        product(s->distance_by_strings_stiffness_law_by_offset_squared, of->sine_of_scaled_rotation, k);
+        product(of->sine_of_scaled_rotation, s->distance_by_strings_stiffness_law_by_offset_squared, k);
     s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        = product(s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation,
-        of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
+        = product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
+        s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);
     s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        =
-        product(s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
-        of->cosine_of_scaled_rotation, k);
+        = product(of->cosine_of_scaled_rotation,
+        s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
+        k);
     circular(of->rotation, s->slope_of_rotation, s->sine_of_rotation, s->cosine_of_rotation, k);
     /* cosine_of_rotation comes with its sine */
     s->strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
@@ -365,8 +365,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
         k);
         s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(s->gap_by_orbital_rate,
-        of->shear_log_factor_law.result, k);
+        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        s->gap_by_orbital_rate, k);
         s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
         quotient(s->gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
@@ -406,10 +406,10 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
     s->distance_by_offset_squared_by_gap[k] = product(of->distance, s->offset_squared_by_gap, k);
     s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->distance_by_offset_squared_by_gap, s->strings_stiffness_law.by_offset_squared, k);
+        product(s->strings_stiffness_law.by_offset_squared, s->distance_by_offset_squared_by_gap, k);
     s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k] =
-        product(s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared,
-        s->sine_of_rotation, k);
+        product(s->sine_of_rotation,
+        s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);
     s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] +
         c->orbit_by_gap_per_shear_force*of->string_sideways[k] +
         c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
@@ -429,10 +429,10 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
         s->distance_by_offset_squared_by_aspect[k] = product(of->distance, s->offset_squared_by_aspect, k);
         s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->distance_by_offset_squared_by_aspect, s->strings_stiffness_law.by_offset_squared, k);
+        product(s->strings_stiffness_law.by_offset_squared, s->distance_by_offset_squared_by_aspect, k);
     s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        = product(s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared,
-        s->sine_of_rotation, k);
+        = product(s->sine_of_rotation,
+        s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);
         s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
         s->gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);
         s->orbit_by_aspect[k] =
@@ -441,8 +441,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     }
     if (asked & (1u << BY_OBLIQUITY)) {
         s->distance_by_strings_stiffness_law[k] = product(of->distance, of->strings_stiffness_law.result, k);
-        s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(s->distance_by_strings_stiffness_law,
-        s->sine_of_rotation, k);
+        s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(s->sine_of_rotation,
+        s->distance_by_strings_stiffness_law, k);
     }
     if (asked & (1u << BY_WEIGHT)) {
         s->orbit_by_weight[k] = c->opening_by_weight_per_string_pull*product(of->distance,
@@ -452,8 +452,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
         s->distance_by_strings_stiffness_law_by_string_ratio[k] = product(of->distance,
         s->strings_stiffness_law.by_string_ratio, k);
         s->orbit_by_string_ratio[k] =
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*product(s->distance_by_strings_stiffness_law_by_string_ratio,
-        s->sine_of_rotation, k);
+        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*product(s->sine_of_rotation,
+        s->distance_by_strings_stiffness_law_by_string_ratio, k);
     }
     s->arm_lever_law_by_distance_by_shear_force[k] = product(s->arm_lever_law.by_distance, of->shear_force,
         k);
@@ -477,8 +477,8 @@ INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series
     }
     if (asked & (1u << BY_ASPECT)) {
         s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
-        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(s->arm_lever_law_by_distance_by_gap,
-        of->shear_force, k);
+        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
+        s->arm_lever_law_by_distance_by_gap, k);
         s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
         s->shear_force_by_aspect, k);
         s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +

@@ -4,6 +4,7 @@ enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
 enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
@@ -33,12 +34,15 @@ typedef struct {
 typedef struct {
     vec y[STATES];
     vec time, smallest, film, shear;
+    vec stride; /* the last step */
     mask alive, closing, resting, fresh;
-    mask index, steps, phases, reversal;
+    mask index, steps, phases, reversal, crept; /* crept: steps in a row that only a damped sum could take */
 #if GRADIENTS
     carried along;
 #endif
 } flights;
+
+enum { FIXED = sizeof(fixed)/sizeof(vec), FLIGHT = sizeof(flights)/sizeof(vec) };
 
 typedef struct {
     const double *const *quantities; /* columns in SI */
@@ -50,16 +54,16 @@ typedef struct {
     int budget;
     long queued, taken; /* collisions that are waiting, of `rows` */
     long waiting[LANES];
-    double rows[LANES][sizeof(fixed)/sizeof(vec)];
+    double rows[LANES][FIXED];
     double starts[LANES][STATES];
+    int parks, resumes; /* flights that wait for crawl.h, and that come from there */
+    double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
     double *near;                 /* least measure of nearness, and its boundary */
     unsigned asked;               /* groups, as bits */
 #endif
 } queue;
-
-enum { FIXED = sizeof(fixed)/sizeof(vec) };
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
@@ -86,7 +90,7 @@ static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;
     f->tolerance = splat(q->rtol);
-    f->rest = splat(1e-3);
+    f->rest = splat(SLOW);
 #if OBLIQUE
     vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
     EACH_LANE(lane)
@@ -169,9 +173,41 @@ static void fill_queue(queue *q)
     }
 }
 
+/* A lane's flight to a row, and back. */
+static void pack(double *row, const flights *l, const fixed *f, int lane)
+{
+    for (int field = 0; field < FIXED; field++)
+        row[field] = ((const vec *)f)[field][lane];
+    for (int field = 0; field < FLIGHT; field++)
+        row[FIXED + field] = ((const vec *)l)[field][lane];
+}
+
+static void unpack(const double *row, flights *l, fixed *f, int lane)
+{
+    for (int field = 0; field < FIXED; field++)
+        ((double *)&((vec *)f)[field])[lane] = row[field];
+    for (int field = 0; field < FLIGHT; field++)
+        ((double *)&((vec *)l)[field])[lane] = row[FIXED + field];
+}
+
+static void refill(queue *q, flights *l, fixed *f, int lane);
+
+/* A lane's flight waits for others that creep; it flies on if enough wait. */
+static void park(queue *q, flights *l, fixed *f, int lane)
+{
+    if (q->parks == LANES)
+        return;
+    pack(q->parked[q->parks++], l, f, lane);
+    refill(q, l, f, lane);
+}
+
 /* Puts the next collision of the queue into a lane; the lane rests if there is none. */
 static void refill(queue *q, flights *l, fixed *f, int lane)
 {
+    if (q->resumes) {
+        unpack(q->resumed[--q->resumes], l, f, lane);
+        return;
+    }
     if (q->taken == q->queued)
         fill_queue(q);
     if (q->taken == q->queued) {
@@ -190,15 +226,15 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
     l->shear[lane] = f->edge[lane] >= 1.0;
     l->alive[lane] = l->closing[lane] = l->fresh[lane] = -1;
     l->resting[lane] = 0;
-    l->steps[lane] = l->phases[lane] = 0;
+    l->steps[lane] = l->phases[lane] = l->crept[lane] = 0;
     l->reversal[lane] = -1;
 #if GRADIENTS
     along_start(&l->along, &f->c, lane);
 #endif
 }
 
-/* The flight of a lane is over: what came of it, and the next one. */
-static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+/* What came of a flight. */
+static void settle(queue *q, const flights *l, const fixed *f, int lane, int status, int outcome, int certified)
 {
     answer *a = &q->answers[l->index[lane]];
     put(q, l->index[lane], status, outcome, certified);
@@ -223,5 +259,25 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
         along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
 #endif
     }
+}
+
+/* The flight of a lane is over: what came of it, and the next one. */
+static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+{
+    settle(q, l, f, lane, status, outcome, certified);
     refill(q, l, f, lane);
+}
+
+/* Lanes that are proved to stick as they are. */
+static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
+{
+#if PROOF_BY_ENERGY
+    return below_barrier(&f->c, l->y, &f->b, l->resting, tolerance);
+#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
+    return held_by_strings(&f->c, l->y, tolerance);
+#elif !OBLIQUE
+    return stopped_by_film(&f->c, l->y, f->contact, l->closing, tolerance);
+#else
+    return splat_mask(0);
+#endif
 }

@@ -68,15 +68,15 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
         0.5*s->gap_over_radius_over_half_filling_angle_over_cylinder_reach[k] -
         0.5*s->inverse_half_filling_angle[k];
     s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle[k] =
-        product(s->half_filling_angle_by_gap_over_radius, of->sine_of_half_filling_angle, k);
+        product(of->sine_of_half_filling_angle, s->half_filling_angle_by_gap_over_radius, k);
     s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle_by_cosine_of_combination_4[k] =
-        product(s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle,
-        of->cosine_of_combination_4, k);
-    s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4[k] =
-        product(s->half_filling_angle_by_gap_over_radius, of->sine_of_combination_4, k);
+        product(of->cosine_of_combination_4,
+        s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle, k);
+    s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4[k] = product(of->sine_of_combination_4,
+        s->half_filling_angle_by_gap_over_radius, k);
     s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4_by_cosine_of_half_filling_angle[k] =
-        product(s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4,
-        of->cosine_of_half_filling_angle, k);
+        product(of->cosine_of_half_filling_angle,
+        s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4, k);
     s->inverse_cylinder_reach[k] = reciprocal(of->cylinder_reach, s->inverse_cylinder_reach, k);
     s->cylinder_reach_squared[k] = square(of->cylinder_reach, k);
     s->gap_over_radius_squared_over_cylinder_reach_squared[k] = quotient(of->gap_over_radius_squared,
@@ -95,7 +95,7 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
     s->sine_of_half_filling_angle_by_cosine_of_combination_4[k] = product(of->sine_of_half_filling_angle,
         of->cosine_of_combination_4, k);
     s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle[k] =
-        product(s->sine_of_half_filling_angle_by_cosine_of_combination_4, s->inverse_half_filling_angle, k);
+        product(s->inverse_half_filling_angle, s->sine_of_half_filling_angle_by_cosine_of_combination_4, k);
     s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach[k]
         = quotient(s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle,
         of->cylinder_reach,
@@ -105,7 +105,7 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
     s->sine_of_combination_4_by_cosine_of_half_filling_angle[k] = product(of->sine_of_combination_4,
         of->cosine_of_half_filling_angle, k);
     s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle[k] =
-        product(s->sine_of_combination_4_by_cosine_of_half_filling_angle, s->inverse_half_filling_angle, k);
+        product(s->inverse_half_filling_angle, s->sine_of_combination_4_by_cosine_of_half_filling_angle, k);
     s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach[k]
         = quotient(s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle,
         of->cylinder_reach,

@@ -93,8 +93,8 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
         s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
         &s->over_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);
     s->log_scaled_gap_by_exp_of_combination_2[k] = product(of->log_scaled_gap, of->exp_of_combination_2, k);
-    s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k] =
-        product(s->log_scaled_gap_by_exp_of_combination_2, of->exp_of_combination, k);
+    s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k] = product(of->exp_of_combination,
+        s->log_scaled_gap_by_exp_of_combination_2, k);
     s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
         quotient(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination, gap_over_radius,
         s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
@@ -106,7 +106,7 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
     s->log_scaled_gap_squared_by_exp_of_combination_2[k] = product(of->log_scaled_gap_squared,
         of->exp_of_combination_2, k);
     s->log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[k] =
-        product(s->log_scaled_gap_squared_by_exp_of_combination_2, of->exp_of_combination, k);
+        product(of->exp_of_combination, s->log_scaled_gap_squared_by_exp_of_combination_2, k);
     s->by_volume[k] = c->by_volume_per_exp_of_combination_2*of->exp_of_combination_2[k] +
         c->by_volume_per_exp_of_combination_2_by_exp_of_combination*s->exp_of_combination_2_by_exp_of_combination[k]
         +
