@@ -15,7 +15,7 @@ from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
 from ..settings import RTOL
-from ..taylor.along import carried
+from ..taylor.along import Carried, carried
 from ..taylor.engine import PATIENT, Impacts, order_for
 from ..taylor.library import by_energy
 from ..validity import warn
@@ -29,6 +29,7 @@ from .quantities import QUANTITIES, check_of
 if TYPE_CHECKING:
     import xarray
 
+_SOON = 1000  # steps within which what separates mostly has
 _STRETCH = 4096  # collisions a thread takes at a time
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
@@ -150,31 +151,43 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     order = order_for(asked.rtol)
-    found = kernel.along(asked.impacts(which), asked.kind, asked.wrt, asked.of, asked.rtol, order)
+
+    def flown(part: np.ndarray, rtol: float, budget: int) -> kernel.Along | None:
+        return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget)
+
+    found = flown(which, asked.rtol, _SOON)
     if found is None:
         return which
     answers, near = found.flown.answers, found.flown.near[:, 0]
-    separated = (answers["outcome"] > 0) & (answers["status"] == 0)
-    far = separated & (near >= NEAR)
+    far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(asked, which, found, far)
-    # nearer than that a flight amplifies its errors: again, to a tolerance that allows for it, by decades
-    close = separated & ~far & (near > LOOK * limit(asked.rtol))
-    decades = np.ceil(np.log10(NEAR / np.where(close, near, NEAR)))
+    # what creeps for long mostly sticks: without derivatives first
+    slow = np.flatnonzero(answers["status"] > 1)
+    if slow.size:
+        plain = _without(asked, which[slow], asked.rtol)
+        answers[slow], near[slow] = plain.answers, plain.near[:, 0]
+    # nearer than NEAR a flight amplifies its errors: again, to a tolerance that allows for it, by decades
+    close = (answers["outcome"] > 0) & ~far & (near > LOOK * limit(asked.rtol))
+    decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
-        part = close & (decades == decade)
-        rtol = min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST))
-        again = kernel.along(asked.impacts(which[part]), asked.kind, asked.wrt, asked.of, rtol, order, PATIENT)
+        part = which[close & (decades == decade)]
+        again = flown(part, min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST)), PATIENT)
         if again is not None:
-            done = (again.flown.answers["outcome"] > 0) & (again.flown.answers["status"] == 0)
-            _keep(asked, which[part], again, done)
-    stuck = _sticks(asked, which, answers)
-    asked.outcome[which[stuck]] = 0
-    asked.reason[which[stuck]] = STICK
-    asked.engine[which[stuck]] = "taylor"
+            _keep(asked, part, again, again.flown.answers["outcome"] > 0)
+    stuck = which[_sticks(asked, which, answers)]
+    asked.outcome[stuck], asked.reason[stuck], asked.engine[stuck] = 0, STICK, "taylor"
     if "restitution" in asked.of:
         place = asked.of.index("restitution")
-        asked.value[place, which[stuck]], asked.gradient[place, which[stuck]] = 0.0, 0.0
+        asked.value[place, stuck], asked.gradient[place, stuck] = 0.0, 0.0
     return which[asked.outcome[which] == FAILED]
+
+
+def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
+    """Collisions without derivatives, by the same kernel."""
+    oblique = bool(asked.angle[which[0]] > 0)
+    found = carried(asked.impacts(which, factor), oblique, rtol, "rotation" in asked.of, (), order_for(asked.rtol))
+    assert found is not None  # the kernel is there
+    return found
 
 
 def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarray) -> None:
@@ -196,11 +209,8 @@ def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray) -> np.ndarray
     least = limit(asked.rtol)
     for factor in (1 - least, 1 + least):
         if look.size:
-            oblique = bool(asked.angle[which[0]] > 0)
-            rtol = min(asked.rtol, 1e-10)
-            aside = carried(asked.impacts(which[look], factor), oblique, rtol, False, (), order_for(asked.rtol))
-            assert aside is not None  # the kernel is there
-            stays = (aside.answers["outcome"] == 0) & (aside.answers["status"] <= 1)
+            aside = _without(asked, which[look], min(asked.rtol, 1e-10), factor).answers
+            stays = (aside["outcome"] == 0) & (aside["status"] <= 1)
             stuck[look[~stays]] = False
             look = look[stays]
     return stuck

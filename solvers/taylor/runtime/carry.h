@@ -104,6 +104,7 @@ static void carry(flights *l, const fixed *f, const series *s, const tangents *a
 {
     carried *a = &l->along;
     meeting m;
+    falls &= h > 0.0; /* what is true on entry jumps where it is: no surface is met */
     int meets = bits(falls) != 0;
     if (meets)
         m = met(l, f, (const void *)s, h, falls, event);

@@ -102,7 +102,9 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
 {
     double gap = at[GAP][lane], opening = at[OPENING][lane], contact = f->contact[lane];
     int closing = l->closing[lane] != 0;
-    if (event == GLASS)
+    if (event == GLASS && h == 0.0)
+        along_near(a, lane, fabs(log(1.0 - spare(&f->c, at)[lane])), TOUCH);
+    else if (event == GLASS)
         along_near(a, lane, flatness(f, s, at, h, lane), GLASS_GRAZE);
     if (contact > 0.0 && (event == GLASS || (event == TURNED_KIND && closing)))
         along_near(a, lane, fabs(log(gap/contact)), CONTACT_GRAZE);
