@@ -10,14 +10,13 @@ from ..laws import LAWS
 from ..laws.base import Law, LawFunction
 from .taylor_c import Constants, Recurrences, Text, comment, function
 from .taylor_chain import Chain
-from .taylor_laws import LIMIT, compared, signatures
+from .taylor_laws import LIMIT, compared, moves
 from .taylor_program import Program, cheapest
 from .text import needed
 
 
-def arguments(slot: str, name: str) -> tuple[str, ...]:
-    """Names of a slot function's arguments, as the laws that the kernel calls have them."""
-    count = len(signatures()[slot, name])
+def arguments(slot: str, name: str, count: int) -> tuple[str, ...]:
+    """Names of a slot function's arguments, as the laws that take so many have them."""
     for law in LAWS[slot].values():
         for each in law.functions:
             if each.name == name and len(each.arguments) == count:
@@ -30,11 +29,10 @@ def slopes_header(law: Law, digest: str, provenance: str) -> str:
     lines = comment(f"{provenance}\nEquations sha256 {digest}")
     lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
     for each in law.functions:
-        moves = signatures().get((law.slot, each.name))
-        if moves is None or each.for_proof:
+        if each.for_proof or each.name in ("suction", "potential"):  # no force, and the work of one
             continue
         name = f"{law.slot}_{each.name}"
-        moving = tuple(argument for argument, moved in zip(each.arguments, moves, strict=True) if moved)
+        moving = tuple(argument for argument, moved in zip(each.arguments, moves(each.arguments), strict=True) if moved)
         if (law.slot, each.name) in compared():
             lines += _clearance(name, each)
         elif moving:

@@ -16,7 +16,7 @@ from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import VOCABULARY
 from ..scaling import group_definitions
-from .taylor import Header
+from .taylor import Beside, Header
 from .taylor_c import Constants, Recurrences, Text, comment, function
 from .taylor_chain import Chain
 from .taylor_slopes import arguments, shortest
@@ -30,7 +30,7 @@ class Tangent:
 
     def __init__(self, model: Model, digest: str, provenance: str, doc: str) -> None:
         self.model = model
-        self.header = Header(model)
+        self.header = Header(model, Beside())
         self.header.text(digest, provenance, doc)  # fills in its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
@@ -53,7 +53,7 @@ class Tangent:
         slot, name = node.func.__name__.split(".")
         call = self.header.flow.series(node) if self.header.flow.moves(node) else None
         assert call in self._calls, f"{node} is no series of the flow"
-        argument = arguments(slot, name)[position]
+        argument = arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
         if symbol.name not in self._slopes:
             self._slopes[symbol.name] = f"s->{call}.by_{argument}"
@@ -279,7 +279,7 @@ class Tangent:
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)
         body = ["(void)v;", "switch (group) {"]
-        for argument, own in zip(arguments(slot, name), call.args, strict=True):
+        for argument, own in zip(arguments(slot, name, len(call.args)), call.args, strict=True):
             body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"

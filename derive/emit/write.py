@@ -24,7 +24,6 @@ from .modules import (
     structure_module,
     structure_tangent,
 )
-from .taylor_laws import fits
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
@@ -52,9 +51,8 @@ def emitted() -> dict[str, str]:
     for slot, laws in LAWS.items():
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
-            if fits(law):
-                files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
-                files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
+            files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
+            files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     for structure in committed():
         model = derive(structure)

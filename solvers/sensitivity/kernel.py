@@ -11,9 +11,8 @@ from ..buffered import LOCK
 from ..locate import Path
 from ..numbers import numbers, si_values
 from ..scene import Scene
-from ..taylor.along import CHATTERS, COLUMNS, Carried, carried
+from ..taylor.along import CHATTERS, COLUMNS, Carried, carried, differentiates
 from ..taylor.engine import BUDGET, Impacts
-from ..taylor.library import knows
 from .parameters import SCALES, Kind, references, way
 from .problem import Problem, Slopes, sharpened
 from .quantities import QUANTITIES
@@ -35,7 +34,7 @@ _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangen
 
 def offers(scene: Scene, of: Sequence[str]) -> bool:
     """Whether the kernel differentiates these results of a scene here."""
-    return all(name in KNOWN for name in of) and knows(scene)
+    return all(name in KNOWN for name in of) and differentiates(scene)
 
 
 @dataclass(frozen=True)

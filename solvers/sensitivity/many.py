@@ -17,7 +17,6 @@ from ..scene import Scene
 from ..settings import RTOL
 from ..taylor.along import Carried, carried
 from ..taylor.engine import PATIENT, Impacts, order_for
-from ..taylor.library import by_energy
 from ..validity import warn
 from . import kernel
 from .gradients import sensitivities
@@ -174,7 +173,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
         again = flown(part, min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST)), PATIENT)
         if again is not None:
             _keep(asked, part, again, again.flown.answers["outcome"] > 0)
-    stuck = which[_sticks(asked, which, answers)]
+    stuck = which[_sticks(asked, which, answers, found.flown.by_energy)]
     asked.outcome[stuck], asked.reason[stuck], asked.engine[stuck] = 0, STICK, "taylor"
     if "restitution" in asked.of:
         place = asked.of.index("restitution")
@@ -201,10 +200,10 @@ def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarra
         asked.engine[into] = "taylor"
 
 
-def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray) -> np.ndarray:
+def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
     """Sticks that are ones on either side as well, as solvers/sensitivity/nearness.py looks at them."""
     stuck = (answers["outcome"] == 0) & (answers["status"] <= 1)
-    sure = stuck & (answers["status"] == 1) & by_energy(asked.scene, bool(asked.angle[which[0]] > 0))
+    sure = stuck & (answers["status"] == 1) & by_energy
     look = np.flatnonzero(stuck & ~sure)
     least = limit(asked.rtol)
     for factor in (1 - least, 1 + least):

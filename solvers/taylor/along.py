@@ -12,6 +12,7 @@ from ..model import choose
 from ..numbers import si_values
 from ..scene import Scene
 from .engine import BUDGET, RIGID, Impacts, order_for
+from .headers import tangents
 from .library import ANSWER, Variant, kernel, knows
 
 RESULTS = 8  # as runtime/along.h has them
@@ -30,12 +31,14 @@ class Carried:
         slopes: (collisions, quantities, RESULTS); zero where nothing separated.
         near: (collisions, 2); of what separated, the least measure of its nearness to a boundary, and which (along.h).
         quantities: names in the vocabulary, in the order of `slopes`.
+        by_energy: sticks are proved by their energy, a level below a barrier.
     """
 
     answers: np.ndarray
     slopes: np.ndarray
     near: np.ndarray
     quantities: tuple[str, ...]
+    by_energy: bool
 
 
 def carried(
@@ -78,11 +81,17 @@ def carried(
             by_group.ctypes.data, out.ctypes.data, least.ctypes.data,
         )  # fmt: skip
         assert done == ANSWER.itemsize
-    return Carried(answers, slopes, near, names)
+    return Carried(answers, slopes, near, names, bool(ctypes.c_int.in_dll(library, "proved_by_energy").value))
 
 
 def _library(scene: Scene, oblique: bool, order: int, rotation: bool) -> ctypes.CDLL | None:
-    return kernel(Variant(choose(scene, oblique), order, rotation, gradients=True)) if knows(scene) else None
+    return kernel(Variant(choose(scene, oblique), order, rotation, gradients=True)) if differentiates(scene) else None
+
+
+def differentiates(scene: Scene) -> bool:
+    """Whether the kernel has the derivatives of a scene's collisions: its tangent is emitted, and there is a compiler."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return knows(scene) and not own and all(tangents(choose(scene, oblique)) for oblique in (True, False))
 
 
 def _names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:

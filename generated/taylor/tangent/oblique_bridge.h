@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 95a919cba056a51875b980b7ac3e7f9923b884890dae2cffbb40301514d2c5d2 */
+ * Equations sha256 8cf569f8d1325f5c4f77980f2b79e06807d92f95b1751050a00368c78e3e48bc */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -38,7 +38,7 @@ static void expand_along(tangents *all, const flights *l, const fixed *f, const 
             all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + size*own);
         }
         sources(d, s, group, source);
-        expand_tangent(t, d, &f->slopes, s, &f->c, l->film, l->shear, source);
+        expand_tangent(t, d, &f->slopes, s, &f->c, acting(l), l->shear, source);
     }
 }
 

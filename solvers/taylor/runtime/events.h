@@ -129,7 +129,7 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
             look(found, close, s->glass.result, zero, one, h, splat_mask(GLASS));
     }
     /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
-#if BRIDGE
+#if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
     mask event = (edge & splat_mask(FILM_EDGE)) |

@@ -111,9 +111,9 @@ static void fly(queue *q)
         if (!bits(l.alive))
             break;
         /* a stick is as good a step later: the level is looked at in every second turn */
-        mask sticks = splat_mask(0);
+        mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
-            sticks = proved_in_flight(&l, &f, q->rtol);
+            sticks |= proved_in_flight(&l, &f, q->rtol);
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         criteria_met(q, &l, &f);
@@ -121,11 +121,11 @@ static void fly(queue *q)
             continue;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
 #if GRADIENTS
         if (q->asked)
-            expand_slopes(&d, &f.slopes, &s, &f.c, l.film, l.shear, q->asked);
+            expand_slopes(&d, &f.slopes, &s, &f.c, acting(&l), l.shear, q->asked);
         expand_along(&t, &l, &f, &s, &d, q->asked);
         vec h = only(l.alive, step_size(&s, &f, &creeps, &t));
         for (int group = 0; group < GROUPS && bits(creeps); group++)
@@ -197,6 +197,8 @@ int collide(long count, const double *const *quantities, const unsigned char *va
 }
 
 #if GRADIENTS
+const int proved_by_energy = PROOF_BY_ENERGY;
+
 /* The same with derivatives by the quantities; both buffers come zeroed.
  *
  * by_group: RESULTS for each of `group_names` a collision; gradients: RESULTS for each of `quantity_names`.

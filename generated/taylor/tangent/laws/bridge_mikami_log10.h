@@ -37,3 +37,17 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
         c->offset_by_volume*of->exp_of_combination[k];
     s->by_contact_angle[k] = c->offset_by_contact_angle*of->exp_of_combination[k];
 }
+
+static inline vec bridge_rupture_distance_by_volume(vec volume, vec contact_angle)
+{
+    (void)volume;
+    (void)contact_angle;
+    return 0.0034*(62.0*contact_angle + 99.0)*vec_exp(0.66*vec_log(1.0/volume));
+}
+
+static inline vec bridge_rupture_distance_by_contact_angle(vec volume, vec contact_angle)
+{
+    (void)volume;
+    (void)contact_angle;
+    return 0.62*vec_exp(0.34*vec_log(volume));
+}

@@ -51,3 +51,19 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
         c->by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared*s->scaled_gap_by_combination_2_over_combination_3_squared[k];
     s->by_contact_angle[k] = c->by_contact_angle_per_inverse_combination*of->inverse_combination[k];
 }
+
+static inline vec bridge_rupture_distance_by_volume(vec volume, vec contact_angle)
+{
+    (void)volume;
+    (void)contact_angle;
+    return 0.03333333333333333*(contact_angle + 2.0)*(vec_exp(0.3333333333333333*vec_log(volume)) +
+        5.0)*vec_exp(0.6666666666666666*vec_log(1.0/volume));
+}
+
+static inline vec bridge_rupture_distance_by_contact_angle(vec volume, vec contact_angle)
+{
+    (void)volume;
+    (void)contact_angle;
+    return 0.05*(vec_exp(0.3333333333333333*vec_log(volume)) +
+        10.0)*vec_exp(0.3333333333333333*vec_log(volume));
+}
