@@ -197,7 +197,11 @@ int collide(long count, const double *const *quantities, const unsigned char *va
 }
 
 #if GRADIENTS
-const int proved_by_energy = PROOF_BY_ENERGY;
+#if PROOF_BY_ENERGY
+const int proved_by_energy = 1;
+#else
+const int proved_by_energy = 0;
+#endif
 
 /* The same with derivatives by the quantities; both buffers come zeroed.
  *
