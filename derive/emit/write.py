@@ -19,11 +19,13 @@ from .modules import (
     law_digest,
     law_kernel,
     law_module,
+    law_slopes,
     model_digest,
     scaling_digest,
     scaling_module,
     structure_kernel,
     structure_module,
+    structure_tangent,
 )
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -54,12 +56,14 @@ def emitted() -> Mapping[str, str]:
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
             files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
+            files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     for structure in committed():
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
         if structure in structures():
             files[f"taylor/{structure.name}.h"] = structure_kernel(model)
+            files[f"taylor/tangent/{structure.name}.h"] = structure_tangent(model)
         manifest["structures"][structure.name] = model_digest(model)
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
