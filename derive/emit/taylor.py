@@ -13,8 +13,8 @@ from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import VOCABULARY, opening
 from .taylor_c import Constants, Recurrences, comment, function
-from .taylor_proofs import held_functions, tethered_functions
 from .taylor_program import Program
+from .taylor_proofs import held_functions, tethered_functions
 from .taylor_scale import scale_function
 from .text import needed
 
@@ -148,7 +148,9 @@ class Header:
 
     def _glass_groups(self) -> str:
         """What a user's glass law takes beside gap and approach, as arguments."""
-        (call,) = (node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node))
+        (call,) = (
+            node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node)
+        )
         return "".join(f", {self._passed(argument)}" for argument in call.args[2:])
 
     def _passed(self, argument: sp.Expr) -> str:

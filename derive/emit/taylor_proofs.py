@@ -94,6 +94,9 @@ def _function(
 def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, tuple[str, int]]:
     """How laws with constants are called: by value, the still arguments in the constants; where the moving one is."""
     return {
-        f"{slot}.{name}": (f"{slot}_{name}_value(&c->{where}, ", moves(places()[f"{slot}.{name}"].arguments).index(True))
+        f"{slot}.{name}": (
+            f"{slot}_{name}_value(&c->{where}, ",
+            moves(places()[f"{slot}.{name}"].arguments).index(True),
+        )
         for (slot, name), where in prepared.items()
     }

@@ -106,8 +106,8 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
 
 
 def _call(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
-    """The kernel of these impacts as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
-    MOST_EVENTS a collision, or None).
+    """The kernel of such impacts as a function of impacts, answers and a log to be filled (zeros of ANSWER; of
+    HAPPENING, MOST_EVENTS a collision, or None).
     """
     rtol, scene = min(rtol, _LOOSEST), those.scene
     own = scene.bridge is not None and scene.bridge.rupture == "own"
