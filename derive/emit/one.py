@@ -7,14 +7,13 @@ from pathlib import Path
 
 import sympy as sp
 
-from .. import structure as shapes
 from ..custom import UserModel
 from ..laws import LAWS
 from ..laws.base import Law
 from ..model import derive
 from ..modelfile import read
 from ..quantities import opening
-from ..structure import Structure
+from ..structure import Structure, known
 from .modules import law_kernel, law_module, structure_kernel, structure_module
 from .printer import EmissionError
 from .user import own_names
@@ -22,8 +21,7 @@ from .user import own_names
 
 def named(name: str) -> Structure:
     """The structure whose module has this name; KeyError if there is none."""
-    every = {each.name: each for each in (*shapes.structures(), *getattr(shapes, "committed", tuple)())}
-    return every[name]
+    return {each.name: each for each in known()}[name]
 
 
 def structure_text(name: str) -> str:

@@ -278,6 +278,25 @@ class Header:
                     f"static inline vec potential_{key}(const constants *c, const vec *y)",
                     {key: "return"},
                 )
+        if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
+            lines.append("#define ORBIT_PROOF LIBRARY_LAWS")
+            lines.append("enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };")
+            lines += self._value(
+                "orbital",
+                "static inline void orbital(const constants *c, const vec *y, vec *found)",
+                {"slip": "found[SLIP_RATE]", "orbit_energy": "found[ORBIT_ENERGY]", "surface": "found[SLIP_ENERGY]"},
+                "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
+                "(surface arm), over m v0^2 (derive/orbital.py).",
+            )
+        if "arm" in model.slots and not shape.strings:
+            lines += self._value(
+                "rigid_rotation", "static inline vec rigid_orbit(const constants *c, const vec *y)", {"orbit": "return"}
+            )
+            lines += self._value(
+                "angular_momentum",
+                "static inline vec angular_momentum(const constants *c, const vec *y)",
+                {"angular_momentum": "return"},
+            )
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
         if any(each.name == "tethered" for each in model.functions):
             lines += tethered_functions(model, self.constants, prepared)

@@ -238,7 +238,8 @@ class Recurrences:
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
-            return f"{target} = {_times(factors[0])}product({series[0]}, {series[1]}, k);"
+            older, newer = (self.array(part) for part in sorted(operation.series, key=self._age))
+            return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind == "square":
             return f"{target} = square({series[0]}, k);"
         if kind == "reciprocal":
@@ -262,6 +263,10 @@ class Recurrences:
         slot, function, arguments = operation.call
         passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
+
+    def _age(self, name: str) -> int:
+        """Place of a series in the program; what is given comes first."""
+        return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
 
     def values(self) -> list[str]:
         """Local variables with the values at order zero; `where` of the series that are given must be such."""

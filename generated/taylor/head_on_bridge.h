@@ -150,7 +150,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->bridge_force[k] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
     s->rate_of_opening[k] = -s->bridge_force[k] - s->film_force[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

@@ -176,7 +176,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->string_pull[k] = c->string_pull_factor*product(s->gap, s->strings_stiffness_law.result, k);
     s->rate_of_opening[k] = -s->bridge_force[k] - s->film_force[k] - s->string_pull[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007 */
+ * Equations sha256 45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -212,7 +212,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->rate_of_orbit[k] = -product(s->distance, s->shear_force, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

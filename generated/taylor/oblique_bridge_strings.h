@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e7edde922bf9837f511d911d314167005029a1d6fac22cef9f5a7ff54c0b983d */
+ * Equations sha256 43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -75,6 +75,8 @@ typedef struct {
     vec energy_per_spin_squared;
     vec energy_per_strings_rise_law;
     vec tangential_restitution_factor;
+    vec rotation_energy_unit;
+    vec orbit_energy_per_orbit_squared_over_distance_squared;
     vec contact;
     vec nearest;
     vec farthest;
@@ -152,6 +154,8 @@ static inline void prepare(constants *c)
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
+    c->orbit_energy_per_orbit_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
@@ -256,10 +260,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
         s->string_pull[k];
     s->combination_2[k] = s->shear_force[k] + s->string_sideways[k];
     s->rate_of_orbit[k] = -product(s->distance, s->combination_2, k);
-    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_spin[k] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;
@@ -375,6 +379,49 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     shown[1] = tangential_restitution;
     shown[2] = orbital_rate;
     shown[3] = y[SPIN];
+}
+
+#define ORBIT_PROOF LIBRARY_LAWS
+enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
+/* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
+ * arm), over m v0^2 (derive/orbital.py). */
+static inline void orbital(const constants *c, const vec *y, vec *found)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec slip = orbital_rate - y[SPIN];
+    vec root_of_spin = vec_sqrt(y[SPIN]);
+    vec root_of_orbit = vec_sqrt(y[ORBIT]);
+    vec combination = root_of_orbit + 1.6*root_of_spin;
+    vec rigid_share = root_of_spin/combination;
+    vec orbit_squared = y[ORBIT]*y[ORBIT];
+    vec orbit_squared_over_distance_squared = orbit_squared/distance_squared;
+    vec orbit_energy =
+        c->orbit_energy_per_orbit_squared_over_distance_squared*orbit_squared_over_distance_squared;
+    vec combination_squared = combination*combination;
+    vec combination_squared_squared = combination_squared*combination_squared;
+    vec combination_2 = distance + 1.6;
+    vec combination_2_squared = combination_2*combination_2;
+    vec combination_2_squared_squared = combination_2_squared*combination_2_squared;
+    vec distance_squared_over_combination_2_squared_squared = distance_squared/combination_2_squared_squared;
+    vec rigid_share_squared = rigid_share*rigid_share;
+    vec rigid_share_squared_squared = rigid_share_squared*rigid_share_squared;
+    vec rigid_share_squared_by_rigid_share = rigid_share_squared*rigid_share;
+    vec combination_2_squared_by_combination_2 = combination_2_squared*combination_2;
+    vec inverse_combination_2_squared_by_combination_2 = 1.0/combination_2_squared_by_combination_2;
+    vec inverse_combination_2_squared_squared = 1.0/combination_2_squared_squared;
+    vec combination_3 = 0.5*distance_squared_over_combination_2_squared_squared +
+        1.28*rigid_share_squared_squared + 1.0666666666666667*inverse_combination_2_squared_by_combination_2 -
+        1.0666666666666667*rigid_share_squared_by_rigid_share - 1.28*inverse_combination_2_squared_squared;
+    vec combination_squared_squared_by_combination_3 = combination_squared_squared*combination_3;
+    vec combination_4 = 0.5*orbit_squared_over_distance_squared -
+        combination_squared_squared_by_combination_3;
+    vec surface = c->rotation_energy_unit*combination_4;
+    found[SLIP_RATE] = slip;
+    found[ORBIT_ENERGY] = orbit_energy;
+    found[SLIP_ENERGY] = surface;
 }
 
 #if defined(BRIDGE_FORCE_FALLS)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import os
 import platform
-import shutil
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -17,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..compiled import cache_folder, compiler
+from ..compiled import build, cache_folder, compiler
 from ..model import Choice, choose
 from .headers import headers
 
@@ -114,6 +111,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
         "OWN_RUPTURE": int(variant.own_rupture),
+        "LIBRARY_LAWS": int(variant.choice.package is None),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
@@ -146,18 +144,11 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
 
 
 def _built(path: str, text: str, library: Path) -> bool:
-    """Compile; built under a name of its own and then moved into place, so that several processes may do so at once."""
+    """Compile; safe with several processes."""
     with tempfile.TemporaryDirectory(prefix="wetdoublet-") as work:
-        written, fresh = Path(work) / "kernel.c", Path(work) / "kernel.so"
+        written = Path(work) / "kernel.c"
         written.write_text(text)
-        command = [path, *FLAGS, "-o", str(fresh), str(written), "-lm"]
-        built = subprocess.run(command, capture_output=True, text=True, check=False)
-        if built.returncode:
-            said = built.stderr.strip().splitlines()
-            first = next((line for line in said if "error" in line), (said or ["no message"])[-1])
-            sys.stderr.write(f"{path} cannot compile the Taylor kernel ({first}): other engines answer\n")
-            return False
-        beside = library.with_suffix(f".{os.getpid()}")
-        shutil.copyfile(fresh, beside)
-        beside.replace(library)
-    return True
+        said = build(path, FLAGS, written, library)
+    if said:
+        sys.stderr.write(f"{path} cannot compile the Taylor kernel ({said}): other engines answer\n")
+    return not said

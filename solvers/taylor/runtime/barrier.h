@@ -10,13 +10,13 @@ typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
     vec far_gap, far_height;   /* heights count the work against attractions from first touch; -infinity where there is none */
 #if SURFACE_ARM
-    vec near_energy, far_energy; /* the part of the heights that depends on angular momentum */
+    vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
 #endif
     vec largest;               /* energy at first touch */
     vec touch;                 /* capillary work at first touch */
 } barrier;
 
-static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificate.py has it */
+static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/proofs/base.py has it */
 
 static const double NODES[6] = {
     0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
@@ -145,60 +145,95 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
     found->near_gap = choose(hidden, found->far_gap, found->near_gap);
     found->near_height = choose(hidden, found->far_height, found->near_height);
 #if SURFACE_ARM
-    found->near_energy = energy_at(c, y, found->near_gap);
-    found->far_energy = energy_at(c, y, found->far_gap);
+    found->near_work = found->near_height - energy_at(c, y, found->near_gap);
+    found->far_work = found->far_height - energy_at(c, y, found->far_gap);
 #endif
 }
 
-#if SURFACE_ARM
-/* Angular momentum drifts: heights are of the present one, at the gaps found for the first, less what the drift can
- * still do. |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
- * slip, and while the doublet breathes by the change of the rigid rate L/I. Energy and barrier move by omega dL. */
-static vec height_now(const constants *c, const vec *y, vec gap, vec first_height, vec first_energy, mask rests)
-{
-    vec inside = 4.0 + c->aspect*y[GAP], outside = 4.0 + c->aspect*gap;
-    vec rate = y[ORBIT]/(inside*inside);
-    vec change = vec_abs(rate - y[SPIN]) + only(~rests, rate*(outside*outside - 16.0)*(1.0/22.4));
-    vec lost = 1.6*c->aspect*choose(rests, y[GAP], gap)*change;
-    vec drift = 2.0*vec_max(rate, y[SPIN])*lost*c->obliquity*c->obliquity*(1.0/16.0);
-    return first_height - first_energy + energy_at(c, y, gap) - drift;
-}
-#endif
-
+#if !SURFACE_ARM
 /* The height of the barrier ahead of a gap; -infinity if there is none. */
-static inline vec height_ahead(const constants *c, const vec *y, const barrier *b, mask rests)
+static inline vec height_ahead(const vec *y, const barrier *b)
 {
-    vec none = splat(-INFINITY), gap = y[GAP], near = b->near_height, far = b->far_height;
-#if SURFACE_ARM
-    near = height_now(c, y, b->near_gap, near, b->near_energy, rests);
-    far = height_now(c, y, b->far_gap, far, b->far_energy, rests);
+    vec none = splat(-INFINITY), gap = y[GAP];
+    return choose(b->near_gap > gap, b->near_height, choose(b->far_gap > gap, b->far_height, none));
+}
+#endif
+
+/* The work done against attractions since first touch. */
+static inline vec work_done(const constants *c, const vec *y, const barrier *b)
+{
+#if CAPILLARY_STATE
+    (void)c;
+    (void)b;
+    return y[CAPILLARY_WORK];
+#elif ATTRACTS
+    return capillary_work(c, y[GAP]) - b->touch;
 #else
     (void)c;
-    (void)rests;
+    (void)y;
+    (void)b;
+    return splat(0.0);
 #endif
-    return choose(b->near_gap > gap, near, choose(b->far_gap > gap, far, none));
 }
 
-/* Mechanical energy, the capillary work done since first touch included. */
-static inline vec mechanical_energy(const constants *c, const vec *y, const barrier *b)
+#if SURFACE_ARM && ORBIT_PROOF && ATTRACTS
+/* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/orbital.py). */
+static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
-    vec energy = stored_energy(c, y);
-#if CAPILLARY_STATE
-    energy += y[CAPILLARY_WORK];
-    (void)b;
-#elif ATTRACTS
-    energy += capillary_work(c, y[GAP]) - b->touch;
-#else
-    (void)b;
-#endif
-    return energy;
+    vec here[ORBITAL], there[ORBITAL], beyond[STATES];
+    memcpy(beyond, y, sizeof beyond);
+    beyond[GAP] = gap;
+    orbital(c, y, here);
+    orbital(c, beyond, there);
+    vec needed = 0.5*y[OPENING]*y[OPENING] + work_done(c, y, b) - work + here[ORBIT_ENERGY] - there[ORBIT_ENERGY]
+                 + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite, and so the test false, without a barrier */
+    return (gap > y[GAP]) & (y[ORBIT] >= 16.0*y[SPIN]) & (needed < -margin);
 }
 
-/* Lanes whose energy is below the barrier ahead by more than its error. */
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {
-    vec height = height_ahead(c, y, b, rests);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return mechanical_energy(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+    (void)rests;
+    return out_of_reach(c, y, b, b->near_gap, b->near_work, tolerance)
+           | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
 }
+#elif SURFACE_ARM && ATTRACTS
+/* The orbit's momentum at a gap if all turns as one body. */
+static inline vec rigid_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return rigid_orbit(c, there);
+}
+
+/* Lanes whose energy is below the height of a gap ahead, lowered by what a drifting angular momentum can still add, as
+ * solvers/proofs/barrier.py `_drift` has it: no theorem. */
+static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
+{
+    vec first[STATES], rigid = rigid_orbit(c, y), reach = choose(rests, y[GAP], gap);
+    start(c, first);
+    vec change = vec_abs(y[ORBIT] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
+    vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBIT]/rigid, splat(1.0))*lost
+                /(angular_momentum(c, y)*first[ORBIT]);
+    vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
+}
+
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    return below(c, y, b, b->near_gap, b->near_work, rests, tolerance)
+           | below(c, y, b, b->far_gap, b->far_work, rests, tolerance);
+}
+#elif !SURFACE_ARM
+/* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    vec height = height_ahead(y, b);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    (void)rests;
+    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+}
+#endif
 #endif

@@ -122,7 +122,10 @@ static void fly(queue *q)
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
-        for (int state = 0; state < STATES; state++)
+        if (bits(falls))
+            found.gap = sum_at(a[GAP], h);
+        l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
+        for (int state = GAP + 1; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);

@@ -4,6 +4,7 @@ enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
 enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
@@ -78,16 +79,19 @@ static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;
     f->tolerance = splat(q->rtol);
-    f->rest = splat(1e-3);
+    f->rest = splat(SLOW);
 #if OBLIQUE
-    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
+#if STRINGS
+    net -= f->c.weight*f->c.aspect/f->c.string_ratio;
+#endif
     EACH_LANE(lane)
     {
         double of = centrifugal[lane];
         if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
             f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
-        if (of > 1.0)
-            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(of))), fmin(q->rtol, TIGHTEST));
+        if (net[lane] > 1.0)
+            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(q->rtol, TIGHTEST));
         if (of > MOST_OBLIQUE)
             beyond |= 1u << lane;
     }
