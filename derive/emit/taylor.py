@@ -279,8 +279,7 @@ class Header:
                     {key: "return"},
                 )
         if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
-            lines.append("#define ORBIT_PROOF LIBRARY_LAWS")
-            lines.append("enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };")
+            lines += ["#define BY_ORBIT LIBRARY_LAWS", "enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };"]
             lines += self._value(
                 "orbital",
                 "static inline void orbital(const constants *c, const vec *y, vec *found)",

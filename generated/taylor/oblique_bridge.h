@@ -352,7 +352,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
-#define ORBIT_PROOF LIBRARY_LAWS
+#define BY_ORBIT LIBRARY_LAWS
 enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/orbital.py). */

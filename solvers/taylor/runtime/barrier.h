@@ -5,6 +5,9 @@
  */
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
+#if !defined(BY_ORBIT) /* derive/orbital.py knows the model */
+#define BY_ORBIT 0
+#endif
 
 typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
@@ -176,7 +179,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 #endif
 }
 
-#if SURFACE_ARM && ORBIT_PROOF && ATTRACTS
+#if SURFACE_ARM && BY_ORBIT && ATTRACTS
 /* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/orbital.py). */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
