@@ -124,7 +124,7 @@ static inline mask proved_sticks(
     mask proved = splat_mask(0);
     (void)c; (void)y; (void)b; (void)contact; (void)closing; (void)resting; (void)tolerance;
 #if PROOF_BY_ENERGY
-    proved |= below_barrier(c, y, b, tolerance);
+    proved |= below_barrier(c, y, b, resting, tolerance);
 #endif
 #if PROOF_BY_FILM
     proved |= ~resting & stopped_by_film(c, y, contact, closing, tolerance);
