@@ -12,6 +12,7 @@ from ..quantities import VOCABULARY, opening
 from ..scaling import group_definitions
 from .taylor_c import Constants, Recurrences, Text, comment, function
 from .taylor_laws import signatures
+from .taylor_ledger import Ledger
 from .taylor_program import Program
 from .taylor_tethered import tethered_functions
 from .text import needed
@@ -40,6 +41,7 @@ class Header:
             self.work_rate = self._more(self.flow, tuple(wanted))["capillary"]
             self._work_operations = {operation.name for operation in self.flow.operations[before:]}
         self.made = Recurrences(self.flow, self.constants, lambda name: f"s->{name}")
+        self.ledger = Ledger(model, self.flow, self.made, self.constants)
 
     # ---- programs
 
@@ -80,19 +82,23 @@ class Header:
         lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
         if self.work_rate is not None:
             lines += [
-                "#if defined(BRIDGE_FORCE_WORK)",
+                "#if defined(BRIDGE_FORCE_WORK) && !WITH_LEDGER"
+                if self.ledger.there
+                else "#if defined(BRIDGE_FORCE_WORK)",
                 "#define CAPILLARY_STATE 0",
                 "#else",
-                "#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */",
+                "#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */",
                 "#endif",
             ]
         else:
             lines.append("#define CAPILLARY_STATE 0")
         lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
+        lines += self.ledger.enumerations()
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
-        lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };"]
+        lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
         lines += ["enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };"]
+        lines += self.ledger.places()
         lines.append(f"enum {{ GROUPS = {len(self.model.groups)} }};")
         return [*lines, ""]
 
@@ -102,17 +108,18 @@ class Header:
             for position, argument in enumerate(arguments):
                 if not isinstance(argument, str) and argument.free_symbols:
                     constants.factor(argument, f"{name}_argument_{position + 1}")
-        lines = ["typedef struct {"]
+        lines = [*self.ledger.constants_struct(), "typedef struct {"]
         lines += [f"    vec {group.name}; /* {VOCABULARY[group.name].meaning} */" for group in self.model.groups]
         lines += [f"    vec {name};" for name in constants.prepared]
         for name, (slot, call, _) in self.calls.items():
             lines.append(f"    {slot}_{call}_constants {name};")
-        lines += ["    glass_pressure_clearance_constants glass;", "} constants;", ""]
+        lines += ["    glass_pressure_clearance_constants glass;", *self.ledger.member(), "} constants;", ""]
         body = [f"c->{name} = {constants.text.vector(value)};" for name, value in constants.prepared.items()]
         for name, (slot, call, arguments) in self.calls.items():
             passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
         body.append("glass_pressure_clearance_prepare(&c->glass, c->glass_number);")
+        body += self.ledger.prepare()
         return [
             *lines,
             *self._scaling(),
@@ -147,8 +154,9 @@ class Header:
         lines = ["typedef struct {"]
         lines += [f"    vec {state.name}[TERMS]; /* {VOCABULARY[state.name].meaning} */" for state in self.model.states]
         lines += ["#if CAPILLARY_STATE", "    vec capillary_work[TERMS];", "#endif"]
-        lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif"]
+        lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif", *self.ledger.states()]
         lines += [f"    {field}" for field in self.made.fields()]
+        lines += self.ledger.series()
         lines += ["    vec acceleration[TERMS]; /* of the gap, were it not held */"]
         lines += ["    vec approach[TERMS];", "    glass_pressure_clearance_series glass;"]
         return [*lines, "} series;", ""]
@@ -175,6 +183,7 @@ class Header:
             body += ["#if CAPILLARY_STATE", f"s->capillary_work[k + 1] = {self._rate(self.work_rate)}*next;", "#endif"]
         if self.turning is not None:
             body += ["#if TURNING_STATE", f"s->turned[k + 1] = {self._rate(self.turning)}*next;", "#endif"]
+        body += self.ledger.coefficients()
         head = "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
         doc = (
             "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside "
@@ -209,13 +218,21 @@ class Header:
         outputs = [pair for pair in self.model[name].outputs if pair[0] in results]
         return self._valued(outputs, head, results, doc or self.model[name].doc)
 
-    def _valued(self, outputs: list[tuple[str, sp.Expr]], head: str, results: dict[str, str], doc: str) -> list[str]:
+    def _valued(
+        self,
+        outputs: list[tuple[str, sp.Expr]],
+        head: str,
+        results: dict[str, str],
+        doc: str,
+        constants: Constants | None = None,
+    ) -> list[str]:
+        constants = constants or self.constants
         program = Program(self.model.states, lambda slot, call: signatures()[slot, call])
         kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
         for symbol, expression in kept:
             program.define(symbol, expression)
         found = {key: self._of(program, sp.sympify(expression), key) for key, expression in outputs}
-        made = Recurrences(program, self.constants, lambda series: f"y[{series.upper()}]")
+        made = Recurrences(program, constants, lambda series: f"y[{series.upper()}]")
         for operation in program.operations:
             if operation.kind == "call":
                 assert operation.call is not None
@@ -226,7 +243,7 @@ class Header:
             if isinstance(result, str):
                 text = result if result in own else f"y[{result.upper()}]"
             else:
-                text = self.constants.text.vector(result)
+                text = constants.text.vector(result)
             body.append(f"{results[key]} {text};" if results[key] == "return" else f"{results[key]} = {text};")
         return [*comment(doc), *function(head, body), ""]
 
@@ -270,6 +287,7 @@ class Header:
             lines += self._work()
         if not (shape.oblique or shape.bridge or shape.strings):
             lines += self._momentum()
+        lines += self.ledger.functions(self._valued)
         if shape.oblique:
             edge = dict(model["events"].outputs)["tangential_edge"]
             lines += self._edge(edge)

@@ -68,6 +68,12 @@ class Program:
         self._names: set[str] = set(self.inputs)
         self._call_moves = call_moves
 
+    def continued(self) -> Program:
+        """An empty program to which the series of this one are given."""
+        more = Program((), self._call_moves)
+        more._moving, more._names = dict(self._moving), set(self._names)
+        return more
+
     @property
     def cost(self) -> float:
         """Products of series."""

@@ -41,7 +41,20 @@ class Impacts:
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
 
-Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
+class Record(ctypes.Structure):
+    """What the kernel writes besides answers, as runtime/queue.h has it."""
+
+    _fields_ = [
+        ("log", ctypes.c_void_p),
+        ("books", ctypes.c_void_p),
+        ("rows", ctypes.c_void_p),
+        ("log_room", ctypes.c_long),
+        ("step_room", ctypes.c_long),
+        ("steps", ctypes.c_long),
+    ]
+
+
+Fly = Callable[[Impacts, np.ndarray, Record | None], None]
 
 
 def order_for(rtol: float) -> int:
@@ -62,26 +75,10 @@ def answers(
     for oblique in (True, False):
         which = np.flatnonzero((impacts.angle > 0) == oblique)
         if which.size and not _fill(
-            found, impacts, which, _call(impacts.scene, oblique, rtol, rotation, budget), threads
+            found, impacts, which, _plain(impacts.scene, oblique, rtol, rotation, budget), threads
         ):
             return None
     return found
-
-
-def flown(
-    impacts: Impacts, oblique: bool, rtol: float, rotation: bool, log: np.ndarray | None, budget: int = BUDGET
-) -> np.ndarray | None:
-    """Answers of impacts that are all oblique, or all head-on; None if there is no kernel here.
-
-    Arguments:
-        log: zeros of HAPPENING, MOST_EVENTS a collision, to be filled with what happened.
-    """
-    fly = _call(impacts.scene, oblique, rtol, rotation, budget)
-    if fly is None:
-        return None
-    made = np.zeros(impacts.angle.size, ANSWER)
-    fly(impacts, made, log)
-    return made
 
 
 def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | None, threads: int) -> bool:
@@ -107,24 +104,26 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
     return True
 
 
-def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
-    """The kernel of a scene as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
-    MOST_EVENTS a collision, or None).
-    """
-    rtol = min(rtol, _LOOSEST)
-    library = kernel(Variant(choose(scene, oblique), order_for(rtol), rotation)) if knows(scene) else None
-    if library is None:
+def _plain(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
+    if not knows(scene):
         return None
+    library = kernel(Variant(choose(scene, oblique), order_for(rtol), rotation))
+    return None if library is None else calling(library, rtol, budget)
+
+
+def calling(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
+    """A kernel as a function of impacts that fit it, answers to be filled (zeros of ANSWER), and what else to write."""
+    rtol = min(rtol, _LOOSEST)
     wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()
 
-    def fly(impacts: Impacts, made: np.ndarray, log: np.ndarray | None) -> None:
+    def fly(impacts: Impacts, made: np.ndarray, also: Record | None) -> None:
         given: dict[str, np.ndarray | float] = {"youngs_modulus": _RIGID, "poisson_ratio": 0.0}
         given |= si_values(impacts.scene, None, None)
         given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
         columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]
         pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
         varies = bytes(int(np.ndim(given[name])) for name in wanted)
-        into = None if log is None else log.ctypes.data
+        into = None if also is None else ctypes.byref(also)
         size = library.collide(made.size, pointers, varies, rtol, budget, made.ctypes.data, into)
         assert size == ANSWER.itemsize
 

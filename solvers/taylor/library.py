@@ -55,8 +55,6 @@ ANSWER = np.dtype(
         ("events", "i4"),
     ]
 )
-HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")])
-MOST_EVENTS = 64
 
 
 @dataclass(frozen=True)
@@ -66,11 +64,15 @@ class Variant:
     Arguments:
         order: of the series, 8 to LARGEST_ORDER.
         rotation: the angle turned is integrated along where it is no state.
+        ledger: so is what the forces take; the structure must keep the spin.
+        trajectory: every step is written as it was taken.
     """
 
     choice: Choice
     order: int
     rotation: bool = False
+    ledger: bool = False
+    trajectory: bool = False
 
 
 @cache
@@ -118,6 +120,8 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
+        "WITH_LEDGER": int(variant.ledger),
+        "WITH_TRAJECTORY": int(variant.trajectory),
         "PROOF_BY_ENERGY": int(by_energy and not unproved),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
@@ -125,10 +129,19 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [emitted.header(path) for path in paths]
-    parts += [
-        (_RUNTIME / name).read_text()
-        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
-    ]
+    wanted = {"ledger.h": variant.ledger, "trajectory.h": variant.trajectory}
+    runtime = (
+        "roots.h",
+        "barrier.h",
+        "ledger.h",
+        "queue.h",
+        "rules.h",
+        "events.h",
+        "damped.h",
+        "trajectory.h",
+        "lanes.h",
+    )
+    parts += [(_RUNTIME / name).read_text() for name in runtime if wanted.get(name, True)]
     return "\n".join(parts)
 
 

@@ -125,6 +125,9 @@ static void fly(queue *q)
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
+#if WITH_TRAJECTORY
+        keep_steps(q, &l, a, h);
+#endif
         for (int state = 0; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
@@ -147,9 +150,9 @@ static void fly(queue *q)
 /* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
  *
  * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
- * log: MOST_EVENTS happenings a collision, or null.
+ * also: what else is to be written, or null.
  */
-int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, happening *log)
+int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, record *also)
 {
     queue q;
     memset(&q, 0, sizeof q);
@@ -157,7 +160,7 @@ int collide(long count, const double *const *quantities, const unsigned char *va
     q.varies = varies;
     q.rtol = rtol;
     q.answers = answers;
-    q.log = log;
+    q.also = also;
     q.count = count;
     q.budget = budget;
     fly(&q);

@@ -3,7 +3,7 @@
 enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
-enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+enum { MOST_PHASES = 400, SHOWN = 8 };
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
@@ -18,6 +18,14 @@ typedef struct {
 typedef struct {
     double kind, time;
 } happening;
+
+/* What is written besides answers, by kernels that have it; null for nothing. */
+typedef struct {
+    happening *log; /* `log_room` a collision, whose answer counts those that found none as well */
+    void *books;    /* a ledger a collision */
+    void *rows;     /* `step_room` steps of all collisions; `steps` counts those that found none as well */
+    long log_room, step_room, steps;
+} record;
 
 /* What is fixed for a flight. */
 typedef struct {
@@ -39,7 +47,7 @@ typedef struct {
     const unsigned char *varies;     /* a column has a value for each collision, or one for all */
     double rtol;
     answer *answers;
-    happening *log;
+    record *also;
     long count, next;
     int budget;
     long queued, taken; /* collisions that are waiting, of `rows` */
@@ -63,8 +71,8 @@ static void put(queue *q, long index, int status, int outcome, int certified)
 static void note(queue *q, long index, int kind, double time)
 {
     answer *a = &q->answers[index];
-    if (q->log && a->events < MOST_EVENTS)
-        q->log[index*MOST_EVENTS + a->events] = (happening){kind, time};
+    if (q->also && q->also->log && a->events < q->also->log_room)
+        q->also->log[index*q->also->log_room + a->events] = (happening){kind, time};
     a->events++;
 }
 
@@ -143,6 +151,9 @@ static void fill_queue(queue *q)
             }
             if (proved >> lane & 1) {
                 put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
+#if WITH_LEDGER
+                close_book((ledger *)q->also->books + first + lane, &f.c, y, lane);
+#endif
                 continue;
             }
             q->waiting[q->queued] = first + lane;
@@ -201,5 +212,8 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
     }
+#if WITH_LEDGER
+    close_book((ledger *)q->also->books + l->index[lane], &f->c, l->y, lane);
+#endif
     refill(q, l, f, lane);
 }
