@@ -51,6 +51,7 @@ class Record(ctypes.Structure):
         ("log_room", ctypes.c_long),
         ("step_room", ctypes.c_long),
         ("steps", ctypes.c_long),
+        ("purpose", ctypes.c_long),
     ]
 
 

@@ -25,6 +25,12 @@ _KINDS = (
     "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
     "rotation reverses", "half turn",
 )  # fmt: skip
+TURNED, FELL_BACK = (_KINDS.index(kind) for kind in ("turned", "fell back"))
+
+
+def kind_of(answer: np.void) -> tuple[str, str | None]:
+    """Outcome of an answer, and the first criterion met."""
+    return _OUTCOMES[answer["outcome"]], _KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
 
 
 def collision(
@@ -42,6 +48,7 @@ def collision(
         return None
     energy = None if told.ledger is None else _energy(scene, n, told.ledger[0])
     found = told.answers[0]
+    outcome, reversal = kind_of(found)
     separated = bool(found["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
         return None  # the flight is wrong, whatever else it looks like
@@ -54,7 +61,7 @@ def collision(
 
     time = float(found["time"]) * n.time
     return Collision(
-        outcome=_OUTCOMES[found["outcome"]],
+        outcome=outcome,
         restitution=float(found["shown"][0]) if separated else 0.0,
         tangential_restitution=shown(1, 1.0) if n.oblique else None,
         rotation=float(found["turned"]) if separated else None,
@@ -68,7 +75,7 @@ def collision(
         reynolds=n.reynolds,
         speed=n.speed,
         angle=n.angle,
-        reversal=_KINDS[found["reversal"]] if found["reversal"] >= 0 else None,
+        reversal=reversal,
         certified=bool(found["certified"]),
         until=None if separated else time,
         events=tuple(Event(_KINDS[int(each["kind"])], float(each["time"]) * n.time) for each in happened),

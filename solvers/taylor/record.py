@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 
@@ -16,6 +17,14 @@ LEDGER = np.dtype(
     [(name, "f8") for name in ("initial", "final", "lifted", "normal", "tangential", "capillary", "dry", "momentum")]
 )
 _LOG_ROOM, _STEP_ROOM = 64, 256  # of a collision; where they are not enough the flight is repeated with more
+
+
+class Purpose(IntEnum):
+    """What a flight with its steps is for: in the order of runtime/queue.h."""
+
+    WHOLE = 0
+    APPROACH = 1  # it ends where it turns or is reversed, and nothing is proved
+    ESCAPE = 2  # it ends where it falls back or rests, and is proved a stick only while it approaches
 
 
 @dataclass(frozen=True)
@@ -34,6 +43,13 @@ class Steps:
     def of(self, collision: int) -> Steps:
         """Those of one collision."""
         return Steps(self.rows[self.rows["collision"] == collision], self.turned)
+
+    def within(self, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Times at the same parts of every step, and the states there (a row each)."""
+        since = self.rows["length"][:, None] * parts
+        powers = since[:, None, :] ** np.arange(self.rows["series"].shape[2])[:, None]
+        states = np.moveaxis(self.rows["series"] @ powers, 1, 0)
+        return (self.rows["time"][:, None] + since).ravel(), states.reshape(states.shape[0], since.size)
 
     def states(self, times: np.ndarray) -> np.ndarray:
         """States (a row each) of one collision at times (x0/v0) within its flight, from the step that holds them."""
@@ -63,12 +79,14 @@ def recorded(
     ledger: bool = False,
     trajectory: bool = False,
     budget: int = BUDGET,
+    purpose: Purpose = Purpose.WHOLE,
 ) -> Recorded | None:
     """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
 
     Arguments:
         ledger: also the energy ledger; the spin is then a state of its own.
         trajectory: also every step.
+        purpose: other than WHOLE only with a trajectory.
     """
     if not knows(impacts.scene):
         return None
@@ -80,8 +98,8 @@ def recorded(
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, LEDGER)
-        rows = np.zeros(step_room, _row(library) if trajectory else ANSWER)
-        also = Record(log.ctypes.data, books.ctypes.data, rows.ctypes.data, log_room, step_room, 0)
+        rows = np.empty(step_room, _row(library) if trajectory else ANSWER)  # the kernel fills those that it counts
+        also = Record(log.ctypes.data, books.ctypes.data, rows.ctypes.data, log_room, step_room, 0, purpose)
         fly(impacts, answers, also)
         most = int(answers["events"].max())
         if most <= log_room and also.steps <= step_room:

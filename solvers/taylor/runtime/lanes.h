@@ -105,7 +105,11 @@ static void fly(queue *q)
         sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
 #endif
         }
-        for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
+        unsigned proved = bits(l.alive & sticks);
+#if WITH_TRAJECTORY
+        proved &= provable(q, l.closing);
+#endif
+        for (; proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         if (!bits(l.alive))
             break;
@@ -135,7 +139,11 @@ static void fly(queue *q)
         mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
         for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
             int lane = __builtin_ctz(event);
+#if WITH_TRAJECTORY
+            act_for_purpose(q, &l, &f, lane, (int)found.event[lane]);
+#else
             act(q, &l, &f, lane, (int)found.event[lane]);
+#endif
         }
         l.steps += 1;
         mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));

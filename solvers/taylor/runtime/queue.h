@@ -25,7 +25,12 @@ typedef struct {
     void *books;    /* a ledger a collision */
     void *rows;     /* `step_room` steps of all collisions; `steps` counts those that found none as well */
     long log_room, step_room, steps;
+    long purpose; /* as below; kernels with a trajectory heed it */
 } record;
+
+/* A flight to its end; the approach alone, nothing proved; one that is over when it falls back or rests, and is proved a
+ * stick only while it approaches (solvers/probe.py). */
+enum { WHOLE, APPROACH, ESCAPE };
 
 /* What is fixed for a flight. */
 typedef struct {
@@ -57,6 +62,15 @@ typedef struct {
 } queue;
 
 enum { FIXED = sizeof(fixed)/sizeof(vec) };
+
+#if WITH_TRAJECTORY
+/* Lanes whose stick may be proved, for the purpose of a flight. */
+static unsigned provable(const queue *q, mask closing)
+{
+    long purpose = q->also->purpose;
+    return purpose == WHOLE ? ~0u : purpose == ESCAPE ? bits(closing) : 0u;
+}
+#endif
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
@@ -143,6 +157,9 @@ static void fill_queue(queue *q)
         proved = bits(held_by_strings(&f.c, y, q->rtol));
 #elif !OBLIQUE
         proved = bits(stopped_by_film(&f.c, y, f.contact, splat_mask(-1), q->rtol));
+#endif
+#if WITH_TRAJECTORY
+        proved &= provable(q, splat_mask(-1));
 #endif
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {

@@ -37,3 +37,16 @@ static void keep_steps(queue *q, const flights *l, const vec (*a)[TERMS], vec le
                 row->series[state][k] = a[state][k][lane];
     }
 }
+
+/* What an event does, and whether the purpose of the flight is fulfilled with it. */
+static void act_for_purpose(queue *q, flights *l, fixed *f, int lane, int event)
+{
+    long purpose = q->also->purpose, index = l->index[lane];
+    int closing = l->closing[lane] != 0;
+    act(q, l, f, lane, event);
+    if (purpose == WHOLE || !l->alive[lane] || l->index[lane] != index)
+        return;
+    int closes = l->closing[lane] != 0;
+    if (purpose == APPROACH ? closing && !closes : l->resting[lane] || (!closing && closes))
+        finish(q, l, f, lane, DECIDED, STICK, 0);
+}
