@@ -14,13 +14,13 @@ from functools import cached_property
 
 import numpy as np
 
-from .certificate import Barrier, energy_proof
 from .errors import ComputationError
 from .integrators import IntegrationFailed, locator, plain, tolerance
 from .locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
 from .model import Model, choose, load
 from .numbers import Numbers, numbers
 from .phases import CLOSING, Flow
+from .proofs import energy_proof
 from .saddle import barrier_of, saddle_of
 from .scene import Scene
 from .taylor import probe as by_kernel

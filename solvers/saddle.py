@@ -8,10 +8,10 @@ from functools import lru_cache
 import numpy as np
 from casadi import Function, jacobian
 
-from .certificate import Barrier, energy_proof
 from .locate import Locate
 from .model import Model
 from .phases import Region
+from .proofs import Barrier, energy_proof
 
 # A doublet this near (of the barrier's gap) on the unstable mode alone, all others this much smaller, follows it.
 _NEAR, _ALONE = 0.1, 1e-3

@@ -130,17 +130,8 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += [emitted.header(path) for path in paths]
     wanted = {"ledger.h": variant.ledger, "trajectory.h": variant.trajectory}
-    runtime = (
-        "roots.h",
-        "barrier.h",
-        "ledger.h",
-        "queue.h",
-        "rules.h",
-        "events.h",
-        "damped.h",
-        "trajectory.h",
-        "lanes.h",
-    )
+    names = ["roots", "barrier", "ledger", "queue", "rules", "events", "damped", "crawl", "trajectory", "lanes"]
+    runtime = [f"{name}.h" for name in names]
     parts += [(_RUNTIME / name).read_text() for name in runtime if wanted.get(name, True)]
     return "\n".join(parts)
 

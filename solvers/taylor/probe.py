@@ -12,7 +12,7 @@ import numpy as np
 
 from ..numbers import Numbers
 from ..scene import Scene
-from .engine import BUDGET, Impacts
+from .engine import Impacts
 from .one import FELL_BACK, TURNED, kind_of
 from .record import Purpose, Recorded, Steps, recorded
 
@@ -52,7 +52,9 @@ class Escaping:
 
 def seen(scene: Scene, speeds: Sequence[float], angle: float, rtol: float) -> list[Seen | None] | None:
     """Whole collisions at normal speeds (m/s) and one angle (rad), all in one call."""
-    found = _flown(scene, np.array(speeds), angle, rtol, {}, Purpose.WHOLE)
+    all_at = np.array(speeds)
+    impacts = Impacts(scene, all_at, np.full(all_at.size, angle), {})
+    found = recorded(impacts, angle > 0, rtol, trajectory=True, keep=False)
     if found is None:
         return None
     return [Seen(*kind_of(each), bool(each["status"] == 1)) if each["status"] <= 1 else None for each in found.answers]
@@ -151,7 +153,7 @@ def _flown(
     rtol: float,
     solids: dict[str, float],
     purpose: Purpose,
-    budget: int = BUDGET,
+    budget: int,
 ) -> Recorded | None:
     others = {name: np.full(speeds.size, value) for name, value in solids.items()}
     impacts = Impacts(scene, speeds, np.full(speeds.size, angle), others)

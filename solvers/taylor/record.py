@@ -80,6 +80,7 @@ def recorded(
     trajectory: bool = False,
     budget: int = BUDGET,
     purpose: Purpose = Purpose.WHOLE,
+    keep: bool = True,
 ) -> Recorded | None:
     """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
 
@@ -87,6 +88,7 @@ def recorded(
         ledger: also the energy ledger; the spin is then a state of its own.
         trajectory: also every step.
         purpose: other than WHOLE only with a trajectory.
+        keep: the steps; else the same kernel flies without writing them down.
     """
     if not knows(impacts.scene):
         return None
@@ -94,20 +96,19 @@ def recorded(
     if library is None:
         return None
     fly, size = calling(library, rtol, budget), impacts.angle.size
-    log_room, step_room = _LOG_ROOM, _STEP_ROOM * size if trajectory else 0
+    keep &= trajectory
+    log_room, step_room = _LOG_ROOM, _STEP_ROOM * size if keep else 0
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, LEDGER)
-        rows = np.empty(step_room, _row(library) if trajectory else ANSWER)  # the kernel fills those that it counts
+        rows = np.empty(step_room, _row(library) if keep else ANSWER)  # the kernel fills those that it counts
         also = Record(log.ctypes.data, books.ctypes.data, rows.ctypes.data, log_room, step_room, 0, purpose)
         fly(impacts, answers, also)
         most = int(answers["events"].max())
-        if most <= log_room and also.steps <= step_room:
+        if most <= log_room and (also.steps <= step_room or not keep):
             break
         log_room, step_room = max(most, log_room), max(also.steps, step_room)
-    return Recorded(
-        answers, log, books if ledger else None, _steps(library, rows[: also.steps]) if trajectory else None
-    )
+    return Recorded(answers, log, books if ledger else None, _steps(library, rows[: also.steps]) if keep else None)
 
 
 def _row(library: ctypes.CDLL) -> np.dtype:
