@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -20,12 +20,14 @@ from .locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
 from .model import Model, choose, load
 from .numbers import Numbers, numbers
 from .phases import CLOSING, Flow
-from .proofs import energy_proof
+from .proofs import Barrier, energy_proof
 from .saddle import barrier_of, saddle_of
 from .scene import Scene
+from .settings import RTOL
 from .taylor import probe as by_kernel
-from .taylor.library import knows
+from .taylor.library import compile_all, knows
 from .taylor.probe import Escaping, Seen
+from .taylor.record import variant
 
 _NEVER = 1e30  # a glass number that no pressure meets
 WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
@@ -35,6 +37,12 @@ _ESCAPE_STEPS = (400, 20_000)  # of the kernel, first to see whether all that is
 _CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
 _DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
 _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
+
+
+def ready(scenes: Iterable[Scene]) -> None:
+    """Compile what the kernel needs for boundaries of these scenes, on all cores."""
+    wanted = (variant(choose(scene, True), RTOL, trajectory=True) for scene in scenes if knows(scene))
+    compile_all(set(wanted))
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Collection
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -155,6 +157,13 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     pointer, number = ctypes.c_void_p, ctypes.c_int
     loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, pointer]
     return loaded
+
+
+def compile_all(variants: Collection[Variant]) -> None:
+    """Have the kernels of several variants, compiled side by side where they are not there yet."""
+    if len(variants) > 1:
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:  # compilers are processes of their own
+            list(pool.map(kernel, variants))
 
 
 def _built(path: str, text: str, library: Path) -> bool:

@@ -8,7 +8,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from ..model import choose
+from ..model import Choice, choose
 from .engine import BUDGET, Impacts, Record, calling, order_for
 from .library import ANSWER, Variant, kernel, knows
 
@@ -72,6 +72,11 @@ class Recorded:
     steps: Steps | None
 
 
+def variant(choice: Choice, rtol: float, ledger: bool = False, trajectory: bool = False) -> Variant:
+    """The kernel that `recorded` flies with."""
+    return Variant(choice, order_for(rtol), True, ledger, trajectory)
+
+
 def recorded(
     impacts: Impacts,
     oblique: bool,
@@ -92,7 +97,7 @@ def recorded(
     """
     if not knows(impacts.scene):
         return None
-    library = kernel(Variant(choose(impacts.scene, oblique, full=ledger), order_for(rtol), True, ledger, trajectory))
+    library = kernel(variant(choose(impacts.scene, oblique, full=ledger), rtol, ledger, trajectory))
     if library is None:
         return None
     fly, size = calling(library, rtol, budget), impacts.angle.size
