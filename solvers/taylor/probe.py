@@ -57,7 +57,7 @@ def seen(scene: Scene, speeds: Sequence[float], angle: float, rtol: float) -> li
     found = recorded(impacts, angle > 0, rtol, trajectory=True, keep=False)
     if found is None:
         return None
-    return [Seen(*kind_of(each), bool(each["status"] == 1)) if each["status"] <= 1 else None for each in found.answers]
+    return [Seen(*kind_of(each), bool(each["time"] == 0)) if each["status"] <= 1 else None for each in found.answers]
 
 
 def approach(
@@ -90,8 +90,8 @@ def approach(
     def at(times: np.ndarray) -> np.ndarray:
         return pressure(steps.states(times)[:states])
 
-    times, y = steps.within(_PARTS)
-    values = pressure(y[:states])
+    times, y = steps.within(_PARTS[:-1])  # no time twice: a maximum lies between its neighbours
+    times, values = np.append(times, end), pressure(np.column_stack([y, last])[:states])
     for _ in range(_ZOOMS):
         top = int(np.argmax(values))
         times = np.linspace(times[max(top - 1, 0)], times[min(top + 1, times.size - 1)], _FINER + 1)
