@@ -25,9 +25,9 @@ from .saddle import barrier_of, saddle_of
 from .scene import Scene
 from .settings import RTOL
 from .taylor import probe as by_kernel
+from .taylor.engine import variant
 from .taylor.library import compile_all, knows
 from .taylor.probe import Escaping, Seen
-from .taylor.record import variant
 
 _NEVER = 1e30  # a glass number that no pressure meets
 WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
@@ -41,7 +41,8 @@ _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a ph
 
 def ready(scenes: Iterable[Scene]) -> None:
     """Compile what the kernel needs for boundaries of these scenes, on all cores."""
-    wanted = (variant(choose(scene, True), RTOL, trajectory=True) for scene in scenes if knows(scene))
+    known = (scene for scene in scenes if knows(scene))
+    wanted = (variant(scene, choose(scene, True), RTOL, True, trajectory=True) for scene in known)
     compile_all(set(wanted))
 
 

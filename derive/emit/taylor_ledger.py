@@ -15,11 +15,16 @@ from .printer import EmissionError
 from .taylor_c import Constants, Recurrences, comment, function
 from .taylor_program import Program
 
-#: Terms of the ledger that are series of their own, and their names; the capillary work is the structure's own state.
-TERMS = {"normal_lubrication": "normal_loss", "tangential_lubrication": "tangential_loss"}
+#: Terms of the ledger that are series of their own; the work against all attractions together is a state already.
+TERMS = {
+    "normal_lubrication": "normal_loss",
+    "tangential_lubrication": "tangential_loss",
+    "attraction": "attraction_work",
+}
 _MEANING = {
     "normal_loss": "energy taken by the film's normal force, over m v0^2",
     "tangential_loss": "energy taken by the tangential force, over m v0^2",
+    "attraction_work": "work against van der Waals forces, over m v0^2",
 }
 Valued = Callable[[list[tuple[str, sp.Expr]], str, dict[str, str], str, Constants], list[str]]
 
@@ -69,7 +74,10 @@ class Ledger:
         """Where its states are, after all others."""
         first, *others = (name.upper() for name in self._rates) if self.there else ("",)
         start = f"{first} = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE"
-        return behind_flag([f"enum {{ {', '.join([start, *others])} }};"] if self.there else [])
+        lines = [f"enum {{ {', '.join([start, *others])} }};"]
+        if "tangential_loss" in self._rates:
+            lines.append("#define TANGENTIAL 1")
+        return behind_flag(lines if self.there else [])
 
     def states(self) -> list[str]:
         """Series of its states."""
@@ -103,7 +111,7 @@ class Ledger:
         """Energies of a state, its angular momentum, and the loss of a reversal."""
         if not self.there:
             return []
-        model, shape = self.model, self.model.structure
+        model = self.model
         energies = list(model["energies"].outputs)
         places = {key: f"energy[{position}]" for position, (key, _) in enumerate(energies)}
         lines = valued(
@@ -117,10 +125,10 @@ class Ledger:
         head = "static inline vec reversal_loss(const constants *c, const vec *y)"
         lines += valued(list(loss.outputs), head, {"dry_contact": "return"}, loss.doc, self.constants)
         head = "static inline vec angular_momentum(const constants *c, const vec *y)"
-        if shape.oblique:
+        if any(each.name == "angular_momentum" for each in model.functions):
             momentum = model["angular_momentum"]
             lines += valued(list(momentum.outputs), head, {"angular_momentum": "return"}, momentum.doc, self.constants)
         else:
-            doc = "Head-on there is no angular momentum to drift."
+            doc = "There is no angular momentum that would be conserved."
             lines += [*comment(doc), *function(head, ["(void)c; (void)y;", "return splat(1.0);"]), ""]
         return [*behind_flag([f"enum {{ ENERGIES = {len(energies)} }};", *lines[:-1]]), ""]

@@ -25,6 +25,9 @@
 #define BRIDGE 0
 #define STRINGS 1
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 0)
 #if WITH_LEDGER
@@ -280,7 +283,7 @@ static inline vec reversal_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* Head-on there is no angular momentum to drift. */
+/* There is no angular momentum that would be conserved. */
 static inline vec angular_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model import choose
+from ..model import Choice, choose
 from ..numbers import si_values
 from ..scene import Scene
 from .library import ANSWER, LARGEST_ORDER, Variant, kernel, knows
@@ -63,6 +63,14 @@ def order_for(rtol: float) -> int:
     return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
 
 
+def variant(
+    scene: Scene, choice: Choice, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
+) -> Variant:
+    """What the kernel of a scene is compiled for, at a tolerance."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(choice, order_for(rtol), rotation, own, ledger, trajectory)
+
+
 def answers(
     impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = BUDGET
 ) -> np.ndarray | None:
@@ -75,9 +83,7 @@ def answers(
     found = np.zeros(impacts.angle.size, ANSWER)
     for oblique in (True, False):
         which = np.flatnonzero((impacts.angle > 0) == oblique)
-        if which.size and not _fill(
-            found, impacts, which, _plain(impacts.scene, oblique, rtol, rotation, budget), threads
-        ):
+        if which.size and not _fill(found, impacts, which, _plain(impacts, oblique, rtol, rotation, budget), threads):
             return None
     return found
 
@@ -105,10 +111,13 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
     return True
 
 
-def _plain(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
+def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
+    """The kernel of these impacts; None if there is none here."""
+    scene = those.scene
     if not knows(scene):
         return None
-    library = kernel(Variant(choose(scene, oblique), order_for(rtol), rotation))
+    choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
+    library = kernel(variant(scene, choice, rtol, rotation))
     return None if library is None else calling(library, rtol, budget)
 
 

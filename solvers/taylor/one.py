@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..cohesion import generalised_centrifugal
 from ..model import choose, load
 from ..numbers import Numbers
 from ..phases import CLOSING, OPENING, Phase
@@ -59,6 +60,12 @@ def collision(
             return None
         return float(found["shown"][position]) * scale if n.oblique else 0.0
 
+    def partner_spin() -> float | None:
+        if scene.wall:
+            return 0.0 if separated else None
+        unequal = choose(scene, n.oblique, fold=True).structure.startswith("oblique_pair")
+        return shown(4 if unequal else 3, n.rate)
+
     time = float(found["time"]) * n.time
     return Collision(
         outcome=outcome,
@@ -69,8 +76,10 @@ def collision(
         smallest_gap=float(found["smallest_gap"]) * n.length if separated else None,
         final_rotation_rate=shown(2, n.rate),
         final_spin=shown(3, n.rate),
+        final_spin_partner=None if scene.partner is None else partner_spin(),
         stokes=n.stokes,
         centrifugal=n.centrifugal,
+        generalised_centrifugal=generalised_centrifugal(scene, n),
         capillary=n.capillary,
         reynolds=n.reynolds,
         speed=n.speed,
@@ -96,14 +105,15 @@ def _energy(scene: Scene, n: Numbers, book: np.void) -> Energy:
         normal_lubrication=own["normal"],
         tangential_lubrication=own["tangential"],
         capillary=own["capillary"],
+        attraction=own["attraction"] if scene.attraction is not None else None,
         dry_contact=own["dry"],
         strings=own["lifted"] if scene.pendulum is not None else 0.0,
     )
 
 
 def _drift(scene: Scene, n: Numbers, book: np.void) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings, which take from L; 0 head-on."""
-    if scene.pendulum is not None:
+    """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
+    if scene.pendulum is not None or (scene.wall and n.oblique):
         return None
     return abs(float(book["momentum"]) - 1.0) if n.oblique else 0.0
 
@@ -112,7 +122,7 @@ def _trajectory(scene: Scene, n: Numbers, rtol: float, told: Recorded, full: boo
     from ..trajectory import attributes, dataset  # imports xarray
 
     assert told.steps is not None
-    model = load(choose(scene, n.oblique, full=full))
+    model = load(choose(scene, n.oblique, full=full, fold=True))
     attrs = attributes(scene, _OUTCOMES[told.answers["outcome"][0]], "taylor", rtol)
     return dataset(stretches(told.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs)
 

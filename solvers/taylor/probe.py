@@ -157,4 +157,4 @@ def _flown(
 ) -> Recorded | None:
     others = {name: np.full(speeds.size, value) for name, value in solids.items()}
     impacts = Impacts(scene, speeds, np.full(speeds.size, angle), others)
-    return recorded(impacts, angle > 0, rtol, trajectory=True, budget=budget, purpose=purpose)
+    return recorded(impacts, angle > 0, rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)

@@ -8,13 +8,26 @@ from enum import IntEnum
 
 import numpy as np
 
-from ..model import Choice, choose
-from .engine import BUDGET, Impacts, Record, calling, order_for
-from .library import ANSWER, Variant, kernel, knows
+from ..model import choose
+from .engine import BUDGET, Impacts, Record, calling, variant
+from .library import ANSWER, kernel, knows
 
 HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")])
 LEDGER = np.dtype(
-    [(name, "f8") for name in ("initial", "final", "lifted", "normal", "tangential", "capillary", "dry", "momentum")]
+    [
+        (name, "f8")
+        for name in (
+            "initial",
+            "final",
+            "lifted",
+            "normal",
+            "tangential",
+            "capillary",
+            "attraction",
+            "dry",
+            "momentum",
+        )
+    ]
 )
 _LOG_ROOM, _STEP_ROOM = 64, 256  # of a collision; where they are not enough the flight is repeated with more
 
@@ -72,11 +85,6 @@ class Recorded:
     steps: Steps | None
 
 
-def variant(choice: Choice, rtol: float, ledger: bool = False, trajectory: bool = False) -> Variant:
-    """The kernel that `recorded` flies with."""
-    return Variant(choice, order_for(rtol), True, ledger, trajectory)
-
-
 def recorded(
     impacts: Impacts,
     oblique: bool,
@@ -86,6 +94,7 @@ def recorded(
     budget: int = BUDGET,
     purpose: Purpose = Purpose.WHOLE,
     keep: bool = True,
+    fold: bool = True,
 ) -> Recorded | None:
     """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
 
@@ -93,11 +102,13 @@ def recorded(
         ledger: also the energy ledger; the spin is then a state of its own.
         trajectory: also every step.
         purpose: other than WHOLE only with a trajectory.
+        fold: a partner that equals the sphere is treated as such.
         keep: the steps; else the same kernel flies without writing them down.
     """
     if not knows(impacts.scene):
         return None
-    library = kernel(variant(choose(impacts.scene, oblique, full=ledger), rtol, ledger, trajectory))
+    choice = choose(impacts.scene, oblique, full=ledger, fold=fold)
+    library = kernel(variant(impacts.scene, choice, rtol, True, ledger, trajectory))
     if library is None:
         return None
     fly, size = calling(library, rtol, budget), impacts.angle.size

@@ -13,7 +13,7 @@ import pytest
 from wetdoublet.solvers import Collision, Scene, collide
 from wetdoublet.solvers.compiled import compiler
 from wetdoublet.solvers.model import choose
-from wetdoublet.solvers.taylor import library, record
+from wetdoublet.solvers.taylor import headers, library, record
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9
@@ -161,7 +161,7 @@ def test_who_does_not_ask_does_not_pay(reduced: bool):
     """What a compiler sees of the plain kernel has no field, constant or function of the variants."""
     scene = Scene.load("granulation" if reduced else "pendulum")
     variant = library.Variant(choose(scene, True), 10)
-    paths = library.headers(variant.choice)
+    paths = headers.headers(variant.choice)
     found = compiler()
     assert paths is not None
     assert found is not None

@@ -101,9 +101,9 @@ static void fly(queue *q)
         if (!bits(l.alive))
             break;
         /* a stick is as good a step later: the level is looked at in every second turn */
-        mask sticks = splat_mask(0);
+        mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
-            sticks = proved_in_flight(&l, &f, q->rtol);
+            sticks |= proved_in_flight(&l, &f, q->rtol);
 #if WITH_TRAJECTORY
         sticks &= provable(q, l.closing);
 #endif
@@ -114,7 +114,7 @@ static void fly(queue *q)
             continue;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
         vec h = only(l.alive, step_size(&s, &f, &creeps));
         if (bits(creeps))
@@ -128,7 +128,10 @@ static void fly(queue *q)
 #if WITH_TRAJECTORY
         keep_steps(q, &l, a, h);
 #endif
-        for (int state = 0; state < STATES; state++)
+        if (bits(falls))
+            found.gap = sum_at(a[GAP], h);
+        l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
+        for (int state = GAP + 1; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);

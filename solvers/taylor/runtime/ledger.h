@@ -5,7 +5,7 @@
 typedef struct {
     double initial, final; /* kinetic */
     double lifted;         /* gain of the strings' potential */
-    double normal, tangential, capillary, dry;
+    double normal, tangential, capillary, attraction, dry;
     double momentum; /* angular momentum over its start value */
 } ledger;
 
@@ -32,11 +32,14 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
     book->final = stored[1][0][lane];
     book->lifted = ENERGIES > 1 ? stored[1][ENERGIES - 1][lane] - stored[0][ENERGIES - 1][lane] : 0.0;
     book->normal = y[NORMAL_LOSS][lane];
-#if OBLIQUE
+#if defined(TANGENTIAL)
     book->tangential = y[TANGENTIAL_LOSS][lane];
 #endif
+#if ATTRACTION
+    book->attraction = y[ATTRACTION_WORK][lane];
+#endif
 #if CAPILLARY_STATE
-    book->capillary = y[CAPILLARY_WORK][lane];
+    book->capillary = y[CAPILLARY_WORK][lane] - book->attraction; /* the state is the work against all that attracts */
 #endif
     book->momentum = angular_momentum(c, y)[lane];
 }
