@@ -22,6 +22,7 @@ from .probe import Line
 from .requests import checked_numbers
 from .scene import Scene
 from .settings import RTOL, check_rtol
+from .taylor.library import knows
 from .validity import warn
 
 STOKES = (1e-4, 100.0)
@@ -30,6 +31,7 @@ _PER_DECADE = 1.7  # of the coarse scan
 _BESIDE = 2.0  # factor about the changes of two lines in which those between them are looked for
 _SURROUND = 1.3  # where the pattern of changes is another one than at the last angle
 _CLOSE = 6  # times that the angles about a change of pattern are halved for a picture
+_WORTH, _WORTH_BY_KERNEL = 30, 200  # angles that are worth starting a process for
 _AROUND, _NEAR = 3e-3, 1e-4  # relative doubt of a prediction from two lines, and at least from three
 
 
@@ -113,7 +115,8 @@ def boundary(
     rtol = check_rtol(rtol)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
-    cores = min(os.cpu_count() or 1, max(1, angles.size // 30))  # each part starts with a scan of its own
+    worth = _WORTH_BY_KERNEL if knows(loaded) else _WORTH
+    cores = min(os.cpu_count() or 1, max(1, angles.size // worth))  # each part starts with a scan of its own
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0)
     for part in _traces(loaded, parts, (low, high), rtol):

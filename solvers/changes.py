@@ -35,6 +35,7 @@ class Change:
 def between(line: Line, grid: Sequence[float]) -> list[Change]:
     """All changes that show between neighbours of a grid of Stokes numbers, or at a criterion between them."""
     changes: list[Change] = []
+    line.look(grid)
     for low, high in pairwise(grid):
         changes += _in_bracket(line, low, high)
     return changes
@@ -107,6 +108,7 @@ def followed(line: Line, pattern: Sequence[Change], predicted: Sequence[float], 
     middles = [math.sqrt(low * high) for low, high in pairwise(edges)]
     # nearer to the outermost changes than the middle of so many decades
     middles[0], middles[-1] = max(middles[0], edges[1] / 2), min(middles[-1], edges[-2] * 2)
+    line.look(middles)
     return changes if changes and [line.outcome(middle) for middle in middles] == expected else None
 
 

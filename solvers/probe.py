@@ -8,26 +8,42 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property
 
 import numpy as np
-from casadi import Function, jacobian
 
 from .errors import ComputationError
 from .integrators import IntegrationFailed, locator, plain, tolerance
 from .locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
 from .model import Model, choose, load
 from .numbers import Numbers, numbers
-from .phases import CLOSING, Flow, Region
+from .phases import CLOSING, Flow
 from .proofs import Barrier, energy_proof
+from .saddle import barrier_of, saddle_of
 from .scene import Scene
+from .settings import RTOL
+from .taylor import probe as by_kernel
+from .taylor.engine import variant
+from .taylor.library import compile_all, knows
+from .taylor.probe import Escaping, Seen
 
 _NEVER = 1e30  # a glass number that no pressure meets
 WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
+_UNMET = {"glass_number": 0.0}  # the glass event's function is then the pressure itself
+_RIGID = {"youngs_modulus": 1e300}  # Pa: solids that have no elastic length
+_ESCAPE_STEPS = (400, 20_000)  # of the kernel, first to see whether all that is left is creeping past a saddle
 _CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
 _DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
 _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
+
+
+def ready(scenes: Iterable[Scene]) -> None:
+    """Compile what the kernel needs for boundaries of these scenes, on all cores."""
+    known = (scene for scene in scenes if knows(scene))
+    wanted = (variant(scene, choose(scene, True), RTOL, True, trajectory=True) for scene in known)
+    compile_all(set(wanted))
 
 
 @dataclass(frozen=True)
@@ -46,7 +62,7 @@ class Line:
     angle: float
     rtol: float
     collisions: int = 0
-    _known: dict[float, Path] = field(default_factory=dict)
+    _known: dict[float, Seen] = field(default_factory=dict)
 
     def numbers(self, stokes: float) -> Numbers:
         """Dimensionless numbers at a Stokes number."""
@@ -56,18 +72,35 @@ class Line:
     def model(self) -> Model:
         return load(choose(self.scene, self.angle > 0))
 
+    @cached_property
+    def kernel(self) -> bool:
+        """Whether the Taylor kernel flies here; what it hands over is flown all the same."""
+        return knows(self.scene)
+
     def outcome(self, stokes: float) -> str:
         """The outcome of a whole collision."""
-        return self._path(stokes).outcome
+        return self._seen(stokes).outcome
 
     def met(self, stokes: float) -> bool:
         """Whether a whole collision meets a reversal criterion."""
-        return self._path(stokes).reversal is not None
+        return self._seen(stokes).reversal is not None
 
-    def _path(self, stokes: float) -> Path:
+    def look(self, grid: Sequence[float]) -> None:
+        """Fly whole collisions at several Stokes numbers at once, where that is cheaper than one by one."""
+        new = [stokes for stokes in grid if stokes not in self._known]
+        if not new or not self.kernel:
+            return
+        speeds = [self.scene.speed_of(stokes) for stokes in new]
+        for stokes, found in zip(new, by_kernel.seen(self.scene, speeds, self.angle, self.rtol) or (), strict=False):
+            if found is not None:
+                self._known[stokes] = found
+                self.collisions += not found.at_touch
+
+    def _seen(self, stokes: float) -> Seen:
+        self.look([stokes])
         if stokes not in self._known:
-            groups = self.numbers(stokes).groups
-            path = self._known[stokes] = Locate(self.model, groups, self.rtol, machine_code=True).run()
+            path = Locate(self.model, self.numbers(stokes).groups, self.rtol, machine_code=True).run()
+            self._known[stokes] = Seen(path.outcome, path.reversal, at_touch=path.time == 0)
             self.collisions += path.time > 0
         return self._known[stokes]
 
@@ -77,16 +110,42 @@ class Line:
         The approach is followed without reversal, so the function is smooth where a criterion is just met.
         """
         self.collisions += 1
-        groups = self.numbers(stokes).groups
+        n = self.numbers(stokes)
+        groups, model = n.groups, self.model
         contact = max(groups["elastic_gap"], groups["rough_gap"])
-        pressure, smallest = approach(self.model, groups, self.rtol)
+        found = None
+        if self.kernel:
+            p = model.group_values(groups | _UNMET)
+            solids = self._no_glass(groups) | _RIGID | {"roughness": _DEEP * contact * n.length}
+            found = by_kernel.approach(
+                self.scene, n, self.rtol, solids, len(model.state), lambda y: _pressures(model, y, p), _CREEPING
+            )
+        pressure, smallest = found or approach(model, groups, self.rtol)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
     def escape(self, stokes: float, reversed_: bool) -> Escape:
         """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
         self.collisions += 1
-        return smooth_escape(self.model, self.numbers(stokes).groups, self.rtol, reversed_)
+        n = self.numbers(stokes)
+        groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
+        solids = {} if reversed_ else self._no_glass(n.groups) | _RIGID | {"roughness": 0.0}
+        probe = Probe(self.model, groups, self.rtol)
+        for steps in _ESCAPE_STEPS if self.kernel else ():
+            flown = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
+            if flown is None:
+                break
+            probe.y[: flown.end.size] = flown.end
+            separates = flown.separated if flown.decided else _creeps_out(probe)
+            if separates is not None:
+                return Escape(separates, _smooth(probe, flown))
+            probe.y = probe.path.y.copy()
+        return smooth_escape(self.model, n.groups, self.rtol, reversed_)
+
+    def _no_glass(self, groups: dict[str, float]) -> dict[str, float]:
+        """A glass-transition pressure that no film has."""
+        pressure = self.scene.liquid.glass_transition_pressure
+        return {"glass_transition_pressure": pressure * (_NEVER / groups["glass_number"])}
 
 
 def smooth_escape(
@@ -97,7 +156,7 @@ def smooth_escape(
         groups = groups | WITHOUT_SOLIDS
     probe = Probe(model, groups, rtol, machine_code=machine_code)
     path = probe.run()
-    return Escape(path.separated, _smooth(probe, path))
+    return Escape(path.separated, _smooth(probe, _Located(probe, path)))
 
 
 def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
@@ -106,7 +165,7 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
     It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
     """
     deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
-    unmet = {"glass_number": 0.0, "elastic_gap": 0.0, "rough_gap": deep}
+    unmet = _UNMET | {"elastic_gap": 0.0, "rough_gap": deep}
     flight = Locate(model, groups | unmet, rtol, (), machine_code)
     y, phase, p = flight.y, flight.phase, flight.p
     pressure = _pressure(model, y, p)
@@ -138,6 +197,13 @@ def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
     return -model.values("events", y, p)["glass"]
 
 
+def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """Scaled film pressure on the axis at states, as columns."""
+    events = np.asarray(model.function("events")(states, p).full())
+    pressures: np.ndarray = -events[model.names("events").index("glass")]
+    return pressures
+
+
 class Probe(Locate):
     """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
 
@@ -153,76 +219,64 @@ class Probe(Locate):
         return over or fell_back or self.phase.resting
 
 
-def _smooth(probe: Locate, path: Path) -> float | None:
+class _Located:
+    """A located flight as `Escaping` has it; it is sampled when it is asked for."""
+
+    def __init__(self, probe: Locate, path: Path) -> None:
+        self.probe, self.path = probe, path
+        self.separated = path.separated
+        self.fell_back = bool(path.ends) and "fell back" in path.steps[-1].kinds
+        self.end = path.y if path.separated or not path.ends else path.ends[-1]
+
+    @cached_property
+    def _both(self) -> tuple[np.ndarray, np.ndarray]:
+        return _sampled(self.probe, self.path)
+
+    @property
+    def times(self) -> np.ndarray:
+        return self._both[0]
+
+    @property
+    def states(self) -> np.ndarray:
+        return self._both[1]
+
+
+def _creeps_out(probe: Locate) -> bool | None:
+    """Whether a doublet that creeps past the only barrier will separate; None where that is not clear.
+
+    All but the unstable mode has died, and its side decides: outside nothing holds the doublet, inside its energy is
+    below the barrier.
+    """
+    proof, barrier = energy_proof(probe.proof), barrier_of(probe)
+    rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
+    if proof is None or barrier is None or not proof.theorem or len(proof.barriers(probe.y)) > 1 or barrier.gap >= rim:
+        return None
+    saddle = saddle_of(probe, barrier)
+    return None if saddle is None else saddle.side(probe.y)
+
+
+def _smooth(probe: Locate, flown: Escaping | _Located) -> float | None:
     barrier = barrier_of(probe)
     if barrier is None and energy_proof(probe.proof) is not None:
         return None  # nothing holds the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
     if barrier is not None and barrier.gap < rim * (1 - 1e-12):
-        return _saddle_amplitude(probe, path, barrier)
-    if path.separated:
-        return float(path.y[1]) ** 2
-    last = path.ends[-1] if path.ends else None
-    if last is None or "fell back" not in path.steps[-1].kinds:
+        return _saddle_amplitude(probe, flown, barrier)
+    if flown.separated:
+        return float(flown.end[1]) ** 2
+    if not flown.fell_back:
         return None
-    inward = probe.model.values("inward_force", last, path.p)["inward_force"]
-    return -2 * inward * (rim - float(last[0]))
+    inward = probe.model.values("inward_force", flown.end, probe.p)["inward_force"]
+    return -2 * inward * (rim - float(flown.end[0]))
 
 
-def barrier_of(probe: Locate) -> Barrier | None:
-    """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
-    proof = energy_proof(probe.proof)
-    if proof is None:
-        return None
-    barriers = proof.barriers(probe.y)
-    return barriers[0] if barriers else None
-
-
-@dataclass(frozen=True)
-class Saddle:
-    """Rigid rotation at the top of the barrier, and how its neighbourhood moves.
-
-    Arguments:
-        modes: left eigenvectors as rows; times a deviation they give each mode's amplitude, as its part of the gap.
-        rates: their eigenvalues.
-        unstable: index of the one that grows.
-    """
-
-    gap: float
-    state: np.ndarray
-    modes: np.ndarray
-    rates: np.ndarray
-    unstable: int
-
-    def nearest(self, states: np.ndarray) -> tuple[int, np.ndarray]:
-        """Which of the states (columns) is nearest, and its amplitudes."""
-        amplitudes = self.modes @ (states[: self.state.size] - self.state[:, None])
-        k = int(np.argmin(np.sum(np.abs(amplitudes) ** 2, axis=0)))
-        return k, amplitudes[:, k]
-
-
-def saddle_of(probe: Locate, barrier: Barrier) -> Saddle | None:
-    """The saddle at a barrier for the flight's angular momentum; None where nothing grows."""
-    saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
-    # a doublet that escapes comes by while opening
-    film = int(barrier.gap < 1 or not probe.model.edged)
-    region = Region(film, int(barrier.gap < probe.edge), False, probe.model.cavitates)
-    matrix = np.asarray(_jacobian(probe.model, region)(saddle, probe.p).full())
-    values, vectors = np.linalg.eig(matrix)
-    unstable = int(np.argmax(values.real))
-    if values[unstable].real <= 0 or vectors[0, unstable] == 0:
-        return None
-    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])
-    return Saddle(barrier.gap, saddle, np.linalg.inv(shapes), values, unstable)
-
-
-def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | None:
+def _saddle_amplitude(probe: Locate, flown: Escaping | _Located, barrier: Barrier) -> float | None:
     """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
     saddle = saddle_of(probe, barrier)
     if saddle is None:
         return None
     try:
-        times, states = _sampled(probe, path)
+        times, states = flown.times, flown.states
     except IntegrationFailed:
         return None
     nearest, amplitudes = saddle.nearest(states)
@@ -230,19 +284,6 @@ def _saddle_amplitude(probe: Locate, path: Path, barrier: Barrier) -> float | No
         return None
     growth = saddle.rates[saddle.unstable].real * times[nearest]
     return float(amplitudes[saddle.unstable].real * math.exp(-growth)) if growth < 500 else None
-
-
-def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:
-    """Rigid rotation at the barrier's gap with the state's angular momentum."""
-    at_barrier = np.concatenate([[barrier.gap], y[1:]])
-    return np.array(list(probe.model.values("rigid_rotation", at_barrier, probe.p).values()))
-
-
-@lru_cache(maxsize=128)
-def _jacobian(model: Model, region: Region) -> Function:
-    rates = model.function("right_hand_side", **region.flags)
-    y, p = model.column, model.parameters
-    return Function("jacobian", [y, p], [jacobian(rates(y, p), y)])
 
 
 def _sampled(probe: Locate, path: Path) -> tuple[np.ndarray, np.ndarray]:

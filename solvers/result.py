@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 
     from .scene import Scene
 
+_OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this part of the largest term
+
 
 @dataclass(frozen=True)
 class Energy:
@@ -33,6 +35,15 @@ class Energy:
     def residual(self) -> float:
         spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
         return self.initial - self.final - spent - (self.attraction or 0.0)
+
+    def is_open(self, rtol: float) -> bool:
+        """Whether the residual is beyond what a tolerance leaves, so that the flight must be wrong."""
+        return abs(self.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * self.largest
+
+    @property
+    def largest(self) -> float:
+        """The largest term."""
+        return max(abs(value) for value in self.to_dict().values())
 
     def to_dict(self) -> dict[str, float]:
         names = (

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     import xarray
 
 _TIGHTEST = 1e-13
-_OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this part of the largest term, is an error
 _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
 
 
@@ -52,7 +51,7 @@ def collide(
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where it does not apply); None
-            chooses (cvodes for one collision). With "taylor", ledger, drift and trajectory are rosenbrock's.
+            chooses (cvodes for one collision).
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
 
@@ -88,10 +87,9 @@ def _by_casadi(scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool,
 
 
 def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool, trajectory: bool) -> Collision:
-    """By the Taylor kernel; what it leaves out, and what it hands over, is Rosenbrock's."""
-    rest = _by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory) if ledger or trajectory else None
-    found = collision(scene, n, rtol, rest)
-    return found or rest or _by_casadi(scene, n, rtol, "rosenbrock", False, False)
+    """By the Taylor kernel; what it hands over is Rosenbrock's."""
+    found = collision(scene, n, rtol, ledger, trajectory)
+    return found or _by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)
 
 
 def _compute(
@@ -223,11 +221,9 @@ def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
 
 
 def _demand_closed(energy: Energy, rtol: float) -> None:
-    """A ledger that does not close means that the flight is wrong, whatever else it looks like."""
-    largest = max(abs(value) for value in energy.to_dict().values())
-    if abs(energy.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * largest:
+    if energy.is_open(rtol):
         raise ComputationError(
-            f"the energy ledger is open by {abs(energy.residual) / largest:.1e} of its largest term",
+            f"the energy ledger is open by {abs(energy.residual) / energy.largest:.1e} of its largest term",
             advice="try a smaller --rtol, or the other --engine; please report the scene",
         )
 
@@ -244,7 +240,9 @@ def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
 def _trajectory(
     scene: Scene, path: Path, flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float
 ) -> xarray.Dataset:
-    from .trajectory import attributes, dataset  # imports xarray
+    from .trajectory import attributes, dataset, stretch  # imports xarray
 
     attrs = attributes(scene, path.outcome, plugin, rtol)
-    return dataset(flown, model, n, plugin, told(rtol, plugin, n.groups), attrs)
+    tolerance, p = told(rtol, plugin, n.groups), model.group_values(n.groups)
+    pieces = [stretch(piece, model, flown, p, plugin, tolerance) for piece in flown.pieces]
+    return dataset(pieces, model, n, flown.y, attrs)

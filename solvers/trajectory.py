@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 
 import numpy as np
 import xarray as xr
 
-from .chain import Flown
+from .chain import Flown, Piece
 from .integrators import Tolerance, plain
 from .model import Model
 from .numbers import Numbers
@@ -44,42 +45,68 @@ def attributes(scene: Scene, outcome: str, engine: str, rtol: float) -> dict[str
     }
 
 
+Sample = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray | None]]
+"""Parts of a phase's duration, 0 to 1 -> states as columns, and the angle turned where it is known (rad)."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A flown phase: its name, start and duration (x0/v0), and its states."""
+
+    name: str
+    time: float
+    duration: float
+    sample: Sample
+
+
+def stretch(piece: Piece, model: Model, flown: Flown, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
+    """A piece of a chain, which is flown again through the times asked for."""
+    size, names = len(model.state), (*model.state, *flown.extras)
+    offset = flown.offset if "rotation" in flown.extras else 0.0
+
+    def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        inside = plain(piece.flow, plugin, tolerance, tuple(parts[1:]))(piece.start, p, piece.duration)
+        y = np.column_stack([piece.start, inside])
+        return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
+
+    return Stretch(piece.name, piece.time, piece.duration, sample)
+
+
 def dataset(
-    flown: Flown,
+    flight: Sequence[Stretch],
     model: Model,
     n: Numbers,
-    plugin: str,
-    tolerance: Tolerance,
+    first: np.ndarray,
     attrs: Mapping[str, str | float] | None = None,
 ) -> xr.Dataset:
-    """The flown pieces on a grid of _POINTS per phase; an event's time stands twice, before and after it."""
-    p = model.group_values(n.groups)
+    """A flight on a grid of _POINTS per phase; an event's time stands twice, before and after it.
+
+    Arguments:
+        first: the state at first touch, shown alone where all is decided there.
+    """
+    p, size = model.group_values(n.groups), len(model.state)
     times: list[np.ndarray] = []
     columns: list[np.ndarray] = []
+    angles: list[np.ndarray] = []
     phases: list[str] = []
-    for piece in flown.pieces:
-        inside = plain(piece.flow, plugin, tolerance, tuple(_GRID[1:]))(piece.start, p, piece.duration)
-        y = np.column_stack([piece.start, inside])
-        times.append(piece.time + piece.duration * _GRID)
-        columns.append(y)
-        phases += [piece.name] * y.shape[1]
+    for one in flight:
+        states, angle = one.sample(_GRID)
+        times.append(one.time + one.duration * _GRID)
+        columns.append(states)
+        angles.append(np.zeros(_GRID.size) if angle is None else angle)
+        phases += [one.name] * _GRID.size
     if not columns:  # decided at first touch
-        times, columns, phases = [np.zeros(1)], [flown.y[:, None]], ["first touch"]
+        times, columns, phases = [np.zeros(1)], [first[:size, None]], ["first touch"]
+        angles = [np.zeros(1)]
     y, time = np.hstack(columns), np.concatenate(times) * n.time
-    size = len(model.state)
     zero = np.zeros(time.size)
     values = {"gap": y[0] * n.length, "opening_velocity": y[1] * n.speed}
     if model.oblique:
-        outputs = dict(
-            zip(model.names("outputs"), np.asarray(model.function("outputs")(y[:size], p).full()), strict=True)
-        )
-        names = (*model.state, *flown.extras)
+        outputs = dict(zip(model.names("outputs"), np.asarray(model.function("outputs")(y, p).full()), strict=True))
         values |= {
             "rotation_rate": outputs["final_rotation_rate"] * n.rate,
             "spin": outputs["final_spin"] * n.rate,
-            "rotation": y[names.index("rotation")] - (flown.offset if "rotation" in flown.extras else 0.0)
-            if "rotation" in names
-            else zero,
+            "rotation": np.concatenate(angles),
         }
         if "final_spin_partner" in outputs:
             values["spin_partner"] = outputs["final_spin_partner"] * n.rate

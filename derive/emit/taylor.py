@@ -13,13 +13,14 @@ from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import VOCABULARY, opening
 from .taylor_c import Constants, Recurrences, comment, function
+from .taylor_closed import WORKS, attracting, edge_function, momentum_functions, work_function
+from .taylor_ledger import Ledger
 from .taylor_program import Program
 from .taylor_proofs import held_functions, tethered_functions
 from .taylor_scale import scale_function
 from .text import needed
 
 _FLAGS = (FILM, SHEAR)
-_WORKS = {"capillary": "bridge", "attraction": "attraction"}  # of the ledger, and the slot of the force
 RESTING = "moving"  # mask: zero where the gap is held
 
 
@@ -50,12 +51,13 @@ class Header:
             self.turning = self._more(self.flow, self.model["turning_rate"].outputs)["rotation"]
         self.work_rate: str | sp.Expr | None = None
         self._work_operations: set[str] = set()
-        wanted = [value for key, value in model["energy_rates"].outputs if key in _WORKS]
+        wanted = [value for key, value in model["energy_rates"].outputs if key in WORKS]
         if wanted:
             before = len(self.flow.operations)
             self.work_rate = self._more(self.flow, (("capillary", sp.Add(*wanted)),))["capillary"]
             self._work_operations = {operation.name for operation in self.flow.operations[before:]}
         self.made = Recurrences(self.flow, self.constants, lambda name: f"s->{name}")
+        self.ledger = Ledger(model, self.flow, self.made, self.constants)
 
     # ---- programs
 
@@ -96,21 +98,23 @@ class Header:
         }  # fmt: skip
         lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
         if self.work_rate is not None:
-            closed = [f"defined({slot.upper()}_FORCE_WORK)" for slot in self._attracting]
+            closed = [f"defined({slot.upper()}_FORCE_WORK)" for slot in attracting(self.model)]
             lines += [
-                f"#if {' && '.join(closed)}",
+                f"#if {' && '.join([*closed, *(['!WITH_LEDGER'] if self.ledger.there else [])])}",
                 "#define CAPILLARY_STATE 0",
                 "#else",
-                "#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */",
+                "#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */",
                 "#endif",
             ]
         else:
             lines.append("#define CAPILLARY_STATE 0")
         lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
+        lines += self.ledger.enumerations()
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
-        lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };"]
+        lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
         lines += ["enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };"]
+        lines += self.ledger.places()
         lines.append(f"enum {{ GROUPS = {len(self.model.groups)} }};")
         return [*lines, ""]
 
@@ -120,17 +124,18 @@ class Header:
             for position, argument in enumerate(arguments):
                 if not isinstance(argument, str) and argument.free_symbols:
                     constants.factor(argument, f"{name}_argument_{position + 1}")
-        lines = ["typedef struct {"]
+        lines = [*self.ledger.constants_struct(), "typedef struct {"]
         lines += [f"    vec {group.name}; /* {self._meaning(group)} */" for group in self.model.groups]
         lines += [f"    vec {name};" for name in constants.prepared]
         for name, (slot, call, _) in self.calls.items():
             lines.append(f"    {slot}_{call}_constants {name};")
-        lines += ["    glass_pressure_clearance_constants glass;", "} constants;", ""]
+        lines += ["    glass_pressure_clearance_constants glass;", *self.ledger.member(), "} constants;", ""]
         body = [f"c->{name} = {constants.text.vector(value)};" for name, value in constants.prepared.items()]
         for name, (slot, call, arguments) in self.calls.items():
             passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
         body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
+        body += self.ledger.prepare()
         return [
             *lines,
             *scale_function(self.model, self.beside.definitions),
@@ -141,10 +146,6 @@ class Header:
 
     def _meaning(self, group: sp.Symbol) -> str:
         return self.beside.meanings.get(group.name) or VOCABULARY[group.name].meaning
-
-    @property
-    def _attracting(self) -> list[str]:
-        return [slot for slot in _WORKS.values() if slot in self.model.slots]
 
     def _glass_groups(self) -> str:
         """What a user's glass law takes beside gap and approach, as arguments."""
@@ -161,8 +162,9 @@ class Header:
         lines = ["typedef struct {"]
         lines += [f"    vec {state.name}[TERMS]; /* {VOCABULARY[state.name].meaning} */" for state in self.model.states]
         lines += ["#if CAPILLARY_STATE", "    vec capillary_work[TERMS];", "#endif"]
-        lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif"]
+        lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif", *self.ledger.states()]
         lines += [f"    {field}" for field in self.made.fields()]
+        lines += self.ledger.series()
         lines += ["    vec acceleration[TERMS]; /* of the gap, were it not held */"]
         lines += ["    vec approach[TERMS];", "    glass_pressure_clearance_series glass;"]
         return [*lines, "} series;", ""]
@@ -189,6 +191,7 @@ class Header:
             body += ["#if CAPILLARY_STATE", f"s->capillary_work[k + 1] = {self._rate(self.work_rate)}*next;", "#endif"]
         if self.turning is not None:
             body += ["#if TURNING_STATE", f"s->turned[k + 1] = {self._rate(self.turning)}*next;", "#endif"]
+        body += self.ledger.coefficients()
         head = "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
         doc = (
             "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside "
@@ -223,13 +226,21 @@ class Header:
         outputs = [pair for pair in self.model[name].outputs if pair[0] in results]
         return self._valued(outputs, head, results, doc or self.model[name].doc)
 
-    def _valued(self, outputs: list[tuple[str, sp.Expr]], head: str, results: dict[str, str], doc: str) -> list[str]:
+    def _valued(
+        self,
+        outputs: list[tuple[str, sp.Expr]],
+        head: str,
+        results: dict[str, str],
+        doc: str,
+        constants: Constants | None = None,
+    ) -> list[str]:
+        constants = constants or self.constants
         program = Program(self.model.states)
         kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
         for symbol, expression in kept:
             program.define(symbol, expression)
         found = {key: self._of(program, sp.sympify(expression), key) for key, expression in outputs}
-        made = Recurrences(program, self.constants, lambda series: f"y[{series.upper()}]")
+        made = Recurrences(program, constants, lambda series: f"y[{series.upper()}]")
         for operation in program.operations:
             if operation.kind == "call":
                 assert operation.call is not None
@@ -240,7 +251,7 @@ class Header:
             if isinstance(result, str):
                 text = result if result in own else f"y[{result.upper()}]"
             else:
-                text = self.constants.text.vector(result)
+                text = constants.text.vector(result)
             body.append(f"{results[key]} {text};" if results[key] == "return" else f"{results[key]} = {text};")
         return [*comment(doc), *function(head, body), ""]
 
@@ -301,71 +312,15 @@ class Header:
             lines += tethered_functions(model, self.constants, prepared)
         if any(each.name == "held" for each in model.functions):
             lines += held_functions(model, self.constants, prepared)
-        if self._attracting:
-            lines += self._work()
+        if attracting(self.model):
+            lines += work_function(model, self.constants, self.calls)
         if (shape.partner == "wall" or not shape.oblique) and not (shape.bridge or shape.strings):
-            lines += self._momentum()
+            lines += momentum_functions(model, self.constants, self.calls)
+        lines += self.ledger.functions(self._valued)
         if shape.oblique:
             edge = dict(model["events"].outputs)["tangential_edge"]
-            lines += self._edge(edge)
+            lines += edge_function(edge, self.constants)
         return lines
-
-    def _edge(self, event: sp.Expr) -> list[str]:
-        call = next(node for node in event.atoms(AppliedUndef) if is_slot_call(node))
-        text = self.constants.factor(call, "edge")
-        return [
-            *comment("Gap beyond which there is no tangential force."),
-            *function("static inline vec tangential_edge(const constants *c)", [f"return {text};"]),
-            "",
-        ]
-
-    def _work(self) -> list[str]:
-        """Work against attractions by the laws' antiderivatives: force over the rate at which its argument grows."""
-        gap, terms = self.model.states[0], []
-        for slot in self._attracting:
-            force = next(value for symbol, value in self.model.definitions if symbol.name == f"{slot}_force")
-            call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
-            name = next(name for name, (own, _, _) in self.calls.items() if own == slot)
-            per = sp.cancel(force / call / call.args[0].diff(gap))
-            scale = self.constants.factor(call.args[0].diff(gap), f"{slot}_gap_factor")
-            factor = self.constants.factor(per, f"{slot}_work_factor")
-            at = "gap" if scale == "1.0" else f"{scale}*gap"
-            terms.append(f"{factor}*{slot}_force_work(&c->{name}, {at})")
-        what = "Capillary work" if self._attracting == ["bridge"] else "Work against what attracts"
-        return [
-            "#if !CAPILLARY_STATE",
-            *comment(f"{what} up to a gap over m v0^2, from a fixed but arbitrary gap."),
-            *function(
-                "static inline vec capillary_work(const constants *c, vec gap)", [f"return {' + '.join(terms)};"]
-            ),
-            "#endif",
-            "",
-        ]
-
-    def _momentum(self) -> list[str]:
-        """What the film takes of the opening velocity along a gap: du/dx is minus its force over the velocity."""
-        force = next(value for symbol, value in self.model.definitions if symbol.name == "film_force").subs(FILM, 1)
-        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
-        name = next(name for name, (slot, _, _) in self.calls.items() if slot == "film")
-        if call.has(opening):
-            return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
-        factor = self.constants.factor(sp.cancel(force / call / opening), "film_momentum_factor")
-        return [
-            "#define FILM_MOMENTUM 1",
-            *comment("Velocity over v0 that the film takes per gap."),
-            *function(
-                "static inline vec film_slowing(const constants *c, vec gap)",
-                [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
-            ),
-            "#if defined(FILM_RESISTANCE_WORK)",
-            *comment("Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap."),
-            *function(
-                "static inline vec film_momentum(const constants *c, vec gap)",
-                [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
-            ),
-            "#endif",
-            "",
-        ]
 
 
 def structure_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:

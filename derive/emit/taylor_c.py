@@ -130,13 +130,20 @@ def number(value: sp.Expr) -> str:
 class Constants:
     """What is computed once a collision: given values, named ones, and factors hoisted out of the recurrences."""
 
-    def __init__(self, given: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = ()) -> None:
+    def __init__(self, given: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
         self._given = dict(given)
         self._flags = flags
+        self._place = place
         self.prepared: dict[str, sp.Expr] = {}
         self._hoisted: dict[sp.Expr, str] = {}
         self._defined: dict[sp.Symbol, str] = {}
         self.text = Text(self.name)
+
+    def beside(self, place: str) -> Constants:
+        """Constants that are kept at another place in C and know these."""
+        more = Constants(self._given | self._defined, self._flags, place)
+        more._hoisted = dict(self._hoisted)
+        return more
 
     def name(self, symbol: sp.Symbol) -> str:
         """C name of a constant symbol."""
@@ -151,7 +158,7 @@ class Constants:
         """Keep a named constant."""
         if symbol not in self._defined:
             self.prepared[symbol.name] = expression
-            self._defined[symbol] = f"c->{symbol.name}"
+            self._defined[symbol] = f"{self._place}{symbol.name}"
 
     def factor(self, expression: sp.Expr, hint: str) -> str:
         """Text of a constant: a literal, a name, or a value hoisted under `hint`; flags of the region in front."""
@@ -173,7 +180,7 @@ class Constants:
                 count += 1
                 name = f"{hint}_{count}"
             self.prepared[name] = rest
-            self._hoisted[rest] = f"c->{name}"
+            self._hoisted[rest] = f"{self._place}{name}"
         return self._hoisted[rest]
 
 

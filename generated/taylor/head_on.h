@@ -27,12 +27,26 @@
 #define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 0)
+#if WITH_LEDGER
+#define LEDGER_STATES 1
+#else
+#define LEDGER_STATES 0
+#endif
 
 enum { GAP, OPENING, MODEL_STATES };
-enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+#if WITH_LEDGER
+enum { NORMAL_LOSS = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+#endif
 enum { GROUPS = 5 };
 
+#if WITH_LEDGER
+typedef struct {
+    vec dry_contact_per_opening_squared;
+} ledger_constants;
+
+#endif
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec glass_number; /* glass-transition pressure over 3 mu a v0/x0^2 */
@@ -43,6 +57,9 @@ typedef struct {
     vec opening_2_per_opening;
     film_resistance_constants film_resistance_law;
     glass_pressure_clearance_constants glass;
+#if WITH_LEDGER
+    ledger_constants ledger;
+#endif
 } constants;
 
 enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SPEED, QUANTITIES };
@@ -79,6 +96,9 @@ static inline void prepare(constants *c)
     c->opening_2_per_opening = -c->dry_restitution;
     film_resistance_prepare(&c->film_resistance_law);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+#if WITH_LEDGER
+    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+#endif
 }
 
 typedef struct {
@@ -90,9 +110,15 @@ typedef struct {
 #if TURNING_STATE
     vec turned[TERMS];
 #endif
+#if WITH_LEDGER
+    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
+#endif
     film_resistance_series film_resistance_law;
     vec film_force[TERMS];
     vec rate_of_opening[TERMS];
+#if WITH_LEDGER
+    vec rate_of_normal_loss[TERMS];
+#endif
     vec acceleration[TERMS]; /* of the gap, were it not held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
@@ -110,6 +136,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->gap[k + 1] = s->opening[k]*next;
     s->acceleration[k] = s->rate_of_opening[k];
     s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+#if WITH_LEDGER
+    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
+#endif
 }
 
 /* Coefficient k of the glass criterion's clearance. */
@@ -193,5 +223,33 @@ static inline vec film_slowing(const constants *c, vec gap)
 static inline vec film_momentum(const constants *c, vec gap)
 {
     return c->film_force_factor*film_resistance_work(&c->film_resistance_law, gap);
+}
+#endif
+
+#if WITH_LEDGER
+enum { ENERGIES = 1 };
+/* Energies of the state over m v0^2. In order: kinetic. */
+static inline void energies(const constants *c, const vec *y, vec *energy)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec kinetic = 0.5*opening_squared;
+    energy[0] = kinetic;
+}
+
+/* Energy lost in a reversal that starts from this state, over m v0^2. */
+static inline vec reversal_loss(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    return dry_contact;
+}
+
+/* There is no angular momentum that would be conserved. */
+static inline vec momentum_in_ledger(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    return splat(1.0);
 }
 #endif

@@ -30,18 +30,32 @@
 #define ATTRACTION 0
 #define SPREAD 0
 #define WALL 0
-#if defined(BRIDGE_FORCE_WORK)
+#if defined(BRIDGE_FORCE_WORK) && !WITH_LEDGER
 #define CAPILLARY_STATE 0
 #else
-#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */
+#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */
 #endif
 #define TURNING_STATE (WITH_ROTATION && 0)
+#if WITH_LEDGER
+#define LEDGER_STATES 1
+#else
+#define LEDGER_STATES 0
+#endif
 
 enum { GAP, OPENING, MODEL_STATES };
-enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+#if WITH_LEDGER
+enum { NORMAL_LOSS = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+#endif
 enum { GROUPS = 10 };
 
+#if WITH_LEDGER
+typedef struct {
+    vec dry_contact_per_opening_squared;
+} ledger_constants;
+
+#endif
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec aspect; /* film thickness over reduced radius, x0/a */
@@ -61,6 +75,9 @@ typedef struct {
     film_resistance_constants film_resistance_law;
     bridge_force_constants bridge_force_law;
     glass_pressure_clearance_constants glass;
+#if WITH_LEDGER
+    ledger_constants ledger;
+#endif
 } constants;
 
 enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SURFACE_TENSION, SI_SPEED, SI_VOLUME, SI_CONTACT_ANGLE, QUANTITIES };
@@ -115,6 +132,9 @@ static inline void prepare(constants *c)
     film_resistance_prepare(&c->film_resistance_law);
     bridge_force_prepare(&c->bridge_force_law, c->volume, c->contact_angle);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+#if WITH_LEDGER
+    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+#endif
 }
 
 typedef struct {
@@ -126,6 +146,9 @@ typedef struct {
 #if TURNING_STATE
     vec turned[TERMS];
 #endif
+#if WITH_LEDGER
+    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
+#endif
     film_resistance_series film_resistance_law;
     vec film_force[TERMS];
     vec scaled_gap[TERMS];
@@ -133,6 +156,9 @@ typedef struct {
     vec bridge_force[TERMS];
     vec rate_of_opening[TERMS];
     vec rate_of_capillary[TERMS];
+#if WITH_LEDGER
+    vec rate_of_normal_loss[TERMS];
+#endif
     vec acceleration[TERMS]; /* of the gap, were it not held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
@@ -158,6 +184,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->opening[k + 1] = only(moving, s->acceleration[k]*next);
 #if CAPILLARY_STATE
     s->capillary_work[k + 1] = s->rate_of_capillary[k]*next;
+#endif
+#if WITH_LEDGER
+    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
 #endif
 }
 
@@ -242,5 +272,33 @@ static inline vec potential_slope(const constants *c, const vec *y)
 static inline vec capillary_work(const constants *c, vec gap)
 {
     return c->bridge_work_factor*bridge_force_work(&c->bridge_force_law, c->scaled_gap_per_gap*gap);
+}
+#endif
+
+#if WITH_LEDGER
+enum { ENERGIES = 1 };
+/* Energies of the state over m v0^2. In order: kinetic. */
+static inline void energies(const constants *c, const vec *y, vec *energy)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec kinetic = 0.5*opening_squared;
+    energy[0] = kinetic;
+}
+
+/* Energy lost in a reversal that starts from this state, over m v0^2. */
+static inline vec reversal_loss(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    return dry_contact;
+}
+
+/* There is no angular momentum that would be conserved. */
+static inline vec momentum_in_ledger(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    return splat(1.0);
 }
 #endif

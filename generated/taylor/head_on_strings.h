@@ -30,12 +30,27 @@
 #define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 0)
+#if WITH_LEDGER
+#define LEDGER_STATES 1
+#else
+#define LEDGER_STATES 0
+#endif
 
 enum { GAP, OPENING, MODEL_STATES };
-enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+#if WITH_LEDGER
+enum { NORMAL_LOSS = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+#endif
 enum { GROUPS = 8 };
 
+#if WITH_LEDGER
+typedef struct {
+    vec strings_per_strings_rise_law;
+    vec dry_contact_per_opening_squared;
+} ledger_constants;
+
+#endif
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec aspect; /* film thickness over reduced radius, x0/a */
@@ -54,6 +69,9 @@ typedef struct {
     strings_stiffness_constants strings_stiffness_law;
     strings_rise_constants strings_rise_law;
     glass_pressure_clearance_constants glass;
+#if WITH_LEDGER
+    ledger_constants ledger;
+#endif
 } constants;
 
 enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_STRING_LENGTH, SI_GRAVITY, SI_SPEED, QUANTITIES };
@@ -100,6 +118,10 @@ static inline void prepare(constants *c)
     strings_stiffness_prepare(&c->strings_stiffness_law, c->string_ratio);
     strings_rise_prepare(&c->strings_rise_law, c->string_ratio);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+#if WITH_LEDGER
+    c->ledger.strings_per_strings_rise_law = 4.0*c->weight/c->aspect;
+    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+#endif
 }
 
 typedef struct {
@@ -111,6 +133,9 @@ typedef struct {
 #if TURNING_STATE
     vec turned[TERMS];
 #endif
+#if WITH_LEDGER
+    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
+#endif
     film_resistance_series film_resistance_law;
     vec film_force[TERMS];
     vec gap_squared[TERMS];
@@ -118,6 +143,9 @@ typedef struct {
     strings_stiffness_series strings_stiffness_law;
     vec string_pull[TERMS];
     vec rate_of_opening[TERMS];
+#if WITH_LEDGER
+    vec rate_of_normal_loss[TERMS];
+#endif
     vec acceleration[TERMS]; /* of the gap, were it not held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
@@ -139,6 +167,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->gap[k + 1] = s->opening[k]*next;
     s->acceleration[k] = s->rate_of_opening[k];
     s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+#if WITH_LEDGER
+    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
+#endif
 }
 
 /* Coefficient k of the glass criterion's clearance. */
@@ -225,3 +257,36 @@ static inline vec potential_slope(const constants *c, const vec *y)
     vec string_pull = c->string_pull_factor*y[GAP]*strings_stiffness_law;
     return string_pull;
 }
+
+#if WITH_LEDGER
+enum { ENERGIES = 2 };
+/* Energies of the state over m v0^2. In order: kinetic, strings. */
+static inline void energies(const constants *c, const vec *y, vec *energy)
+{
+    (void)c; (void)y;
+    vec gap_squared = y[GAP]*y[GAP];
+    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec kinetic = 0.5*opening_squared;
+    vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
+    vec strings = c->ledger.strings_per_strings_rise_law*strings_rise_law;
+    energy[0] = kinetic;
+    energy[1] = strings;
+}
+
+/* Energy lost in a reversal that starts from this state, over m v0^2. */
+static inline vec reversal_loss(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    return dry_contact;
+}
+
+/* There is no angular momentum that would be conserved. */
+static inline vec momentum_in_ledger(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    return splat(1.0);
+}
+#endif

@@ -31,12 +31,31 @@
 #define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 1)
+#if WITH_LEDGER
+#define LEDGER_STATES 2
+#else
+#define LEDGER_STATES 0
+#endif
 
 enum { GAP, OPENING, ORBIT, SPIN, MODEL_STATES };
-enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+#if WITH_LEDGER
+enum { NORMAL_LOSS = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE, TANGENTIAL_LOSS };
+#define TANGENTIAL 1
+#endif
 enum { GROUPS = 7 };
 
+#if WITH_LEDGER
+typedef struct {
+    vec rate_of_tangential_loss_factor;
+    vec kinetic_per_distance_squared_by_orbital_rate_squared;
+    vec kinetic_per_spin_squared;
+    vec dry_contact_per_opening_squared;
+    vec angular_momentum_per_momentum;
+} ledger_constants;
+
+#endif
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec aspect; /* film thickness over reduced radius, x0/a */
@@ -60,6 +79,9 @@ typedef struct {
     film_resistance_constants film_resistance_law;
     arm_lever_constants arm_lever_law;
     glass_pressure_clearance_constants glass;
+#if WITH_LEDGER
+    ledger_constants ledger;
+#endif
 } constants;
 
 enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SPEED, SI_ANGLE, QUANTITIES };
@@ -111,6 +133,13 @@ static inline void prepare(constants *c)
     film_resistance_prepare(&c->film_resistance_law);
     arm_lever_prepare(&c->arm_lever_law);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+#if WITH_LEDGER
+    c->ledger.rate_of_tangential_loss_factor = 0.0625*(c->obliquity*c->obliquity);
+    c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
+    c->ledger.kinetic_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
+    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
+#endif
 }
 
 typedef struct {
@@ -123,6 +152,10 @@ typedef struct {
 #endif
 #if TURNING_STATE
     vec turned[TERMS];
+#endif
+#if WITH_LEDGER
+    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
+    vec tangential_loss[TERMS]; /* energy taken by the tangential force, over m v0^2 */
 #endif
     vec distance[TERMS];
     vec distance_squared[TERMS];
@@ -140,6 +173,13 @@ typedef struct {
     vec rate_of_orbit[TERMS];
     vec rate_of_spin[TERMS];
     vec rate_of_rotation[TERMS];
+#if WITH_LEDGER
+    vec rate_of_normal_loss[TERMS];
+    vec distance_by_orbital_rate[TERMS];
+    vec arm_lever_law_by_spin[TERMS];
+    vec combination[TERMS];
+    vec rate_of_tangential_loss[TERMS];
+#endif
     vec acceleration[TERMS]; /* of the gap, were it not held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
@@ -173,6 +213,16 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->spin[k + 1] = s->rate_of_spin[k]*next;
 #if TURNING_STATE
     s->turned[k + 1] = s->rate_of_rotation[k]*next;
+#endif
+#if WITH_LEDGER
+    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->distance_by_orbital_rate[k] = product(s->distance, s->orbital_rate, k);
+    s->arm_lever_law_by_spin[k] = product(s->arm_lever_law.result, s->spin, k);
+    s->combination[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
+    s->rate_of_tangential_loss[k] = c->ledger.rate_of_tangential_loss_factor*product(s->shear_force,
+        s->combination, k);
+    s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
+    s->tangential_loss[k + 1] = s->rate_of_tangential_loss[k]*next;
 #endif
 }
 
@@ -310,6 +360,44 @@ static inline vec angular_momentum(const constants *c, const vec *y)
     vec angular_momentum = c->angular_momentum_per_momentum*momentum;
     return angular_momentum;
 }
+
+#if WITH_LEDGER
+enum { ENERGIES = 1 };
+/* Energies of the state over m v0^2. In order: kinetic. */
+static inline void energies(const constants *c, const vec *y, vec *energy)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec spin_squared = y[SPIN]*y[SPIN];
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec kinetic =
+        c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared
+        + c->ledger.kinetic_per_spin_squared*spin_squared + 0.5*opening_squared;
+    energy[0] = kinetic;
+}
+
+/* Energy lost in a reversal that starts from this state, over m v0^2. */
+static inline vec reversal_loss(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    return dry_contact;
+}
+
+/* Angular momentum over its start value. */
+static inline vec momentum_in_ledger(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec angular_momentum = c->ledger.angular_momentum_per_momentum*momentum;
+    return angular_momentum;
+}
+#endif
 
 /* Gap beyond which there is no tangential force. */
 static inline vec tangential_edge(const constants *c)

@@ -35,12 +35,13 @@
 #if defined(BRIDGE_FORCE_WORK)
 #define CAPILLARY_STATE 0
 #else
-#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */
+#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */
 #endif
 #define TURNING_STATE (WITH_ROTATION && 1)
+#define LEDGER_STATES 0
 
 enum { GAP, OPENING, ORBIT, MODEL_STATES };
-enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 enum { GROUPS = 11 };
 

@@ -34,12 +34,32 @@
 #define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 0)
+#if WITH_LEDGER
+#define LEDGER_STATES 2
+#else
+#define LEDGER_STATES 0
+#endif
 
 enum { GAP, OPENING, ORBIT, SPIN, ROTATION, MODEL_STATES };
-enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE };
+enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
+#if WITH_LEDGER
+enum { NORMAL_LOSS = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE, TANGENTIAL_LOSS };
+#define TANGENTIAL 1
+#endif
 enum { GROUPS = 9 };
 
+#if WITH_LEDGER
+typedef struct {
+    vec rate_of_tangential_loss_factor;
+    vec kinetic_per_distance_squared_by_orbital_rate_squared;
+    vec kinetic_per_spin_squared;
+    vec strings_per_strings_rise_law;
+    vec dry_contact_per_opening_squared;
+    vec angular_momentum_per_momentum;
+} ledger_constants;
+
+#endif
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec aspect; /* film thickness over reduced radius, x0/a */
@@ -71,6 +91,9 @@ typedef struct {
     arm_lever_constants arm_lever_law;
     strings_rise_constants strings_rise_law;
     glass_pressure_clearance_constants glass;
+#if WITH_LEDGER
+    ledger_constants ledger;
+#endif
 } constants;
 
 enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_STRING_LENGTH, SI_GRAVITY, SI_SPEED, SI_ANGLE, QUANTITIES };
@@ -131,6 +154,14 @@ static inline void prepare(constants *c)
     arm_lever_prepare(&c->arm_lever_law);
     strings_rise_prepare(&c->strings_rise_law, c->string_ratio);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
+#if WITH_LEDGER
+    c->ledger.rate_of_tangential_loss_factor = 0.0625*(c->obliquity*c->obliquity);
+    c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
+    c->ledger.kinetic_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
+    c->ledger.strings_per_strings_rise_law = 4.0*c->weight/c->aspect;
+    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
+#endif
 }
 
 typedef struct {
@@ -144,6 +175,10 @@ typedef struct {
 #endif
 #if TURNING_STATE
     vec turned[TERMS];
+#endif
+#if WITH_LEDGER
+    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
+    vec tangential_loss[TERMS]; /* energy taken by the tangential force, over m v0^2 */
 #endif
     vec distance[TERMS];
     vec distance_squared[TERMS];
@@ -174,6 +209,13 @@ typedef struct {
     vec rate_of_orbit[TERMS];
     vec rate_of_spin[TERMS];
     vec rate_of_rotation[TERMS];
+#if WITH_LEDGER
+    vec rate_of_normal_loss[TERMS];
+    vec distance_by_orbital_rate[TERMS];
+    vec arm_lever_law_by_spin[TERMS];
+    vec combination_3[TERMS];
+    vec rate_of_tangential_loss[TERMS];
+#endif
     vec acceleration[TERMS]; /* of the gap, were it not held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
@@ -224,6 +266,16 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->orbit[k + 1] = s->rate_of_orbit[k]*next;
     s->spin[k + 1] = s->rate_of_spin[k]*next;
     s->rotation[k + 1] = s->rate_of_rotation[k]*next;
+#if WITH_LEDGER
+    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->distance_by_orbital_rate[k] = product(s->distance, s->orbital_rate, k);
+    s->arm_lever_law_by_spin[k] = product(s->arm_lever_law.result, s->spin, k);
+    s->combination_3[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
+    s->rate_of_tangential_loss[k] = c->ledger.rate_of_tangential_loss_factor*product(s->shear_force,
+        s->combination_3, k);
+    s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
+    s->tangential_loss[k + 1] = s->rate_of_tangential_loss[k]*next;
+#endif
 }
 
 /* Coefficient k of the glass criterion's clearance. */
@@ -355,6 +407,55 @@ static inline void tethered_stops(const constants *c, const vec *y, vec *film, v
 }
 #else
 #define TETHERED 0
+#endif
+
+#if WITH_LEDGER
+enum { ENERGIES = 2 };
+/* Energies of the state over m v0^2. In order: kinetic, strings. */
+static inline void energies(const constants *c, const vec *y, vec *energy)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec gap_squared = y[GAP]*y[GAP];
+    vec scaled_rotation = 0.5*y[ROTATION];
+    vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
+    vec cosine_of_scaled_rotation = vec_cos(scaled_rotation);
+    vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
+    vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
+    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
+        4.0*distance_by_sine_of_scaled_rotation_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec spin_squared = y[SPIN]*y[SPIN];
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec kinetic =
+        c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared
+        + c->ledger.kinetic_per_spin_squared*spin_squared + 0.5*opening_squared;
+    vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
+    vec strings = c->ledger.strings_per_strings_rise_law*strings_rise_law;
+    energy[0] = kinetic;
+    energy[1] = strings;
+}
+
+/* Energy lost in a reversal that starts from this state, over m v0^2. */
+static inline vec reversal_loss(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec opening_squared = y[OPENING]*y[OPENING];
+    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    return dry_contact;
+}
+
+/* Angular momentum over its start value. */
+static inline vec momentum_in_ledger(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec angular_momentum = c->ledger.angular_momentum_per_momentum*momentum;
+    return angular_momentum;
+}
 #endif
 
 /* Gap beyond which there is no tangential force. */

@@ -14,11 +14,11 @@ import numpy as np
 
 from .. import boundary
 from ..errors import ComputationError
-from ..locate import locate
-from ..model import choose, load
-from ..numbers import numbers
+from ..probe import Line as Probed
+from ..probe import ready
 from ..scene import Scene
 from ..settings import RTOL
+from ..taylor.library import knows
 from .parts import number
 from .printed import CURVES
 
@@ -30,7 +30,7 @@ Line = tuple["Change", ...]
 Span = tuple[float, float]  # of St
 Result = TypeVar("Result")
 
-_FEW = 12  # angles; more are shared out among the cores by `boundary` itself
+_FEW = 12  # angles; more are shared out among the cores by `boundary` itself, and the kernel is done with them first
 _TOP = 89.0  # degrees, the highest line of a map
 _CORNER = 0.025  # of the width of a map
 _ROUND, _BEND = 5, 2  # angles put between two whose outcomes differ, and where a boundary moves far
@@ -94,8 +94,9 @@ class Desk:
             missing = wanted.setdefault((job.scene, job.span), [])
             missing += [angle for angle in job.angles if angle not in known and angle not in missing]
         todo = [Job(scene, tuple(angles), span) for (scene, span), angles in wanted.items() if angles]
-        small = [job for job in todo if len(job.angles) < _FEW]
-        large = [job for job in todo if len(job.angles) >= _FEW]
+        ready([job.scene for job in todo])
+        small = [job for job in todo if len(job.angles) < _FEW and not knows(job.scene)]
+        large = [job for job in todo if job not in small]
         for job, traced in [*((job, job.trace()) for job in large), *zip(small, shared_out(Job.trace, small))]:
             self.collisions += traced.collisions
             self._known[job.scene, job.span] |= dict(zip(traced.angles, traced.changes))
@@ -155,12 +156,7 @@ def shown(read: Callable[[], float]) -> str:
 
 def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-6) -> float:
     """The Stokes number, between `low` and `high`, from which a reversal criterion is met, bisected to `rtol`."""
-
-    def met(stokes: float) -> bool:
-        n = numbers(scene, scene.speed_of(stokes), angle)
-        path = locate(load(choose(scene, n.oblique)), n.groups, RTOL, machine_code=True)
-        return path.reversal is not None
-
+    met = Probed(scene, angle, RTOL).met
     if met(low) or not met(high):
         raise ComputationError(f"no criterion is first met between St {low:g} and {high:g}")
     while high - low > rtol * high:

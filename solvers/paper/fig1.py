@@ -23,7 +23,8 @@ def make(desk: Desk, folder: Path) -> Part:
     """Collide the three, and draw them."""
     desk.say("fig. 1: frames of the three collisions")
     scene = variant(TETHERED, {})
-    flown = [collide(scene, stokes=shot.stokes, angle=SHOT_ANGLE, ledger=False, trajectory=True) for shot in SHOTS]
+    shown = {"angle": SHOT_ANGLE, "ledger": False, "trajectory": True, "engine": "taylor"}
+    flown = [collide(scene, stokes=shot.stokes, **shown) for shot in SHOTS]  # type: ignore[arg-type]  # by keyword
     _draw(flown, folder / "fig1.png")
     used = described(scene)
     comparisons = [

@@ -20,7 +20,8 @@ from ..locate import Locate, Path, Step
 from ..model import Model, choose, load
 from ..numbers import numbers
 from ..phases import Flow, Region
-from ..probe import WITHOUT_SOLIDS, Probe, Saddle, barrier_of, saddle_of
+from ..probe import WITHOUT_SOLIDS, Probe
+from ..saddle import Saddle, barrier_of, saddle_of
 from ..scene import Scene
 from .derivatives import adjoint, evaluate, settled
 from .directions import landed

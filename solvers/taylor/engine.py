@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model import choose
+from ..model import Choice, choose
 from ..numbers import si_values
 from ..scene import Scene
 from .library import ANSWER, LARGEST_ORDER, Variant, kernel, knows
@@ -41,12 +41,34 @@ class Impacts:
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
 
-Fly = Callable[[Impacts, np.ndarray, np.ndarray | None], None]
+class Record(ctypes.Structure):
+    """What the kernel writes besides answers, as runtime/queue.h has it."""
+
+    _fields_ = [
+        ("log", ctypes.c_void_p),
+        ("books", ctypes.c_void_p),
+        ("rows", ctypes.c_void_p),
+        ("log_room", ctypes.c_long),
+        ("step_room", ctypes.c_long),
+        ("steps", ctypes.c_long),
+        ("purpose", ctypes.c_long),
+    ]
+
+
+Fly = Callable[[Impacts, np.ndarray, Record | None], None]
 
 
 def order_for(rtol: float) -> int:
     """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
     return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
+
+
+def variant(
+    scene: Scene, choice: Choice, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
+) -> Variant:
+    """What the kernel of a scene is compiled for, at a tolerance."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(choice, order_for(rtol), rotation, own, ledger=ledger, trajectory=trajectory)
 
 
 def answers(
@@ -61,25 +83,9 @@ def answers(
     found = np.zeros(impacts.angle.size, ANSWER)
     for oblique in (True, False):
         which = np.flatnonzero((impacts.angle > 0) == oblique)
-        if which.size and not _fill(found, impacts, which, _call(impacts, oblique, rtol, rotation, budget), threads):
+        if which.size and not _fill(found, impacts, which, _plain(impacts, oblique, rtol, rotation, budget), threads):
             return None
     return found
-
-
-def flown(
-    impacts: Impacts, oblique: bool, rtol: float, rotation: bool, log: np.ndarray | None, budget: int = BUDGET
-) -> np.ndarray | None:
-    """Answers of impacts that are all oblique, or all head-on; None if there is no kernel here.
-
-    Arguments:
-        log: zeros of HAPPENING, MOST_EVENTS a collision, to be filled with what happened.
-    """
-    fly = _call(impacts, oblique, rtol, rotation, budget)
-    if fly is None:
-        return None
-    made = np.zeros(impacts.angle.size, ANSWER)
-    fly(impacts, made, log)
-    return made
 
 
 def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | None, threads: int) -> bool:
@@ -105,27 +111,29 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
     return True
 
 
-def _call(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
-    """The kernel of these impacts as a function of impacts, answers and a log to be filled.
-
-    The answers are zeros of ANSWER; the log zeros of HAPPENING, MOST_EVENTS a collision, or None.
-    """
-    rtol, scene = min(rtol, _LOOSEST), those.scene
-    own = scene.bridge is not None and scene.bridge.rupture == "own"
-    choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
-    library = kernel(Variant(choice, order_for(rtol), rotation, own)) if knows(scene) else None
-    if library is None:
+def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
+    """The kernel of these impacts; None if there is none here."""
+    scene = those.scene
+    if not knows(scene):
         return None
+    choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
+    library = kernel(variant(scene, choice, rtol, rotation))
+    return None if library is None else calling(library, rtol, budget)
+
+
+def calling(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
+    """A kernel as a function of impacts that fit it, answers to be filled (zeros of ANSWER), and what else to write."""
+    rtol = min(rtol, _LOOSEST)
     wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()
 
-    def fly(impacts: Impacts, made: np.ndarray, log: np.ndarray | None) -> None:
+    def fly(impacts: Impacts, made: np.ndarray, also: Record | None) -> None:
         given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
         given |= si_values(impacts.scene, None, None)
         given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
         columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]
         pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
         varies = bytes(int(np.ndim(given[name])) for name in wanted)
-        into = None if log is None else log.ctypes.data
+        into = None if also is None else ctypes.byref(also)
         size = library.collide(made.size, pointers, varies, rtol, budget, made.ctypes.data, into)
         assert size == ANSWER.itemsize
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+import os
 import platform
 import sys
 import tempfile
+from collections.abc import Collection
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -35,8 +38,8 @@ FLAGS = (
 )
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 _DRIVER = (
-    "roots.h", "barrier.h", "proofs.h", "queue.h", "rules.h", "events.h", "damped.h", "crawl.h",
-    "lanes.h",
+    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h", "carry.h",
+    "near.h", "crawl.h", "trajectory.h", "lanes.h",
 )  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
@@ -56,8 +59,6 @@ ANSWER = np.dtype(
         ("events", "i4"),
     ]
 )
-HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")])
-MOST_EVENTS = 64
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,8 @@ class Variant:
         rotation: the angle turned is integrated along where it is no state.
         own_rupture: the bridge ruptures where its own law says.
         gradients: derivatives by the groups are carried along.
+        ledger: what the forces take is integrated along; the structure must keep the spin.
+        trajectory: every step is written as it was taken.
     """
 
     choice: Choice
@@ -76,6 +79,8 @@ class Variant:
     rotation: bool = False
     own_rupture: bool = False
     gradients: bool = False
+    ledger: bool = False
+    trajectory: bool = False
 
 
 @cache
@@ -115,18 +120,20 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
         "LIBRARY_LAWS": int(variant.choice.package is None),
+        "WITH_LEDGER": int(variant.ledger),
+        "WITH_TRAJECTORY": int(variant.trajectory),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += emitted
-    runtime = list(_DRIVER)
-    if variant.gradients:
-        runtime.insert(runtime.index("queue.h"), "along.h")
-        at = runtime.index("crawl.h")
-        runtime[at:at] = ["carry.h", "near.h"]
-    parts += [(_RUNTIME / name).read_text() for name in runtime]
+    wanted = {
+        "ledger.h": variant.ledger,
+        "trajectory.h": variant.trajectory,
+        **dict.fromkeys(("along.h", "carry.h", "near.h"), variant.gradients),
+    }
+    parts += [(_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)]
     return "\n".join(parts)
 
 
@@ -158,6 +165,13 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
         given = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer]
         loaded.collide_along.argtypes = [*given, ctypes.c_uint, pointer, pointer, pointer]
     return loaded
+
+
+def compile_all(variants: Collection[Variant]) -> None:
+    """Have the kernels of several variants, compiled side by side where they are not there yet."""
+    if len(variants) > 1:
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:  # compilers are processes of their own
+            list(pool.map(kernel, variants))
 
 
 def _built(path: str, text: str, library: Path) -> bool:

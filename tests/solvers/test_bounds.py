@@ -195,14 +195,14 @@ def test_a_line_that_fails_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
     """One line fails, whatever is tried: its reason is kept, its changes are empty, the other lines are as before."""
     angles = np.radians([35.0, 45.0, 55.0])
     whole = boundary("granulation", angle=angles, stokes=(0.01, 1.0))
-    path = Line._path
+    path = Line._seen
 
     def fails(line: Line, stokes: float) -> Any:
         if line.angle == angles[1]:
             raise ComputationError("no luck", phase="closing", time=1.0, state={"gap": 0.5, "opening": -0.1})
         return path(line, stokes)
 
-    monkeypatch.setattr(Line, "_path", fails)
+    monkeypatch.setattr(Line, "_seen", fails)
     found = boundary("granulation", angle=angles, stokes=(0.01, 1.0))
     ((angle, reason),) = found.failed
     assert angle == angles[1]

@@ -114,6 +114,9 @@ static void fly(queue *q)
         mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
             sticks |= proved_in_flight(&l, &f, q->rtol);
+#if WITH_TRAJECTORY
+        sticks &= provable(q, l.closing);
+#endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         criteria_met(q, &l, &f);
@@ -146,6 +149,9 @@ static void fly(queue *q)
         if (q->asked)
             carry(&l, &f, &s, &t, h, falls, found.event, q->asked);
 #endif
+#if WITH_TRAJECTORY
+        keep_steps(q, &l, a, h);
+#endif
         if (bits(falls))
             found.gap = sum_at(a[GAP], h);
         l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
@@ -156,16 +162,23 @@ static void fly(queue *q)
         mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
         for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
             int lane = __builtin_ctz(event);
+#if WITH_TRAJECTORY
+            act_for_purpose(q, &l, &f, lane, (int)found.event[lane]);
+#else
             act(q, &l, &f, lane, (int)found.event[lane]);
+#endif
         }
         l.steps += 1;
         l.crept = (l.crept + 1) & creeps;
         l.stride = h;
-        mask slow = l.alive & ~falls & (l.crept > PATIENCE);
+        unsigned slow_ones = bits(l.alive & ~falls & (l.crept > PATIENCE));
 #if GRADIENTS
-        slow &= splat_mask(-(q->asked == 0)); /* crawl.h knows nothing of derivatives */
+        slow_ones = q->asked ? 0 : slow_ones; /* crawl.h knows nothing of derivatives */
 #endif
-        for (unsigned slow_ones = bits(slow); slow_ones; slow_ones &= slow_ones - 1)
+#if WITH_TRAJECTORY
+        slow_ones = q->also->step_room ? 0 : slow_ones; /* only a series makes a row */
+#endif
+        for (; slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));
         mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
@@ -179,9 +192,9 @@ static void fly(queue *q)
 /* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
  *
  * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
- * log: MOST_EVENTS happenings a collision, or null.
+ * also: what else is to be written, or null.
  */
-int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, happening *log)
+int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, record *also)
 {
     queue q;
     memset(&q, 0, sizeof q);
@@ -189,7 +202,7 @@ int collide(long count, const double *const *quantities, const unsigned char *va
     q.varies = varies;
     q.rtol = rtol;
     q.answers = answers;
-    q.log = log;
+    q.also = also;
     q.count = count;
     q.budget = budget;
     fly(&q);

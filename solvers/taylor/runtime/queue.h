@@ -3,7 +3,7 @@
 enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
-enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
+enum { MOST_PHASES = 400, SHOWN = 8 };
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
@@ -19,6 +19,19 @@ typedef struct {
 typedef struct {
     double kind, time;
 } happening;
+
+/* What is written besides answers, by kernels that have it; null for nothing. */
+typedef struct {
+    happening *log; /* `log_room` a collision, whose answer counts those that found none as well */
+    void *books;    /* a ledger a collision */
+    void *rows;     /* `step_room` steps of all collisions; `steps` counts those that found none as well */
+    long log_room, step_room, steps;
+    long purpose; /* as below; kernels with a trajectory heed it */
+} record;
+
+/* A flight to its end; the approach alone, nothing proved; one that is over when it falls back or rests, and is proved a
+ * stick only while it approaches (solvers/probe.py). */
+enum { WHOLE, APPROACH, ESCAPE };
 
 /* What is fixed for a flight. */
 typedef struct {
@@ -49,7 +62,7 @@ typedef struct {
     const unsigned char *varies;     /* a column has a value for each collision, or one for all */
     double rtol;
     answer *answers;
-    happening *log;
+    record *also;
     long count, next;
     int budget;
     long queued, taken; /* collisions that are waiting, of `rows` */
@@ -65,6 +78,15 @@ typedef struct {
 #endif
 } queue;
 
+#if WITH_TRAJECTORY
+/* Lanes whose stick may be proved, for the purpose of a flight. */
+static mask provable(const queue *q, mask closing)
+{
+    long purpose = q->also->purpose;
+    return purpose == WHOLE ? splat_mask(-1) : purpose == ESCAPE ? closing : splat_mask(0);
+}
+#endif
+
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
     certified = certified && !SURFACE_ARM; /* angular momentum drifts: no theorem */
@@ -78,8 +100,8 @@ static void put(queue *q, long index, int status, int outcome, int certified)
 static void note(queue *q, long index, int kind, double time)
 {
     answer *a = &q->answers[index];
-    if (q->log && a->events < MOST_EVENTS)
-        q->log[index*MOST_EVENTS + a->events] = (happening){kind, time};
+    if (q->also && q->also->log && a->events < q->also->log_room)
+        q->also->log[index*q->also->log_room + a->events] = (happening){kind, time};
     a->events++;
 }
 
@@ -154,6 +176,9 @@ static void fill_queue(queue *q)
         mask all = splat_mask(-1), none = splat_mask(0);
         unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
                           bits(held_sticks(&f.c, y, all, q->rtol));
+#if WITH_TRAJECTORY
+        proved &= bits(provable(q, splat_mask(-1)));
+#endif
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);
@@ -161,6 +186,9 @@ static void fill_queue(queue *q)
             }
             if (proved >> lane & 1) {
                 put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
+#if WITH_LEDGER
+                close_book((ledger *)q->also->books + first + lane, &f.c, y, lane);
+#endif
                 continue;
             }
             q->waiting[q->queued] = first + lane;
@@ -259,6 +287,9 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
         along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
 #endif
     }
+#if WITH_LEDGER
+    close_book((ledger *)q->also->books + l->index[lane], &f->c, l->y, lane);
+#endif
 }
 
 /* The flight of a lane is over: what came of it, and the next one. */

@@ -22,6 +22,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
 {
     int at_touch = l->time[lane] == 0.0 && l->phases[lane] == 0;
     vec after[STATES];
+#if WITH_LEDGER
+    book_reversal((ledger *)q->also->books + l->index[lane], &f->c, l->y, lane);
+#endif
     memcpy(after, l->y, sizeof after);
     reversal(&f->c, l->y, after);
 #if GRADIENTS
@@ -43,6 +46,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         note(q, l->index[lane], RESTS, l->time[lane]);
 #if GRADIENTS
         along_near(&l->along, lane, 0.0, CHATTERS);
+#endif
+#if WITH_LEDGER
+        book_rest((ledger *)q->also->books + l->index[lane], l->y, lane);
 #endif
         l->y[OPENING][lane] = 0.0;
         l->resting[lane] = -1;

@@ -1,0 +1,138 @@
+"""Flights by the kernel with everything that was asked for written down: events, ledger, the steps' polynomials."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from ..model import choose
+from .engine import BUDGET, Impacts, Record, calling, variant
+from .library import ANSWER, kernel, knows
+
+HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")])
+LEDGER = np.dtype(
+    [
+        (name, "f8")
+        for name in (
+            "initial",
+            "final",
+            "lifted",
+            "normal",
+            "tangential",
+            "capillary",
+            "attraction",
+            "dry",
+            "momentum",
+        )
+    ]
+)
+_LOG_ROOM, _STEP_ROOM = 64, 256  # of a collision; where they are not enough the flight is repeated with more
+
+
+class Purpose(IntEnum):
+    """What a flight with its steps is for: in the order of runtime/queue.h."""
+
+    WHOLE = 0
+    APPROACH = 1  # it ends where it turns or is reversed, and nothing is proved
+    ESCAPE = 2  # it ends where it falls back or rests, and is proved a stick only while it approaches
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps of flights, a row each, in order of time within a collision.
+
+    Attributes:
+        rows: time and length (x0/v0), collision, phase (counted from 0), closing, resting, film, and the series: states
+            by powers of the time since the step's start.
+        turned: which state is the angle turned; None if none is.
+    """
+
+    rows: np.ndarray
+    turned: int | None
+
+    def of(self, collision: int) -> Steps:
+        """Those of one collision."""
+        return Steps(self.rows[self.rows["collision"] == collision], self.turned)
+
+    def within(self, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Times at the same parts of every step, and the states there (a row each)."""
+        since = self.rows["length"][:, None] * parts
+        powers = since[:, None, :] ** np.arange(self.rows["series"].shape[2])[:, None]
+        states = np.moveaxis(self.rows["series"] @ powers, 1, 0)
+        return (self.rows["time"][:, None] + since).ravel(), states.reshape(states.shape[0], since.size)
+
+    def states(self, times: np.ndarray) -> np.ndarray:
+        """States (a row each) of one collision at times (x0/v0) within its flight, from the step that holds them."""
+        at = np.searchsorted(self.rows["time"], times, side="right") - 1
+        at = np.clip(at, 0, self.rows.size - 1)
+        series, since = self.rows["series"][at], times - self.rows["time"][at]
+        sums: np.ndarray = series[:, :, -1]
+        for k in range(series.shape[2] - 2, -1, -1):
+            sums = sums * since[:, None] + series[:, :, k]
+        return sums.T
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Flights: an ANSWER each, its events (the first `events` of a row), its LEDGER, the steps of all."""
+
+    answers: np.ndarray
+    events: np.ndarray
+    ledger: np.ndarray | None
+    steps: Steps | None
+
+
+def recorded(
+    impacts: Impacts,
+    oblique: bool,
+    rtol: float,
+    ledger: bool = False,
+    trajectory: bool = False,
+    budget: int = BUDGET,
+    purpose: Purpose = Purpose.WHOLE,
+    keep: bool = True,
+    fold: bool = True,
+) -> Recorded | None:
+    """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
+
+    Arguments:
+        ledger: also the energy ledger; the spin is then a state of its own.
+        trajectory: also every step.
+        purpose: other than WHOLE only with a trajectory.
+        fold: a partner that equals the sphere is treated as such.
+        keep: the steps; else the same kernel flies without writing them down.
+    """
+    if not knows(impacts.scene):
+        return None
+    choice = choose(impacts.scene, oblique, full=ledger, fold=fold)
+    library = kernel(variant(impacts.scene, choice, rtol, True, ledger, trajectory))
+    if library is None:
+        return None
+    fly, size = calling(library, rtol, budget), impacts.angle.size
+    keep &= trajectory
+    log_room, step_room = _LOG_ROOM, _STEP_ROOM * size if keep else 0
+    while True:
+        answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
+        books = np.zeros(size if ledger else 0, LEDGER)
+        rows = np.empty(step_room, _row(library) if keep else ANSWER)  # the kernel fills those that it counts
+        also = Record(log.ctypes.data, books.ctypes.data, rows.ctypes.data, log_room, step_room, 0, purpose)
+        fly(impacts, answers, also)
+        most = int(answers["events"].max())
+        if most <= log_room and (also.steps <= step_room or not keep):
+            break
+        log_room, step_room = max(most, log_room), max(also.steps, step_room)
+    return Recorded(answers, log, books if ledger else None, _steps(library, rows[: also.steps]) if keep else None)
+
+
+def _row(library: ctypes.CDLL) -> np.dtype:
+    states, terms = (ctypes.c_int.in_dll(library, name).value for name in ("row_states", "row_terms"))
+    flags = [(name, "i4") for name in ("phase", "closing", "resting", "film")]
+    return np.dtype([("time", "f8"), ("length", "f8"), ("collision", "i8"), *flags, ("series", "f8", (states, terms))])
+
+
+def _steps(library: ctypes.CDLL, rows: np.ndarray) -> Steps:
+    turned = ctypes.c_int.in_dll(library, "row_turned").value
+    return Steps(rows, None if turned < 0 else turned)

@@ -1,0 +1,52 @@
+/* The steps of a flight as they were taken, a row each: states as polynomials in the time since the step's start. */
+
+typedef struct {
+    double time, length;
+    int64_t collision;
+    int32_t phase, closing, resting, film; /* phases are counted from 0 */
+    double series[STATES][TERMS];
+} step_row;
+
+/* Where a caller finds the polynomials. */
+const int row_states = STATES, row_terms = TERMS;
+#if OBLIQUE && STRINGS
+const int row_turned = ROTATION;
+#elif TURNING_STATE
+const int row_turned = TURNED;
+#else
+const int row_turned = -1;
+#endif
+
+/* Rows beyond the room that there is are counted and not written: the caller asks again with more room. */
+static void keep_steps(queue *q, const flights *l, const vec (*a)[TERMS], vec length)
+{
+    for (unsigned left = bits(l->alive); left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        if (q->also->steps++ >= q->also->step_room)
+            continue;
+        step_row *row = (step_row *)q->also->rows + q->also->steps - 1;
+        row->time = l->time[lane];
+        row->length = length[lane];
+        row->collision = l->index[lane];
+        row->phase = (int32_t)l->phases[lane];
+        row->closing = l->closing[lane] != 0;
+        row->resting = l->resting[lane] != 0;
+        row->film = l->film[lane] != 0.0;
+        for (int state = 0; state < STATES; state++)
+            for (int k = 0; k < TERMS; k++)
+                row->series[state][k] = a[state][k][lane];
+    }
+}
+
+/* What an event does, and whether the purpose of the flight is fulfilled with it. */
+static void act_for_purpose(queue *q, flights *l, fixed *f, int lane, int event)
+{
+    long purpose = q->also->purpose, index = l->index[lane];
+    int closing = l->closing[lane] != 0;
+    act(q, l, f, lane, event);
+    if (purpose == WHOLE || !l->alive[lane] || l->index[lane] != index)
+        return;
+    int closes = l->closing[lane] != 0;
+    if (purpose == APPROACH ? closing && !closes : l->resting[lane] || (!closing && closes))
+        finish(q, l, f, lane, DECIDED, STICK, 0);
+}
