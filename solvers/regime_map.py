@@ -15,7 +15,7 @@ from ..generated import scaling
 from .custom import Package
 from .errors import InputError
 from .journal import Journal
-from .many import Block, compute, empty, fill, outcome_attributes
+from .many import Block, as_text, compute, empty, fill, outcome_attributes
 from .numbers import si_values
 from .requests import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .scene import Scene
@@ -184,7 +184,7 @@ def _dataset(grid: Grid, request: Request, results: Block) -> xarray.Dataset:
     variables: dict[str, Any] = {
         "outcome": (grid.dims, shaped(results["outcome"]), outcome_attributes()),
         "certified": (grid.dims, shaped(results["certified"]), {"long_name": "the stick is proved"}),
-        "reason": (grid.dims, shaped(results["reason"].astype(str)), {"long_name": "why it failed"}),
+        "reason": (grid.dims, shaped(as_text(results)), {"long_name": "why it failed"}),
     }
     for name, (unit, meaning) in QUANTITIES.items():
         if name in results:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Self
 
@@ -94,7 +95,7 @@ class Scene:
             return loaded
         text, origin = scenefile.read_text(source)
         if model is None:
-            return cls.from_toml(text, origin)
+            return _read(text, origin)
         package = open_package(model, "model")
         return cls.from_toml(text, origin, package).with_model(package)
 
@@ -287,6 +288,12 @@ class Scene:
         if self.angle is None:
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
         return self.speed, self.angle
+
+
+@lru_cache(maxsize=32)
+def _read(text: str, origin: str) -> Scene:
+    """The scene of a text: read once, since scenes do not change."""
+    return Scene.from_toml(text, origin)
 
 
 def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[str, Raw]]:

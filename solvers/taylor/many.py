@@ -42,19 +42,22 @@ def collided(
     Arguments:
         finished: told of every block that is done.
     """
-    left = []
+    left = [which[:0]]
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         impacts, sound = _impacts(request.part(part))
         found = answers(impacts, request.rtol, "rotation" in request.of, threads)
         if found is None:
             return which
-        done = sound.copy()
-        done[sound] = found["status"] <= 1
         kept = found["status"] <= 1
+        if part.size == kept.size and kept.all():  # nearly always: then nothing is copied
+            finished(part, _block(request, found, impacts))
+            continue
+        done = sound.copy()
+        done[sound] = kept
         finished(part[done], _block(request, found[kept], impacts.part(kept)))
         left.append(part[~done])
-    return np.concatenate(left) if left else which
+    return np.concatenate(left)
 
 
 def patiently(request: Request) -> Block | None:
@@ -114,24 +117,24 @@ def _one_by_one(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
 
 
 def _block(request: Request, found: np.ndarray, impacts: Impacts) -> Block:
-    """Answers as the columns of a result."""
+    """Answers as the columns of a result: those that are asked for."""
     separated = found["outcome"] > 0
-    thickness = impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
-    oblique = impacts.angle > 0
+
+    def thickness() -> np.ndarray | float:
+        return impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
 
     def where(defined: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.where(defined, values, np.nan)
 
-    columns = {
-        "tangential_restitution": where(separated & oblique, found["shown"][:, 1]),
-        "contact_time": where(separated, found["time"] * thickness / impacts.speed),
-        "smallest_gap": where(separated, found["smallest_gap"] * thickness),
-        "rotation": where(separated, found["turned"]),
+    columns: dict[str, Callable[[], np.ndarray]] = {
+        "tangential_restitution": lambda: where(separated & (impacts.angle > 0), found["shown"][:, 1]),
+        "contact_time": lambda: where(separated, found["time"] * thickness() / impacts.speed),
+        "smallest_gap": lambda: where(separated, found["smallest_gap"] * thickness()),
+        "rotation": lambda: where(separated, found["turned"]),
     }
     block: Block = {
         "outcome": found["outcome"].astype(np.int8),
         "certified": found["certified"] != 0,
         "restitution": np.where(separated, found["shown"][:, 0], 0.0),
-        "reason": np.full(found.size, "", dtype=object),
     }
-    return block | {name: column for name, column in columns.items() if name in request.of}
+    return block | {name: column() for name, column in columns.items() if name in request.of}
