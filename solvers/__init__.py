@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .bounds import Boundaries, boundary
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .many import collide_many
-    from .regime_map import regime_map
+    from .regimes import regime_map
     from .result import Collision
     from .scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
@@ -39,7 +39,7 @@ _HOMES = {
     "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "simulate",
     "collide_many": "many",
-    "regime_map": "regime_map",
+    "regime_map": "regimes",
     "sensitivities": "sensitivity.gradients",
     "sobol_indices": "sensitivity.variance",
     "trajectory_sensitivities": "sensitivity.trajectory",

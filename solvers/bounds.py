@@ -10,6 +10,7 @@ import math
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -26,7 +27,9 @@ from .validity import warn
 STOKES = (1e-4, 100.0)
 SHARPEST = 1e-13
 _PER_DECADE = 1.7  # of the coarse scan
+_BESIDE = 2.0  # factor about the changes of two lines in which those between them are looked for
 _SURROUND = 1.3  # where the pattern of changes is another one than at the last angle
+_CLOSE = 6  # times that the angles about a change of pattern are halved for a picture
 _AROUND, _NEAR = 3e-3, 1e-4  # relative doubt of a prediction from two lines, and at least from three
 
 
@@ -126,6 +129,35 @@ def boundary(
         whole.collisions,
         tuple(whole.failures[k] for k in back),
     )
+
+
+def closed(scene: Scene, found: Boundaries, stokes: tuple[float, float], rtol: float = RTOL) -> Boundaries:
+    """`found` with more angles where one pattern of changes gives way to another, up to where its curves meet.
+
+    Between two neighbours the place is halved in on: 1/64 of their distance is left.
+    """
+    lines = sorted(zip(found.angles, found.changes, found.failures or [""] * len(found.angles), strict=True))
+    more, collisions = list(lines), found.collisions
+    for one, other in pairwise(lines):
+        low, high = one, other
+        around = [change.stokes for change in (*low[1], *high[1])]
+        if low[2] or high[2] or _pattern(low[1]) == _pattern(high[1]):
+            continue
+        span = max(stokes[0], min(around) / _BESIDE), min(stokes[1], max(around) * _BESIDE)
+        for _ in range(_CLOSE):
+            traced = trace(scene, np.array([(low[0] + high[0]) / 2]), span, rtol)
+            collisions += traced.collisions
+            if traced.failures[0]:
+                break
+            middle = ((low[0] + high[0]) / 2, traced.changes[0], "")
+            more.append(middle)
+            low, high = (middle, high) if _pattern(middle[1]) == _pattern(low[1]) else (low, middle)
+    angles, changes, failures = zip(*sorted(more), strict=True)
+    return Boundaries(angles, changes, collisions, failures)
+
+
+def _pattern(changes: tuple[Change, ...]) -> list[tuple[str, str]]:
+    return [(one.before, one.after) for one in changes]
 
 
 def _traces(scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float) -> Iterator[Traced]:

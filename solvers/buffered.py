@@ -27,8 +27,7 @@ class Buffered:
         self._buffer, self._evaluate = function.buffer()
         self._arguments = [np.zeros(function.nnz_in(k)) for k in inputs]
         for k, argument in zip(inputs, self._arguments, strict=True):
-            # CasADi's stubs know only the C form (index, pointer, size)
-            self._buffer.set_arg(k, memoryview(argument))  # type: ignore[call-arg, arg-type]
+            self._buffer.set_arg(k, memoryview(argument))  # type: ignore[call-arg, arg-type]  # stubs: (index, pointer, size) only
         self._result = np.zeros(function.nnz_out(result))
         self._buffer.set_res(result, memoryview(self._result))  # type: ignore[call-arg, arg-type]  # as above
 

@@ -13,10 +13,11 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import MaxNLocator
 
+from . import ticks
 from .many import FAILED, OUTCOMES
-from .regime_map import scene_of
+from .regimes import scene_of
 from .scene import Scene
 from .show import name_of, quantity
 
@@ -206,9 +207,7 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
     name = _impact(data)
     if _logarithmic(data[name].values):
         axes.set_yscale("log")
-        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axes.yaxis.set_minor_formatter(NullFormatter())
+        ticks.plain(axes.yaxis)
     across, up = _edges(data)
     axes.set_xlim(across[0], across[-1])
     axes.set_ylim(up[0], up[-1])

@@ -10,15 +10,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .certificate import Proof, proof_for
 from .errors import ComputationError
 from .integrators import IntegrationFailed, Locator, Stop, locator, plain, tolerance
 from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
+from .proofs import Proof, proof_for
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
 LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from any boundary, for nothing gained
-REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (MODEL.md section 5)
+REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
 _MAX_STEPS = 20_000  # phases of one flight
@@ -256,7 +256,7 @@ class Locate:
     def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
         """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures.
 
-        What holds a resting doublet is whatever reversed it, the glassy liquid included (MODEL.md 5, last point).
+        What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
         """
         at_touch = not self.path.steps and flown == 0.0
         after = self.model.values("reversal", self.y, self.p)

@@ -14,13 +14,13 @@ from functools import lru_cache
 import numpy as np
 from casadi import Function, jacobian
 
-from .certificate import Barrier, energy_proof
 from .errors import ComputationError
 from .integrators import IntegrationFailed, locator, plain, tolerance
 from .locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
 from .model import Model, choose, load
 from .numbers import Numbers, numbers
 from .phases import CLOSING, Flow, Region
+from .proofs import Barrier, energy_proof
 from .scene import Scene
 
 _NEVER = 1e30  # a glass number that no pressure meets

@@ -145,6 +145,14 @@ def _outcome(collision: Collision) -> list[str]:
     ]
     if collision.outcome == "stick":  # the rest is undefined
         return lines
+    if collision.scene.wall:  # no line of centres turns
+        return [
+            *lines,
+            _line("tangential e_t", plain(collision.tangential_restitution), "of the velocity along the wall"),
+            _line("contact time", quantity(collision.contact_time, "s")),
+            _line("smallest gap", quantity(collision.smallest_gap, "m")),
+            *_spins(collision),
+        ]
     rotation = collision.rotation
     turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
     return [

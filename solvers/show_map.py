@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .many import FAILED, OUTCOMES
-from .regime_map import scene_of
+from .regimes import scene_of
 from .show import WIDTH, name_of, quantity
 
 if TYPE_CHECKING:

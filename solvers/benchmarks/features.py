@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from .. import locate as locating
-from ..certificate import NoProof, Proof
 from ..compiled import compiler
 from ..model import Model
 from ..phases import Phase
+from ..proofs import NoProof, Proof
 from ..scene import Scene
 from ..settings import RTOL
 from ..simulate import collide

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from .. import locate
-from ..certificate import NoProof
 from ..errors import ComputationError
 from ..locate import Locate
 from ..many import OUTCOMES, collide_many
 from ..model import choose, load
 from ..phases import Phase
+from ..proofs import NoProof
 from ..scene import Scene
 from ..settings import ENGINES
 from ..simulate import collide
@@ -147,7 +147,7 @@ def judge(case: Case) -> Verdict:
     try:
         return _judged(case, runs())
     finally:
-        locating._MAX_STEPS = usual  # noqa: SLF001
+        locating._MAX_STEPS = usual  # noqa: SLF001 # as above
 
 
 def _judged(case: Case, engines: dict[str, Run]) -> Verdict:

@@ -12,8 +12,8 @@ _SIZE = {"ncols": 80, "nrows": 24}  # of a terminal that does not say
 
 
 @contextmanager
-def bar(unit: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield what is to be told of (done, total); nothing is shown in a pipe.
+def bar(unit: str) -> Iterator[Callable[[int, int | None], None]]:
+    """Yield what is to be told of (done, total), None where the total is not known; nothing is shown in a pipe.
 
     Arguments:
         unit: what is counted, as `collisions`.
@@ -22,7 +22,7 @@ def bar(unit: str) -> Iterator[Callable[[int, int], None]]:
 
     shown: Any = None
 
-    def tell(done: int, total: int) -> None:
+    def tell(done: int, total: int | None) -> None:
         nonlocal shown
         if shown is None:  # what an earlier run has done says nothing of the speed of this one
             size = {"dynamic_ncols": True} if _size_is_known() else _SIZE

@@ -133,7 +133,7 @@ def _computed(
     file: Path | None,
 ) -> xarray.Dataset:
     """Compute the map and write it; an interrupt leaves what is done and says how to go on."""
-    from ..regime_map import regime_map, write
+    from ..regimes import regime_map, write
     from .bar import bar
 
     journal = None if file is None else file.with_name(file.name + ".partial")

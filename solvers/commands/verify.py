@@ -37,9 +37,25 @@ def command(
     if scene is None and picture is not None:
         raise InputError("--plot", plot, "a SCENE with --plot", "needs a SCENE")
 
-    from ..verify import verify
+    from ..verify import Finding, Report, verify
+    from .bar import bar
 
-    report = verify(scene)
+    findings: list[Finding] = []
+    try:
+        with bar("checks") as tell:
+
+            def progress(finding: Finding) -> None:
+                findings.append(finding)
+                tell(len(findings), None)
+
+            report = verify(scene, progress)
+    except KeyboardInterrupt:
+        if findings:
+            click.echo(str(Report(tuple(findings))))
+        after = (
+            f"after {len(findings)} checks, the last of them {findings[-1].name}" if findings else "before any check"
+        )
+        raise KeyboardInterrupt(f"interrupted {after}; what follows is not checked") from None
     click.echo(str(report).rstrip("\n"))
     if file is not None:
         options.put(report.to_markdown().rstrip("\n"), file)

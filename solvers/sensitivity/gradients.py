@@ -161,6 +161,6 @@ def _elasticities(
     """D ln y/d ln p, None where y or p is zero; the ledger's residual is zero but for rounding."""
     none = row is None or not value or name == "energy.residual"
     return {
-        p: None if none or not at else float(row[k]) * at / value + 0.0  # type: ignore[index, operator]
+        p: None if none or not at else float(row[k]) * at / value + 0.0  # type: ignore[index, operator]  # `none` says so
         for k, (p, at) in enumerate(reference.items())
     }

@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
-from ..certificate import energy_proof
 from ..errors import ComputationError
 from ..integrators import IntegrationFailed, plain, tolerance
 from ..locate import CRITERIA, Locate, Path, Step
@@ -23,6 +22,7 @@ from ..model import Model, choose, load
 from ..numbers import Numbers, numbers
 from ..phases import CLOSING, Flow
 from ..probe import approach, smooth_escape
+from ..proofs import energy_proof
 from ..scene import Scene
 from .result import Near
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, float | None]
 _SHOWN = 5  # quantities side by side
+_ROUNDING = 1e-13  # of the largest elasticity: what is left of contributions that cancel
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,11 @@ class Sensitivities:
         blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
         held = {"speed": "the impact's speed", "stokes": "the Stokes number"}[self.hold]
         notes = [f"{self.outcome}; {self.method} derivatives by {self.engine}; {held} held"]
+        rows = [row.values() for row in self.elasticity.values()]
+        if any(value == 0 for row in rows for value in row):
+            notes.append("none: it has no influence here")
+        if any(self._rounded(y, p) for y in names for p in self.parameters):
+            notes.append("~0: what rounding leaves of contributions that cancel")
         notes += [f"nearest: {self.near}"] if self.near else []
         return "\n\n".join([*blocks, "\n".join(notes)])
 
@@ -137,9 +143,16 @@ class Sensitivities:
 
     def _cell(self, y: str, p: str) -> str:
         elasticity, gradient = self.elasticity[y][p], self.gradient[y][p]
-        if elasticity is not None:
-            return f"{elasticity:.5g}"
-        return "-" if gradient is None else f"* {gradient:.4g}"
+        if elasticity is None:
+            return "-" if gradient is None else f"* {gradient:.4g}"
+        if elasticity == 0:
+            return "none"
+        return "~0" if self._rounded(y, p) else f"{elasticity:.5g}"
+
+    def _rounded(self, y: str, p: str) -> bool:
+        """Whether an elasticity, though not zero, is no more than rounding."""
+        largest = max((abs(value or 0.0) for value in self.elasticity[y].values()), default=0.0)
+        return 0 < abs(self.elasticity[y][p] or 0.0) < _ROUNDING * largest
 
     def plot(self, path: str | Path | None = None) -> Any:
         """A tornado chart of the elasticities; returns the matplotlib Figure.

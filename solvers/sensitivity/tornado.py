@@ -12,11 +12,20 @@ if TYPE_CHECKING:
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
 _MOST = 16  # bars a panel
+_SEEN = 0.005  # of a panel's longest bar: a shorter one would not be seen
 _LONG = 6  # columns of panels at most
+_NAMES = {
+    "impact.speed": "impact speed, Stokes",
+    "impact.angle": "impact angle",
+    "bridge.volume": "bridge volume $V/R^3$",
+    "particles.youngs_modulus": "Young's modulus",
+    "particles.poisson_ratio": "Poisson's ratio",
+}
+"""Parameters whose name in the scene does not say enough."""
 
 
 def draw(found: Sensitivities) -> Any:
-    """A panel a quantity, a bar a parameter; those without influence or without elasticity are named below.
+    """A panel a quantity, a bar a parameter; those too weak to be seen, or without elasticity, are named below.
 
     Returns:
         The matplotlib Figure.
@@ -31,13 +40,15 @@ def draw(found: Sensitivities) -> Any:
     axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
     for axis, name in zip(axes, panels):
         _panel(axis, found, name, order)
-    left_out = [name for name in found.parameters if name not in order]
+    weak = [p for p in found.parameters if p not in order and any(found.elasticity[y][p] for y in panels)]
+    left_out = [p for p in found.parameters if p not in order and p not in weak]
     if not order:
         axes[0].text(
             0.5, 0.5, "nothing moves it: a stick has e_n = 0" if found.outcome == "stick" else "no elasticity here",
             ha="center", va="center", transform=axes[0].transAxes, fontsize=9, color=_INK,
         )  # fmt: skip
-    notes = [f"{found.outcome}, e_n = {found.value['restitution']:.4g}" if _has_value(found) else found.outcome]
+    notes = [f"{found.outcome}, $e_n$ = {found.value['restitution']:.4g}" if _has_value(found) else found.outcome]
+    notes += [f"too little to be seen: {', '.join(_short(weak))}"] if _short(weak) else []
     notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
     figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", fontsize=11, color=_INK)
     figure.supxlabel(_wrapped("; ".join(notes), 34 * len(panels) + 30), fontsize=7.5, color="#555555")
@@ -50,13 +61,11 @@ def _has_value(found: Sensitivities) -> bool:
 
 def _ranked(found: Sensitivities, names: Sequence[str]) -> list[str]:
     """Parameters with influence, strongest last (bars are drawn from below); speed and Stokes number once."""
-    strength = {
-        p: max((abs(found.elasticity[y][p] or 0.0) for y in names), default=0.0)
-        for p in found.parameters
-        if not (p == "impact.stokes" and "impact.speed" in found.parameters)
-    }
-    ranked = sorted((p for p, value in strength.items() if value > 0), key=lambda p: strength[p])
-    return ranked[-_MOST:]
+    single = [p for p in found.parameters if not (p == "impact.stokes" and "impact.speed" in found.parameters)]
+    rows = {p: [abs(found.elasticity[y][p] or 0.0) for y in names] for p in single}
+    longest = [max((row[k] for row in rows.values()), default=0.0) for k in range(len(names))]
+    seen = [p for p, row in rows.items() if any(v > _SEEN * most for v, most in zip(row, longest))]
+    return sorted(seen, key=lambda p: max(rows[p]))[-_MOST:]
 
 
 def _panel(axis: Any, found: Sensitivities, name: str, order: Sequence[str]) -> None:
@@ -82,11 +91,11 @@ def _panel(axis: Any, found: Sensitivities, name: str, order: Sequence[str]) -> 
 
 
 def _label(name: str) -> str:
-    return "impact speed, Stokes" if name == "impact.speed" else name.partition(".")[2].replace("_", " ")
+    return _NAMES.get(name, name.partition(".")[2].replace("_", " "))
 
 
 def _short(names: Sequence[str]) -> list[str]:
-    return [name.partition(".")[2].replace("_", " ") for name in names if name != "impact.stokes"]
+    return [_label(name) for name in names if name != "impact.stokes"]
 
 
 def _wrapped(text: str, width: int) -> str:

@@ -127,7 +127,7 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
     parts += [emitted.header(path) for path in paths]
     parts += [
         (_RUNTIME / name).read_text()
-        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "lanes.h")
+        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "crawl.h", "lanes.h")
     ]
     return "\n".join(parts)
 

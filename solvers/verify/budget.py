@@ -43,7 +43,7 @@ def restitution_budget(
         Dataset over (angle, stokes): `outcome` (as in `collide_many`), `restitution`, `excess` = e_n^2 - 1, its terms
         `rotation_released` (from the rates at separation), `normal_lubrication`, `tangential_lubrication`,
         `capillary`, `dry_contact`, `strings` (losses, which are subtracted), `residual` (the ledger's, subtracted as
-        well), `gap` (excess less all of them: rounding), `ceiling` (of e_n^2, MODEL.md section 7; midgap arm without
+        well), `gap` (excess less all of them: rounding), `ceiling` (of e_n^2; midgap arm without
         strings). All are 2 E/(m v0^2); NaN for sticks and for what failed (`reason`).
 
     Raises:

@@ -66,7 +66,7 @@ _TOLD = {
 
 
 def film_loss(s: float) -> float:
-    """Lf(s) of MODEL.md section 6: St times the loss of -u/v0 between x0 and s x0, the film alone."""
+    """Lf(s), St times the loss of -u/v0 between x0 and s x0, the film alone."""
     return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
 
 

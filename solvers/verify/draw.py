@@ -12,8 +12,9 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import MaxNLocator
 
+from .. import ticks
 from ..scene import Scene
 from ..show import name_of
 from .budget import LOSSES
@@ -92,7 +93,7 @@ def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> 
             ha="center", fontsize=8,
         )  # fmt: skip
     axes.set_yscale("log")
-    _logarithmic(axes.yaxis)
+    ticks.plain(axes.yaxis, (1, 3))
     axes.xaxis.set_major_locator(MaxNLocator(9, steps=[1, 2, 3, 5, 10]))
     axes.set_xlabel("impact angle (deg)", fontsize=9)
     axes.set_ylabel("Stokes number St", fontsize=9)
@@ -121,7 +122,7 @@ def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
     for first, last in _runs(~parted):
         axes.axvspan(_between(stokes, first - 1, first), _between(stokes, last, last + 1), color=_NOTHING, linewidth=0)
     axes.set_xlim(stokes[0], stokes[-1])
-    _logarithmic(axes.xaxis)
+    ticks.plain(axes.xaxis, (1, 3))
     angle = math.degrees(float(data["angle"][row]))
     axes.set_title(f"({letter})", loc="left", fontsize=10, fontweight="bold")
     axes.set_title(f"{angle:.0f}°: terms of $e_n^2 - 1$", fontsize=9)
@@ -150,10 +151,3 @@ def _legend(figure: Figure, data: xarray.Dataset) -> None:
     handles += [Line2D([], [], color=_INK, linewidth=1.8, marker="o", markersize=3.5, markerfacecolor="white",
                        label="$e_n^2 - 1$ (circles: > 0)"), Patch(color=_NOTHING, label="stick")]  # fmt: skip
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8, frameon=False)
-
-
-def _logarithmic(axis: object) -> None:
-    """Few labels, as plain numbers."""
-    axis.set_major_locator(LogLocator(subs=(1, 3)))  # type: ignore[attr-defined]  # either axis
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))  # type: ignore[attr-defined]
-    axis.set_minor_formatter(NullFormatter())  # type: ignore[attr-defined]

@@ -73,7 +73,7 @@ def measured(one: Collision, engine: str) -> list[float]:
     """Relative errors of e_n over TOLERANCES."""
     known = {"scene": one.scene, "stokes": one.stokes, "angle": one.angle, "ledger": False}
     truth = collide(**known, rtol=_TRUTH, engine=REFERENCE).restitution  # type: ignore[arg-type]  # by keyword
-    found = [collide(**known, rtol=rtol, engine=engine).restitution for rtol in TOLERANCES]  # type: ignore[arg-type]
+    found = [collide(**known, rtol=rtol, engine=engine).restitution for rtol in TOLERANCES]  # type: ignore[arg-type]  # same
     return [abs(value / truth - 1) for value in found]
 
 

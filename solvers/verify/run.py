@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from ..scene import Scene
 from ..scenefile import PRESETS
@@ -12,20 +12,29 @@ from .region import grid
 from .report import Finding, Report
 
 
-def verify(scene: Scene | str | None = None) -> Report:
+def verify(scene: Scene | str | None = None, progress: Callable[[Finding], None] | None = None) -> Report:
     """Check the laws, and the numbers of a scene.
 
     Arguments:
         scene: a Scene, a file or a preset's name; None for all presets and their head-on variants.
+        progress: called with each finding as it is made.
 
     Returns:
         The Report; `report.ok` tells whether all that is held to something holds.
     """
-    if scene is None:
-        return Report((*symbolic(), *_presets()))
-    loaded = Scene.load(scene)
-    budget = grid(loaded)
-    return Report((*symbolic(loaded), *numeric(loaded, budget=budget)), budget)
+    loaded = None if scene is None else Scene.load(scene)
+    findings: list[Finding] = []
+
+    def take(found: Iterator[Finding]) -> None:
+        for finding in found:
+            findings.append(finding)
+            if progress:
+                progress(finding)
+
+    take(symbolic(loaded))
+    budget = None if loaded is None else grid(loaded)
+    take(_presets() if loaded is None else numeric(loaded, budget=budget))
+    return Report(tuple(findings), budget)
 
 
 def _presets() -> Iterator[Finding]:

@@ -21,7 +21,7 @@ OF = "restitution"
 def main() -> None:
     """Compute and print."""
     reference = json.loads((HERE / "data" / "sensitivities.json").read_text())
-    print("| collision | events | forward | adjoint | forward - adjoint | cvodes 1e-10 | cvodes 3e-12 |")  # noqa: T201
+    print("| collision | events | forward | adjoint | forward - adjoint | cvodes 1e-10 | cvodes 3e-12 |")  # noqa: T201 # below
     print("|---|---|--:|--:|--:|--:|--:|")  # noqa: T201 # what a script is for
     for case in CASES:
         row = reference[case.name][OF]
@@ -48,7 +48,7 @@ def main() -> None:
         print(f"| {case.name} | {', '.join(case.kinds)} | {shown} |")  # noqa: T201 # as above
 
 
-def _row(scene, engine, method, rtol, names):  # type: ignore[no-untyped-def]
+def _row(scene, engine, method, rtol, names):  # type: ignore[no-untyped-def]  # a script
     try:
         found = sensitivities(scene, [OF], names, method=method, engine=engine, rtol=rtol)
     except ComputationError:
@@ -56,7 +56,7 @@ def _row(scene, engine, method, rtol, names):  # type: ignore[no-untyped-def]
     return dict(found.elasticity[OF])
 
 
-def _apart(one, other):  # type: ignore[no-untyped-def]
+def _apart(one, other):  # type: ignore[no-untyped-def]  # a script
     return float("nan") if one is None else apart(one, other)
 
 

@@ -24,7 +24,7 @@ FILLED = {slot: LAWS[slot][name] for slot, name in DEFAULT.items()}
 
 def test_checks_of_a_scenes_laws_are_those_laws_alone(healthy):
     """With laws chosen, each check of a law is of the one chosen; each name stands once, and none is new."""
-    found = symbolic_checks({"arm": LAWS["arm"]["surface"], "shear": LAWS["shear"]["film"]})
+    found = tuple(symbolic_checks({"arm": LAWS["arm"]["surface"], "shear": LAWS["shear"]["film"]}))
     names = [check.name for check in found]
     assert len(set(names)) == len(names)
     assert set(names) < healthy.keys()

@@ -55,8 +55,8 @@ def test_written_the_same_it_is_the_same():
     ("declaration", "law", "definition"),
     [
         ('k = quantity("k", unit="Pa")', 'law("bridge", "mine", force=k*a**2)', "reduced_radius*k/surface_tension"),
-        ('k = quantity("k", unit="Pa")', 'law("film", "mine", resistance=k*a**2*u/v0)', "k*reduced_radius/(speed*viscosity)"),  # noqa: E501
-        ('k = quantity("k", unit="Pa", over=mu*v0/x0)', 'law("film", "mine", resistance=k*a**2*u/v0)', "film_thickness*k/(speed*viscosity)"),  # noqa: E501
+        ('k = quantity("k", unit="Pa")', 'law("film", "mine", resistance=k*a**2*u/v0)', "k*reduced_radius/(speed*viscosity)"),  # noqa: E501 # a row
+        ('k = quantity("k", unit="Pa", over=mu*v0/x0)', 'law("film", "mine", resistance=k*a**2*u/v0)', "film_thickness*k/(speed*viscosity)"),  # noqa: E501 # a row
         ('k = quantity("k", unit="m")', 'law("bridge", "mine", force=exp(-x/k))', "k/reduced_radius"),
         ('k = quantity("k")', 'law("bridge", "mine", force=k*h)', "k"),
     ],
@@ -106,7 +106,7 @@ def test_structures_without_the_slot_are_untouched():
         ('law("bridge", "mine", force=1/(h - h))', "dimensions", "zoo"),
         ('law("bridge", "mine", force=log(V - 0.05))', "limits: bridge mine", "volume = 0.001"),
         ('law("arm", "mine", lever=2 + (distance - 4)/3)', "angular momentum: arm mine", "dL/dt"),
-        ('law("strings", "mine", rise=offset_squared/2, stiffness=offset_squared)', "potential: strings mine", "left over"),  # noqa: E501
+        ('law("strings", "mine", rise=offset_squared/2, stiffness=offset_squared)', "potential: strings mine", "left over"),  # noqa: E501 # a row
     ],
 )  # fmt: skip
 def test_checks_fail_by_name(body: str, name: str, figure: str):
@@ -165,7 +165,7 @@ def test_bad_model_files_are_named(body: str, said: str):
 
 @pytest.mark.parametrize(
     ("unit", "dimension"),
-    [("Pa", PRESSURE), ("N/m^2", PRESSURE), ("kg m/s^2", FORCE), ("1/s", TIME**-1), ("kg/m^3", MASS / LENGTH**3), ("1", ONE)],  # noqa: E501
+    [("Pa", PRESSURE), ("N/m^2", PRESSURE), ("kg m/s^2", FORCE), ("1/s", TIME**-1), ("kg/m^3", MASS / LENGTH**3), ("1", ONE)],  # noqa: E501 # a row
 )  # fmt: skip
 def test_units_have_dimensions(unit: str, dimension):
     """Coherent SI in words has the dimension that mechanics says."""

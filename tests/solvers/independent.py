@@ -1,4 +1,4 @@
-"""The equations of MODEL.md in SI, written down once more and integrated with scipy: what the package is held against.
+"""The equations in SI, written down once more and integrated with scipy: what the package is held against.
 
 Nothing here comes from the package but the numbers of a scene.
 """

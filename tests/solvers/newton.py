@@ -125,9 +125,9 @@ def flown(bodies: Bodies, speed: float, angle: float, longest: float, rtol: floa
     def edge(_: float, y: np.ndarray) -> float:
         return geometry(y)[0] / bodies.film_thickness - 1
 
-    rupture.terminal, rupture.direction = True, 1  # type: ignore[attr-defined]
+    rupture.terminal, rupture.direction = True, 1  # type: ignore[attr-defined]  # as scipy wants it
     for event in (turns, edge):
-        event.terminal = True  # type: ignore[attr-defined]
+        event.terminal = True  # type: ignore[attr-defined]  # as above
     scale = np.array([1e-3 * bodies.film_thickness] * 4 + [speed] * 4 + [speed / contact] * 2 + [bodies.m * speed**2])
     time, y, separated = 0.0, y0, False
     for _ in range(12):  # piece by piece, where the forces have kinks

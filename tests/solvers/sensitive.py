@@ -91,4 +91,4 @@ def _read(one: object, name: str) -> float:
 def apart(one: dict[str, float | None], other: dict[str, float | None]) -> float:
     """Largest difference of two rows of elasticities, over the largest elasticity."""
     largest = max(abs(v) for v in other.values() if v is not None)
-    return max(abs(one[k] - v) for k, v in other.items() if v is not None) / largest  # type: ignore[operator]
+    return max(abs(one[k] - v) for k, v in other.items() if v is not None) / largest  # type: ignore[operator]  # both have it

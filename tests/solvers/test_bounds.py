@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from wetdoublet.solvers import Boundaries, ComputationError, InputError, Scene, boundary, collide, collide_many
-from wetdoublet.solvers.cli import cli
+from wetdoublet.solvers.boundary_plot import draw
+from wetdoublet.solvers.bounds import closed
 from wetdoublet.solvers.probe import Line
+
+from .command import run
 
 PRESETS = ("granulation", "pendulum")
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
@@ -81,14 +83,14 @@ def test_no_change_is_missed(name: str, span: tuple[float, float]) -> None:
         assert [OUTCOMES[one] for one in seen[clear]] == np.array(expected)[clear].tolist()
 
 
-# ---- numbers of MODEL.md section 8, other structures
+# ---- numbers of an independent prototype (80 bits), other structures
 
 
 @pytest.mark.parametrize(
     ("arm", "expected"), [("surface", (4.266, 4.205, 4.149, 4.081)), ("midgap", (4.187, 4.121, 4.063, 3.995))]
 )
 def test_critical_centrifugal_number(arm: str, expected: tuple[float, ...]) -> None:
-    """Ce* on S/SRS at 30, 45, 60, 75 deg, as MODEL.md prints it for both arms."""
+    """Ce* on S/SRS at 30, 45, 60, 75 deg, as the independent prototype has it for both arms."""
     scene = Scene.load("granulation").with_entries({"model.arm": arm})
     found = boundary(scene, angle=np.radians([30, 45, 60, 75]))
     for line, number in zip(found.changes, expected, strict=True):
@@ -97,7 +99,7 @@ def test_critical_centrifugal_number(arm: str, expected: tuple[float, ...]) -> N
 
 
 def test_critical_centrifugal_number_scales() -> None:
-    """Ce* at 45 deg, glass off, when V, x0, mu, sigma, m, a is doubled: the factors of MODEL.md."""
+    """Ce* at 45 deg, glass off, when V, x0, mu, sigma, m, a is doubled: the independent prototype's factors."""
     scene = Scene.load("granulation").with_entries({"liquid.glass_transition_pressure": "1e6 GPa"})
 
     def critical(one: Scene) -> float:
@@ -121,7 +123,7 @@ def test_critical_centrifugal_number_scales() -> None:
      ("constant", 6.8)],
 )  # fmt: skip
 def test_other_bridges(law: str, expected: float) -> None:
-    """Ce* at 45 deg, surface arm, for other bridge laws (MODEL.md section 9); `constant` has its barrier at x_f."""
+    """Ce* at 45 deg, surface arm, other bridge laws, by the prototype; `constant` has its barrier at x_f."""
     scene = Scene.load("granulation").with_entries({"bridge.law": law, "model.arm": "surface"})
     found = boundary(scene, angle=math.pi / 4)
     # as printed: half a unit of the last digit
@@ -217,7 +219,7 @@ def test_a_line_that_fails_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("name", PRESETS)
 def test_json_of_the_command(name: str, reference_boundaries: dict[str, Any]) -> None:
     """`wetdoublet boundary --json`: angles in rad, changes ascending; Ce null without a bridge."""
-    outcome = CliRunner().invoke(cli, ["boundary", name, "--angle", "35:65:3", "--stokes", "0.02:5", "--json"])
+    outcome = run("boundary", name, "--angle", "35:65:3", "--stokes", "0.02:5", "--json")
     assert outcome.exit_code == 0, outcome.output
     found = json.loads(outcome.stdout)
     assert set(found) == {"angles", "changes"}
@@ -241,3 +243,24 @@ def test_a_span_cuts_the_line() -> None:
     assert boundary("granulation", angle=angle, stokes=(first * 1.01, second * 0.99)).changes == ((),)
     (only,) = boundary("granulation", angle=angle, stokes=(first * 1.01, second * 1.01)).changes[0]
     assert only.stokes == pytest.approx(second, rel=3e-9)
+
+
+def test_the_picture_closes_where_curves_meet() -> None:
+    """Between an angle with one change and one with two, more are traced: the curves end where they meet.
+
+    Six halvings leave 1/64 of the step in angle; the curves are apart there by no more than their slope over it.
+    """
+    scene, span = Scene.load("granulation"), (0.05, 0.2)
+    found = boundary(scene, angle=np.radians([22.0, 25.0]), stokes=span)
+    whole = closed(scene, found, span)
+    assert [len(line) for line in found.changes] == [1, 2]
+    assert len(whole.angles) == 8 and sorted(whole.angles) == list(whole.angles)
+    first = next(k for k, line in enumerate(whole.changes) if len(line) == 2)
+    assert math.degrees(whole.angles[first] - whole.angles[first - 1]) == pytest.approx(3 / 64)
+    assert whole.changes[first - 1][0].stokes == pytest.approx(whole.changes[first][1].stokes, rel=1e-4)
+    apart = [math.log(line[1].stokes / line[0].stokes) for line in whole.changes[first:]]
+    slope = (apart[-1] - apart[0]) / (whole.angles[-1] - whole.angles[first])
+    assert 0 < apart[0] < 1.2 * slope * math.radians(3 / 64)  # the slope falls by a few percent on the way
+    figure = draw(scene, whole)
+    names = {text.get_text().replace("\n", "") for text in figure.axes[0].texts}
+    assert names == set(OUTCOMES)

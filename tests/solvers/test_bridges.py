@@ -12,7 +12,7 @@ from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collid
 from wetdoublet.solvers.probe import Line
 from wetdoublet.solvers.schema import BRIDGE_LAWS
 
-# MODEL.md, section 9: Ce* at 45 deg with the surface arm, granulation
+# an independent prototype's Ce* at 45 deg with the surface arm, granulation
 CRITICAL = {
     "willett": 3.95,
     "willett-simple": 4.70,

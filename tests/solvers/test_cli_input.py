@@ -7,17 +7,12 @@ import sys
 from types import ModuleType, SimpleNamespace
 
 import pytest
-from click.testing import CliRunner
-from wetdoublet.solvers import cli as command_line
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError
 from wetdoublet.solvers.ranges import parse_range
 from wetdoublet.solvers.scene import Scene
 from wetdoublet.solvers.settings import check_engine, check_rtol
 
-
-def run(*arguments):
-    """Run the command line in this process."""
-    return CliRunner().invoke(command_line.cli, list(arguments))
+from .command import run
 
 
 @pytest.fixture
@@ -249,7 +244,7 @@ def test_generate_and_verify(module, tmp_path):
         def to_markdown(self):
             return "# L"
 
-    module("wetdoublet.solvers.verify", verify=lambda scene: Report())
+    module("wetdoublet.solvers.verify", verify=lambda scene, progress: Report(), Finding=object, Report=Report)
     result = run("verify", "-o", str(tmp_path / "report.md"))
     assert (result.exit_code, result.stdout) == (1, "L is not conserved\n") and len(result.stderr.splitlines()) == 1
     assert "angular momentum (granulation): 1e-3, bound 1e-9, at St 1" in result.stderr

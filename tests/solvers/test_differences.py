@@ -11,22 +11,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
-from click.testing import CliRunner
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.compare import compare, equations, plain, same, typeset
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import InputError, Scene, cli, differences
+from wetdoublet.solvers import InputError, Scene, differences
 from wetdoublet.solvers.ccode import texts as c_texts
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 
+from .command import run
+
 GENERATED = Path(differences.__file__).parents[1] / "generated"
 MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in ("__init__.py", "assemble.py"))
-
-
-def run(*arguments: str):
-    """Run the command line in this process."""
-    return CliRunner().invoke(cli.cli, list(arguments))
 
 
 def edited(path: str, before: str, after: str):
@@ -84,7 +80,7 @@ def test_foreign_code_is_not_read():
 
 
 def test_the_command_shows_terms_and_what_they_do():
-    """Soulie instead of Mikami: two coefficients of B, one of C, the own rupture; Ce* falls as MODEL.md says."""
+    """Soulie instead of Mikami: two coefficients of B, one of C, the own rupture; Ce* falls."""
     done = run("diff", "granulation", "granulation", "--set", "bridge.law=soulie")
     assert done.exit_code == 0, done.output
     assert "3 equations differ" in done.output
@@ -93,7 +89,7 @@ def test_the_command_shows_terms_and_what_they_do():
     assert ("-0.019*log_volume", "-0.0082*log_volume") in changed
     assert len(changed) == 4
     ce = [float(value) for value in re.findall(r"Ce\* ([\d.]+)", done.output.split("stick-rotate-separate")[1])]
-    assert ce[0] == pytest.approx(4.121, rel=1e-3)  # midgap arm, MODEL.md section 8
+    assert ce[0] == pytest.approx(4.121, rel=1e-3)  # midgap arm, the prototype's
     assert ce[1] < ce[0]
 
 

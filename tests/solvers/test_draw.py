@@ -10,8 +10,9 @@ import pytest
 from matplotlib.patches import Circle, FancyArrowPatch
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.draw import draw
-from wetdoublet.solvers.frames import frames, orientation, wetted_radius
+from wetdoublet.solvers.frames import frames, orientation
 from wetdoublet.solvers.result import Event
+from wetdoublet.solvers.strip import wetted_radius
 
 IMPACTS = {
     "escapes": ("granulation", {}),

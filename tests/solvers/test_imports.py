@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import pkgutil
 import subprocess
 import sys
 
 import pytest
+from wetdoublet import solvers
 
 HEAVY = ("sympy", "pint", "xarray", "matplotlib", "loky", "scipy")
 PROGRAM = """
@@ -39,3 +41,10 @@ def test_an_input_error_loads_no_integrator() -> None:
     out, packages = loaded("scenes")
     assert "granulation" in out
     assert not packages & {"casadi", *HEAVY}
+
+
+def test_no_public_name_is_a_modules() -> None:
+    """A module of the same name would take its place, once something had imported it."""
+    modules = {module.name for module in pkgutil.iter_modules(solvers.__path__)}
+    assert modules > {"cli", "scene"}
+    assert not modules & set(solvers.__all__)

@@ -89,7 +89,7 @@ def test_an_interrupted_run_is_continued(tmp_path):
     counting = (
         "import sys\n"
         "from importlib import import_module\n"
-        "module = import_module('wetdoublet.solvers.regime_map')\n"
+        "module = import_module('wetdoublet.solvers.regimes')\n"
         "real = module.compute\n"
         "def compute(request, which, finished):\n"
         "    def counted(where, block):\n"

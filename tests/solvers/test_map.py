@@ -7,21 +7,16 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from click.testing import CliRunner
 from wetdoublet.solvers import Scene, collide_many, many, regime_map
-from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.draw_map import draw_map
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.regime_map import write
+from wetdoublet.solvers.regimes import write
 from wetdoublet.solvers.show_map import failures, table
+
+from .command import run
 
 STOKES, ANGLE = np.geomspace(0.02, 0.3, 4), np.radians([10.0, 60.0, 80.0])
 SMALL = ["--stokes", "log:0.01:0.3:5", "--angle", "10:80:4"]
-
-
-def run(*arguments):
-    """Run the command line in this process."""
-    return CliRunner().invoke(cli, [str(argument) for argument in arguments])
 
 
 @pytest.fixture(scope="module")

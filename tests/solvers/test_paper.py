@@ -21,7 +21,7 @@ from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
 from wetdoublet.solvers.paper.variants import BRIDGED, variant
 
 COARSE = Detail(step=30.0, rounds=0, curve=12, critical=(CURVES[3],))
-FACTORS = {  # MODEL.md section 8, independent prototype: midgap, surface
+FACTORS = {  # an independent prototype's: midgap, surface
     "factor_volume": (1.038, 1.038),
     "factor_film": (0.762, 0.778),
     "factor_viscosity": (0.983, 0.984),
@@ -96,7 +96,7 @@ def test_figure_1_has_the_papers_outcomes(compared):
     ("key", "value"), [("stokes_3", 1.44666), ("stokes_4", 0.115321), ("centrifugal", 4.121), ("angle_3", 60.0)]
 )
 def test_critical_numbers(compared, key, value):
-    """St* and Ce* are those of the independent prototype (MODEL.md section 8); the coarse map begins SRS at 60 deg."""
+    """St* and Ce* are those of an independent prototype; the coarse map begins SRS at 60 deg."""
     assert compared[key].ours == pytest.approx(value, rel=2e-4)
 
 

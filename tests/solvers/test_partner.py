@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 from wetdoublet.solvers import InputError, Scene, boundary, collide, collide_many
 from wetdoublet.solvers.cli import main
 from wetdoublet.solvers.locate import locate
@@ -234,3 +235,16 @@ def test_the_picture_shows_the_partner(partner):
         assert [ball.radius for ball in spheres[:2]] == [1.0, pytest.approx(2.0)] and not walls
         gap = math.dist(spheres[0].center, spheres[1].center) - 3
     assert gap == pytest.approx(scene.liquid.film_thickness / 1e-4, rel=1e-9)
+
+
+def test_beside_a_wall_the_picture_shows_what_moves():
+    """The wall's mark has moved past the sphere by the integral of the sliding velocity; no omega, which is 0."""
+    scene = Scene.load("granulation").with_entries({"partner.wall": True})
+    one = collide(scene, stokes=0.5, angle="60 deg", trajectory=True)
+    figure = one.plot()
+    marks = [line.get_ydata()[0] for line in figure.axes[-1].lines if line.get_gid() == "mark"]
+    data = one.trajectory
+    slid = trapezoid(data["sliding_velocity"], data["time"]) / 1e-4
+    assert marks[0] == 0 and marks[-2] == pytest.approx(slid, rel=1e-12) and 0 < slid < marks[-1]
+    assert [text.get_text() for text in figure.axes[2].get_legend().get_texts()] == ["ξ, sphere"]
+    assert "omega" not in str(one) and "along the wall" in str(one)

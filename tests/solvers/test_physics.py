@@ -23,7 +23,7 @@ RIGID = {
 
 
 def film_loss(s: float) -> float:
-    """Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2: loss of u/v0 times St between x0 and s x0 (MODEL.md section 6)."""
+    """Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2: loss of u/v0 times St between x0 and s x0."""
     return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
 
 
@@ -87,7 +87,7 @@ def test_figure_1_of_the_paper() -> None:
 
 
 def test_restitution_may_exceed_one() -> None:
-    """Granulation at 75 deg and St 0.02: e_n > 1, and below the ceiling of MODEL.md section 7."""
+    """Granulation at 75 deg and St 0.02: e_n > 1, and below the ceiling that L and the ledger set."""
     found = collide("granulation", stokes=0.02, angle="75 deg")
     a, m, x0, x_f = 50e-6, 5.2e-9, 8e-6, found.scene.rupture_gap
     inertia = m * a**2 * ((4 + x_f / a) ** 2 + 32 / 5)
@@ -109,7 +109,7 @@ def test_without_capillary_force_only_head_on_sticks() -> None:
 
 
 def test_slow_escape_follows_the_one_fifth_power() -> None:
-    """An oblique doublet held by the film alone: e_n ~ St^(1/5) for small St (MODEL.md section 6)."""
+    """An oblique doublet held by the film alone: e_n ~ St^(1/5) for small St."""
     low, high = (
         collide("granulation-dry-bridge", stokes=stokes, angle="45 deg", rtol=1e-10).restitution
         for stokes in (1e-6, 1e-5)

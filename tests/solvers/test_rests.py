@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.certificate import NoProof
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.proofs import NoProof
 
 from .independent import Spheres, flown
 

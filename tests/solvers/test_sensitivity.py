@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from wetdoublet.solvers import InputError, Scene, Sensitivities, collide, sensitivities
-from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.sensitivity.parameters import known
 
 from ..conftest import DATA
+from .command import run
 from .independent import flown
 from .sensitive import CASES, DRY, GRANULATION, PENDULUM, Case, apart, varied
 
@@ -94,7 +93,7 @@ def test_an_independent_model_has_the_same_derivatives() -> None:
     for name in names:
         slope = (e_n(name, 2e-3) - e_n(name, -2e-3)) / 4e-3
         # the differences' own error: a third derivative of order one times h^2 = 4e-6
-        expected = found.gradient["restitution"][name] * float(scene.entries[name])  # type: ignore[operator]
+        expected = found.gradient["restitution"][name] * float(scene.entries[name])  # type: ignore[operator]  # not None here
         assert expected == pytest.approx(slope, abs=1e-5)
     assert found.gradient["restitution"]["particles.roughness"] == 0.0
 
@@ -248,15 +247,14 @@ def test_only_what_is_asked_for() -> None:
 
 
 def test_json_of_the_command() -> None:
-    """The object of INTERFACE.md, and nothing but numbers and null in its rows."""
+    """The documented object, and nothing but numbers and null in its rows."""
     arguments = ["sensitivity", "granulation", "--of", "restitution,energy.capillary", "--wrt",
                  "liquid.viscosity,impact.angle", "--method", "adjoint", "--json"]  # fmt: skip
-    run = CliRunner().invoke(cli, arguments)
-    found = json.loads(run.stdout)
+    found = json.loads(run(*arguments).stdout)
     assert list(found)[:3] == ["value", "gradient", "elasticity"]
     assert set(found["gradient"]) == {"restitution", "energy.capillary"}
     assert set(found["gradient"]["restitution"]) == {"liquid.viscosity", "impact.angle"}
-    default = json.loads(CliRunner().invoke(cli, ["sensitivity", "pendulum", "--json"]).stdout)
+    default = json.loads(run("sensitivity", "pendulum", "--json").stdout)
     assert tuple(default["gradient"]["restitution"]) == known(PENDULUM)
 
 
@@ -273,10 +271,10 @@ def test_json_of_the_command() -> None:
 )  # fmt: skip
 def test_input_errors(arguments: list[str], says: str) -> None:
     """Exit status 2 and one line that names the option and the nearest known."""
-    run = CliRunner().invoke(cli, ["sensitivity", "granulation", *arguments])
-    assert run.exit_code == 2
-    assert says in run.stderr
-    assert run.stderr.count("\n") == 1
+    shown = run("sensitivity", "granulation", *arguments)
+    assert shown.exit_code == 2
+    assert says in shown.stderr
+    assert shown.stderr.count("\n") == 1
 
 
 def test_labelled_result() -> None:

@@ -7,13 +7,12 @@ import math
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities
-from wetdoublet.solvers.certificate import FilmProof
-from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.paper.factors import DOUBLED
+from wetdoublet.solvers.proofs import FilmProof
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving
 
+from .command import run
 from .sensitive import HARD
 
 # scene, its changes, degrees, Stokes numbers about the one change that is looked at
@@ -33,7 +32,7 @@ _STEP = 2e-3
 
 def moved(scene: Scene, degrees: float, span: tuple[float, float], **options: object) -> BoundarySensitivities:
     """Sensitivities of the one change within a span."""
-    found = boundary_sensitivities(scene, angle=math.radians(degrees), stokes=span, **options)  # type: ignore[arg-type]
+    found = boundary_sensitivities(scene, angle=math.radians(degrees), stokes=span, **options)  # type: ignore[arg-type]  # by keyword
     assert len(found.changes[0]) == 1
     assert found.changes[0][0].reason == ""
     return found
@@ -73,7 +72,7 @@ def test_elasticities_add_up_to_a_doubling(key: str) -> None:
         there = scene.with_entries({name: float(scene.entries[name]) * 2 ** ((node + 1) / 2)})
         one = only(moved(there, 45, (0.01, 0.2), wrt=[name]))
         elasticities.append(float(one.elasticity["centrifugal"][name] or 0.0))
-    # MODEL.md section 8, midgap, three digits; four nodes of a smooth function are exact beyond that
+    # an independent prototype's, midgap, three digits; four nodes of a smooth function are exact beyond that
     expected = {"factor_film": 0.762, "factor_radius": 1.136}[key]
     assert 2 ** (weights @ elasticities / 2) == pytest.approx(expected, abs=6e-4)
 
@@ -82,7 +81,7 @@ def test_direction_of_the_doubling_table() -> None:
     """Every elasticity of Ce* has the sign of its doubling, and predicts its size to within 40 % of the change."""
     scene = Scene.load("granulation").with_entries(HARD)
     found = only(moved(scene, 45, (0.03, 0.09), wrt=list(DOUBLED.values())))
-    table = dict(zip(DOUBLED.values(), (1.038, 0.762, 0.983, 1.010, 1.010, 1.136), strict=True))  # MODEL.md section 8
+    table = dict(zip(DOUBLED.values(), (1.038, 0.762, 0.983, 1.010, 1.010, 1.136), strict=True))  # the prototype's
     for name, factor in table.items():
         predicted = float(found.elasticity["centrifugal"][name] or 0.0)
         assert predicted == pytest.approx(math.log2(factor), rel=0.4)
@@ -111,7 +110,7 @@ def test_dimensional_analysis_of_a_boundary() -> None:
 def test_head_on_graze_in_the_film_alone() -> None:
     """Head-on without a bridge St* is in closed form: u = 1 - Lf(x)/St, and max u/x^2 = glass number ~ 1/St.
 
-    Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2 (MODEL.md section 6); dSt*/dp_gt by differences of that.
+    Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2; dSt*/dp_gt by differences of that.
     """
     from scipy.optimize import brentq, minimize_scalar
 
@@ -158,8 +157,8 @@ def test_the_angle_is_the_slope_of_the_curve() -> None:
 def test_on_the_command_line() -> None:
     """`boundary --wrt` adds "sensitivities" to each change, and leaves the rest as it is without it."""
     plain = ["boundary", "granulation", "--angle", "55:55:1", "--stokes", "0.02:0.07", "--json"]
-    with_ = json.loads(CliRunner().invoke(cli, [*plain, "--wrt", "bridge.volume"]).stdout)
-    without = json.loads(CliRunner().invoke(cli, plain).stdout)
+    with_ = json.loads(run(*plain, "--wrt", "bridge.volume").stdout)
+    without = json.loads(run(*plain).stdout)
     for one, other in zip(with_["changes"][0], without["changes"][0], strict=True):
         both = one.pop("sensitivities")
         assert set(both) == {"stokes", "centrifugal"}

@@ -8,14 +8,14 @@ import re
 from dataclasses import replace
 
 import pytest
-from click.testing import CliRunner
 from wetdoublet.solvers import ComputationError, Scene, boundary, sensitivities
 from wetdoublet.solvers.changes import Change
-from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.locate import Locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 from wetdoublet.solvers.sensitivity.nearness import checked, limit
+
+from .command import run
 
 # preset, degrees, which change, its name
 EDGES = [
@@ -107,11 +107,11 @@ def test_the_command_says_it_in_one_line() -> None:
     """Exit status 1, nothing on standard output, one line on standard error, at the boundary itself."""
     stokes = change("granulation", 55, 0).stokes
     arguments = ["sensitivity", "granulation", "--stokes", repr(stokes), "--angle", "55 deg", "--json"]
-    run = CliRunner().invoke(cli, arguments)
-    assert run.exit_code == 1
-    assert run.stdout == ""
-    assert run.stderr.count("\n") == 1
-    assert run.stderr.startswith("no derivative: the collision lies at the separatrix")
+    shown = run(*arguments)
+    assert shown.exit_code == 1
+    assert shown.stdout == ""
+    assert shown.stderr.count("\n") == 1
+    assert shown.stderr.startswith("no derivative: the collision lies at the separatrix")
 
 
 def test_a_looser_tolerance_keeps_further_away() -> None:

@@ -121,15 +121,30 @@ def test_band_against_samples(tmp_path: Path) -> None:
 
 
 def test_tornado(tmp_path: Path) -> None:
-    """A bar for every parameter with influence, as long as its elasticity; the others are named in words."""
+    """A bar for every parameter that can be seen, as long as its elasticity; the others are named in words."""
     found = sensitivities(GRANULATION, ["restitution", "contact_time"])
     figure = found.plot(tmp_path / "tornado.png")
     assert (tmp_path / "tornado.png").stat().st_size > 10_000
     for axis, name in zip(figure.axes, found.value, strict=True):
-        row = {p: v for p, v in found.elasticity[name].items() if v and p != "impact.stokes"}
+        row = {p: v for p, v in found.elasticity[name].items() if v and p not in ("impact.stokes", "liquid.viscosity")}
         lengths = sorted(bar.get_width() for bar in axis.patches)
         assert lengths == pytest.approx(sorted(row.values()))
-    assert "roughness" in figure.get_supxlabel()
+    longest = max(abs(value or 0) for value in found.elasticity["contact_time"].values())
+    assert abs(found.elasticity["contact_time"]["liquid.viscosity"]) < 0.005 * longest  # 1/200 of the panel's longest
+    weak, _, none = figure.get_supxlabel().partition("no influence")
+    assert "viscosity" in weak and "roughness" in none
+
+
+def test_the_table_tells_nothing_from_little() -> None:
+    """Head-on and reversed at first touch the film has no work to do: of the viscosity only rounding is left.
+
+    At a fixed speed it is in St and Ca, whose shares cancel; roughness does not enter at all.
+    """
+    found = sensitivities(GRANULATION.with_impact(stokes=0.3, angle=0.0), ["restitution"])
+    assert found.elasticity["restitution"]["particles.roughness"] == 0
+    assert 0 < abs(found.elasticity["restitution"]["liquid.viscosity"]) < 1e-15
+    lines = {line.split()[0]: line.split()[-1] for line in str(found).splitlines() if line.startswith(("p", "l"))}
+    assert (lines["particles.roughness"], lines["liquid.viscosity"]) == ("none", "~0")
 
 
 def test_sobol_indices() -> None:

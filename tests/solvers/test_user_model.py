@@ -1,56 +1,22 @@
-"""A user's model beside a scene: a small file through every command, verified, cached, refused if tampered with."""
+"""A user's model beside a scene: a small file through every command."""
 
 from __future__ import annotations
 
 import json
-import os
 import pickle
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from wetdoublet.derive.checks.user import model_checks
 from wetdoublet.derive.template import TEMPLATE
-from wetdoublet.solvers import InputError, Scene, cli, collide, collide_many, emitted, regime_map
-from wetdoublet.solvers.errors import CheckFailed
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
 from wetdoublet.solvers.verify import symbolic
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.sample import flights
 
-# A law in fewer than thirty lines: Mikami's, written as the library has it, and a yield stress over the neck.
-LAW = '''"""Mikami's bridge whose liquid yields."""
-from wetdoublet.derive.user import *
-
-stress = quantity("yield_stress", r"\\tau_y", unit="Pa", default="0 Pa", bounds=">= 0", meaning="yield stress")
-K = let("logarithm", log(V))
-A = let("slope", -1.1 * V**-0.53)
-B = let("rise", (-0.34 * K - 0.96) * phi**2 - 0.019 * K + 0.48)
-C = let("rest", 0.0042 * K + 0.078)
-mikami = pi * R * sigma * (exp(A * h + B) + C)
-law("bridge", "yielding", force=mikami + stress * pi * R**2 * sqrt(V) * exp(-h / sqrt(V)), source="a test")
-law("bridge", "plain", force=exp(A * h + B) + C, source="Mikami, Kamiya & Horio (1998)")
-'''
-WIDE = np.array([0.03, 0.045, 0.06])
-
-
-def run(*arguments: str):
-    """Run the command line in this process."""
-    return CliRunner().invoke(cli.cli, list(arguments))
-
-
-@pytest.fixture(scope="module")
-def mine(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The emitted package, beside its model file."""
-    folder = tmp_path_factory.mktemp("models")
-    (folder / "mine.py").write_text(LAW)
-    done = run("generate", str(folder / "mine.py"), "--out", str(folder / "mine"))
-    assert done.exception is None, done.exception
-    assert "New group: yield_stress_number = reduced_radius*yield_stress/surface_tension" in done.output
-    assert "angular momentum" in done.output
-    return folder / "mine"
+from .command import run
+from .yielding import LAW
 
 
 def with_model(mine: Path, **entries: str) -> Scene:
@@ -74,7 +40,9 @@ def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
     assert done.exception is None, done.exception
     assert file.is_file()
     line = run("boundary", "granulation", "--model", str(mine), "--angle", "45:45:1", "--stokes", "0.03:0.08", "--json")
-    assert json.loads(line.output)["changes"][0][0]["centrifugal"] == pytest.approx(4.121, abs=2e-3)  # MODEL.md, 8
+    assert json.loads(line.output)["changes"][0][0]["centrifugal"] == pytest.approx(
+        4.121, abs=2e-3
+    )  # an independent prototype's
     own = ("--model", str(mine), "--set", "custom.yield_stress=20 Pa", "--stokes", "0.06")
     slope = run("sensitivity", "granulation", *own, "--wrt", "custom.yield_stress", "--json")
     derivative = json.loads(slope.output)["gradient"]["restitution"]["custom.yield_stress"]
@@ -156,7 +124,7 @@ def test_a_scene_pickles_and_compares_with_its_model(mine: Path):
 
 def test_a_map_is_drawn_without_the_models_folder(mine: Path, tmp_path: Path):
     """What a map keeps of the model describes its scene, and holds no code."""
-    from wetdoublet.solvers.regime_map import scene_of
+    from wetdoublet.solvers.regimes import scene_of
 
     data = regime_map(with_model(mine, custom__yield_stress="7 Pa"), stokes=[0.01], angle=[0.1], of=["restitution"])
     scene = scene_of(data)
@@ -219,63 +187,6 @@ def test_a_scene_without_the_slot_is_refused(mine: Path):
         Scene.load("granulation-dry-bridge", model=mine)
 
 
-def copied(mine: Path, tmp_path: Path) -> Path:
-    """A copy of the model file and its package that a test may spoil."""
-    import shutil
-
-    shutil.copy(mine.with_suffix(".py"), tmp_path / "mine.py")
-    return Path(shutil.copytree(mine, tmp_path / "mine"))
-
-
-@pytest.mark.parametrize("name", ["laws/bridge_yielding.py", "oblique_bridge_reduced.py", "scaling.py"])
-def test_tampered_code_is_not_run(mine: Path, tmp_path: Path, name: str):
-    """A file that is not what was emitted is refused before any of it runs, with what to run instead."""
-    folder = copied(mine, tmp_path)
-    (folder / name).write_text(f"raise SystemExit('run')\n{(folder / name).read_text()}")
-    with pytest.raises(
-        InputError, match=f"{name}: is not what was emitted; .*run `wetdoublet generate .*mine.py --out"
-    ):
-        Scene.load("granulation", model=folder)
-
-
-def test_stale_models_are_refused(mine: Path, tmp_path: Path):
-    """A model whose file has changed since, or that another library's equations made, says what to run."""
-    folder = copied(mine, tmp_path)
-    (tmp_path / "mine.py").write_text(LAW + "\n# changed\n")
-    with pytest.raises(InputError, match="is stale: .*mine.py has changed since"):
-        Scene.load("granulation", model=folder)
-    (tmp_path / "mine.py").unlink()  # the package lives without it
-    assert Scene.load("granulation", model=folder).bridge.law == "yielding"
-    manifest = json.loads((folder / "manifest.json").read_text())
-    (folder / "manifest.json").write_text(json.dumps(manifest | {"library": "0" * 64}))
-    with pytest.raises(InputError, match="other equations of the library"):
-        Scene.load("granulation", model=folder)
-
-
-def test_generate_check_and_clean_up(mine: Path, tmp_path: Path):
-    """--check names what differs; emitting again mends it, removes what is no longer emitted, and leaves the rest."""
-    folder = copied(mine, tmp_path)
-    arguments = ("generate", str(tmp_path / "mine.py"), "--out", str(folder))
-    assert run(*arguments, "--check").exit_code == 0
-    (folder / "oblique_bridge.py").write_text("")
-    (folder / "notes.txt").write_text("mine")
-    done = run(*arguments, "--check")
-    assert done.exit_code == 1
-    assert "differs: oblique_bridge.py" in done.output
-    (tmp_path / "mine.py").write_text('from wetdoublet.derive.user import *\nlaw("bridge", "one", force=1 + 0*h)\n')
-    assert run(*arguments).exit_code == 0
-    assert {path.name for path in folder.rglob("*.*")} == {"bridge_one.py", "manifest.json", "model.py", "notes.txt"}
-
-
-def test_failing_checks_emit_nothing(tmp_path: Path):
-    """A law that is not homogeneous is named, exit 1, and leaves no folder."""
-    (tmp_path / "bad.py").write_text('from wetdoublet.derive.user import *\nlaw("bridge", "bad", force=mu*a)\n')
-    done = run("generate", str(tmp_path / "bad.py"), "--out", str(tmp_path / "out"))
-    assert done.exit_code == 1
-    assert "fails dimensions" in done.output
-    assert not (tmp_path / "out").exists()
-
-
 def test_the_template_runs(tmp_path: Path):
     """`generate --template` prints a model that is emitted and collides as it is."""
     file = tmp_path / "template.py"
@@ -283,75 +194,6 @@ def test_the_template_runs(tmp_path: Path):
     assert run("generate", str(file), "--out", str(tmp_path / "out")).exit_code == 0
     done = run("collide", "granulation", "--model", str(tmp_path / "out"), "--json")
     assert json.loads(done.output)["outcome"] == "stick-rotate-separate"
-
-
-_RACE = """
-import os, sys, time
-from pathlib import Path
-from wetdoublet.solvers import emitted
-
-def derived():
-    meeting = Path(sys.argv[1])
-    (meeting / str(os.getpid())).touch()
-    while len(list(meeting.iterdir())) < 2:
-        time.sleep(0.01)
-    return {"manifest.json": "{}", "laws/one.py": "ONE = 1"}
-
-folder = emitted.cached_folder("0" * 64, derived)
-print(folder, (folder / "laws" / "one.py").read_text())
-"""
-
-
-def test_two_processes_fill_the_cache_at_once(tmp_path: Path):
-    """Two processes that derive the same model at the same time both get it, and leave one folder, private, behind."""
-    cache, meeting = tmp_path / "cache", tmp_path / "meeting"
-    meeting.mkdir()
-    settings = {**os.environ, "WETDOUBLET_CACHE": str(cache)}
-    command = [sys.executable, "-c", _RACE, str(meeting)]
-    running = [subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, text=True) for _ in range(2)]
-    found = {process.communicate(timeout=60)[0] for process in running}
-    assert len(list(meeting.iterdir())) == 2  # both were inside
-    assert found == {f"{cache / 'models' / ('0' * 32)} ONE = 1\n"}
-    assert [path.name for path in (cache / "models").iterdir()] == ["0" * 32]
-    assert oct((cache / "models").stat().st_mode & 0o777) == "0o700"
-
-
-_COLLIDE = """
-import sys
-from wetdoublet.solvers import Scene, collide
-one = collide(Scene.load("granulation", model=sys.argv[1]), engine="rosenbrock", ledger=False)
-print(repr(one.restitution), "sympy" in sys.modules)
-"""
-
-
-def test_a_model_file_is_derived_once(mine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """A model file in place of a folder is derived on first use; another process then computes without sympy."""
-    monkeypatch.setattr(emitted, "_cache", lambda: tmp_path)
-    file = mine.with_suffix(".py")
-    first = collide(Scene.load("granulation", model=file), engine="rosenbrock", ledger=False)
-    command = [sys.executable, "-c", _COLLIDE, str(file)]
-    settings = {**os.environ, "WETDOUBLET_CACHE": str(tmp_path)}
-    done = subprocess.run(command, env=settings, capture_output=True, text=True, check=True, timeout=60)
-    assert done.stdout.split() == [repr(first.restitution), "False"]
-
-
-def test_what_is_not_committed_is_derived_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """A structure that is not among the committed ones is derived to the same bytes, and the second time read."""
-    monkeypatch.setattr(emitted, "_cache", lambda: tmp_path)
-    monkeypatch.setattr(emitted, "committed", lambda path: False)
-    expected = (Path(emitted.__file__).parents[1] / "generated" / "head_on.py").read_text()
-    assert emitted.text("head_on") == expected
-    monkeypatch.setattr(emitted, "_derived_structure", lambda name: pytest.fail("derived twice"))
-    assert emitted.text("head_on") == expected
-    assert emitted.executed("head_on", expected.encode()).STATES == ("gap", "opening")
-
-
-def test_an_edited_library_module_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """An emitted file of the library that was edited is refused, and the remedy named."""
-    (tmp_path / "head_on.py").write_text("STATES = ()\n")
-    monkeypatch.setattr(emitted, "_FOLDER", tmp_path)
-    with pytest.raises(CheckFailed, match="is not what was emitted .* run `wetdoublet generate`"):
-        emitted._verified.__wrapped__("head_on.py")
 
 
 def test_a_film_may_depend_on_the_speed(tmp_path: Path):

@@ -7,8 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from wetdoublet.solvers import Scene, cli, collide
+from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
@@ -24,6 +23,8 @@ from wetdoublet.solvers.verify import (
     surface,
 )
 from wetdoublet.solvers.verify.draw import draw_budget
+
+from .command import run
 
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
@@ -62,7 +63,7 @@ def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
     found = {finding.name: finding for finding in findings}
     assert found["angular momentum"].ok is None
     drift = float(found["angular momentum"].figure.split()[1].rstrip(":"))
-    assert 1e-3 < drift < 2e-2  # MODEL.md section 6: 0.2 to 1 %
+    assert 1e-3 < drift < 2e-2  # x/4a is 0.2 to 1 % here
     assert found["dL = -int x F_t dt"].ok is True
     assert not [law for law, finding in found.items() if finding.ok is False]
 
@@ -73,7 +74,7 @@ def test_the_budget_adds_up() -> None:
     assert budget["outcome"].values.tolist() == [[0, 1]]
     assert math.isnan(budget["excess"][0, 0])
     at = budget.isel(angle=0, stokes=1)
-    assert float(at["restitution"]) == pytest.approx(1.4, abs=0.1)  # MODEL.md section 8
+    assert float(at["restitution"]) == pytest.approx(1.4, abs=0.1)  # an independent prototype's, two digits
     losses = ("normal_lubrication", "tangential_lubrication", "capillary", "dry_contact", "strings", "residual")
     lost = sum(float(at[name]) for name in losses)
     # rounding of sums of terms of about 7
@@ -166,19 +167,35 @@ def test_the_report_as_markdown() -> None:
 
 def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: report())
-    result = CliRunner().invoke(cli.cli, ["verify", "granulation"])
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: report())
+    result = run("verify", "granulation")
     assert result.exit_code == 1
     line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
     assert result.stderr == f"verify: {line}\n"
+
+
+def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
+    """Exit 130; the findings made so far are on standard output, what they leave open on standard error."""
+
+    def stopped(scene, progress):
+        for finding in report().findings:
+            progress(finding)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", stopped)
+    result = run("verify", "granulation")
+    assert result.exit_code == 130
+    assert result.stdout.rstrip("\n") == str(report())
+    last = report().findings[-1].name
+    assert result.stderr == f"interrupted after 3 checks, the last of them {last}; what follows is not checked\n"
 
 
 def test_the_command_draws(monkeypatch, tmp_path) -> None:
     """`--plot` draws the budget of the report; the report goes to standard output all the same."""
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
     good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene: good)
-    result = CliRunner().invoke(cli.cli, ["verify", "pendulum", "--plot", str(tmp_path / "p.png")])
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: good)
+    result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
     assert result.exit_code == 0
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
 

@@ -93,25 +93,22 @@ static void fly(queue *q)
     }
     vec(*a)[TERMS] = (void *)&s;
     unsigned turn = 0;
-    while (bits(l.alive)) {
+    for (;;) {
+        if (q->parks && (q->parks == LANES || !bits(l.alive))) {
+            crawl(q);
+            EACH_LANE(lane) if (!l.alive[lane]) refill(q, &l, &f, lane);
+        }
+        if (!bits(l.alive))
+            break;
         /* a stick is as good a step later: the level is looked at in every second turn */
         mask sticks = splat_mask(0);
-        if (turn++ % 2 == 0) {
-#if PROOF_BY_ENERGY
-        sticks = below_barrier(&f.c, l.y, &f.b, l.resting, q->rtol);
-#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
-        sticks = held_by_strings(&f.c, l.y, q->rtol);
-#elif !OBLIQUE
-        sticks = stopped_by_film(&f.c, l.y, f.contact, l.closing, q->rtol);
-#endif
-        }
+        if (turn++ % 2 == 0)
+            sticks = proved_in_flight(&l, &f, q->rtol);
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
-        if (!bits(l.alive))
-            break;
         criteria_met(q, &l, &f);
         if (!bits(l.alive))
-            break;
+            continue;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, l.film, l.shear, ~l.resting);
@@ -135,6 +132,10 @@ static void fly(queue *q)
             act(q, &l, &f, lane, (int)found.event[lane]);
         }
         l.steps += 1;
+        l.crept = (l.crept + 1) & creeps;
+        l.stride = h;
+        for (unsigned slow_ones = bits(l.alive & ~falls & (l.crept > PATIENCE)); slow_ones; slow_ones &= slow_ones - 1)
+            park(q, &l, &f, __builtin_ctz(slow_ones));
         mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
             int lane = __builtin_ctz(failed);

@@ -30,9 +30,12 @@ typedef struct {
 typedef struct {
     vec y[STATES];
     vec time, smallest, film, shear;
+    vec stride; /* the last step */
     mask alive, closing, resting, fresh;
-    mask index, steps, phases, reversal;
+    mask index, steps, phases, reversal, crept; /* crept: steps in a row that only a damped sum could take */
 } flights;
+
+enum { FIXED = sizeof(fixed)/sizeof(vec), FLIGHT = sizeof(flights)/sizeof(vec) };
 
 typedef struct {
     const double *const *quantities; /* columns in SI */
@@ -44,11 +47,11 @@ typedef struct {
     int budget;
     long queued, taken; /* collisions that are waiting, of `rows` */
     long waiting[LANES];
-    double rows[LANES][sizeof(fixed)/sizeof(vec)];
+    double rows[LANES][FIXED];
     double starts[LANES][STATES];
+    int parks, resumes; /* flights that wait for crawl.h, and that come from there */
+    double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
 } queue;
-
-enum { FIXED = sizeof(fixed)/sizeof(vec) };
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
@@ -155,9 +158,41 @@ static void fill_queue(queue *q)
     }
 }
 
+/* A lane's flight to a row, and back. */
+static void pack(double *row, const flights *l, const fixed *f, int lane)
+{
+    for (int field = 0; field < FIXED; field++)
+        row[field] = ((const vec *)f)[field][lane];
+    for (int field = 0; field < FLIGHT; field++)
+        row[FIXED + field] = ((const vec *)l)[field][lane];
+}
+
+static void unpack(const double *row, flights *l, fixed *f, int lane)
+{
+    for (int field = 0; field < FIXED; field++)
+        ((double *)&((vec *)f)[field])[lane] = row[field];
+    for (int field = 0; field < FLIGHT; field++)
+        ((double *)&((vec *)l)[field])[lane] = row[FIXED + field];
+}
+
+static void refill(queue *q, flights *l, fixed *f, int lane);
+
+/* A lane's flight waits for others that creep; it flies on if enough wait. */
+static void park(queue *q, flights *l, fixed *f, int lane)
+{
+    if (q->parks == LANES)
+        return;
+    pack(q->parked[q->parks++], l, f, lane);
+    refill(q, l, f, lane);
+}
+
 /* Puts the next collision of the queue into a lane; the lane rests if there is none. */
 static void refill(queue *q, flights *l, fixed *f, int lane)
 {
+    if (q->resumes) {
+        unpack(q->resumed[--q->resumes], l, f, lane);
+        return;
+    }
     if (q->taken == q->queued)
         fill_queue(q);
     if (q->taken == q->queued) {
@@ -176,12 +211,12 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
     l->shear[lane] = f->edge[lane] >= 1.0;
     l->alive[lane] = l->closing[lane] = l->fresh[lane] = -1;
     l->resting[lane] = 0;
-    l->steps[lane] = l->phases[lane] = 0;
+    l->steps[lane] = l->phases[lane] = l->crept[lane] = 0;
     l->reversal[lane] = -1;
 }
 
-/* The flight of a lane is over: what came of it, and the next one. */
-static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+/* What came of a flight. */
+static void settle(queue *q, const flights *l, const fixed *f, int lane, int status, int outcome, int certified)
 {
     answer *a = &q->answers[l->index[lane]];
     put(q, l->index[lane], status, outcome, certified);
@@ -201,5 +236,25 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
     }
+}
+
+/* The flight of a lane is over: what came of it, and the next one. */
+static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+{
+    settle(q, l, f, lane, status, outcome, certified);
     refill(q, l, f, lane);
+}
+
+/* Lanes that are proved to stick as they are. */
+static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
+{
+#if PROOF_BY_ENERGY
+    return below_barrier(&f->c, l->y, &f->b, l->resting, tolerance);
+#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
+    return held_by_strings(&f->c, l->y, tolerance);
+#elif !OBLIQUE
+    return stopped_by_film(&f->c, l->y, f->contact, l->closing, tolerance);
+#else
+    return splat_mask(0);
+#endif
 }

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from casadi import SX
 from wetdoublet.generated import oblique_strings
-from wetdoublet.solvers import ComputationError, Scene, certificate, locate
-from wetdoublet.solvers.certificate import NoProof
+from wetdoublet.solvers import ComputationError, Scene, locate
 from wetdoublet.solvers.locate import Locate, Path
 from wetdoublet.solvers.model import Model, choose, load
 from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.proofs import NoProof, tethered
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ def _broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, SX]], d
     """Change the emitted margins of the proof on strings."""
     honest = oblique_strings.tethered
     monkeypatch.setattr(oblique_strings, "tethered", lambda *args: {**(right := honest(*args)), **change(right)})
-    for module, remembered in ((certificate, "_tethered"), (locate, "locator")):
+    for module, remembered in ((tethered, "_tethered"), (locate, "locator")):
         monkeypatch.setattr(module, remembered, lru_cache(getattr(module, remembered).__wrapped__))
 
 

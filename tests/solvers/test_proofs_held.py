@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.certificate import HeldProof, NoProof
 from wetdoublet.solvers.locate import Locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.proofs import HeldProof, NoProof
 
 _HELD_LAWS = ("mikami", "willett-simple", "lambert", "soulie", "constant")
 
@@ -51,7 +51,7 @@ def _held_sticks(count: int, seed: int, monkeypatch: pytest.MonkeyPatch) -> tupl
         n = numbers(scene, scene.speed_of(stokes), angle)
         model = load(choose(scene, oblique=True))
         start = model.start(model.group_values(n.groups))
-        if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]
+        if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
             continue
         held += 1
         with monkeypatch.context() as patch:

@@ -10,9 +10,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.certificate import BarrierProof, NoProof, energy_proof
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.proofs import BarrierProof, NoProof, energy_proof
 
 from .independent import Spheres
 
@@ -65,7 +65,7 @@ def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
 @pytest.mark.parametrize(("name", "critical"), [("pendulum", 1.44666), ("granulation", 0.115321)])
 def test_critical_stokes_numbers_head_on(name: str, critical: float, engine: str) -> None:
-    """MODEL.md section 8: head-on the pendulum parts above St 1.44666, granulation above 0.115321; proved below."""
+    """By an independent prototype, head-on, the pendulum parts above St 1.44666, granulation above 0.115321."""
     # printed to six digits: half a unit of the last is 4e-6 relative
     below, above = (
         collide(name, stokes=critical * factor, angle=0.0, rtol=1e-10, engine=engine) for factor in (1 - 1e-5, 1 + 1e-5)

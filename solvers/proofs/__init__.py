@@ -1,0 +1,22 @@
+"""Proofs that a doublet never separates, so that a flight can end as soon as its outcome is decided."""
+
+from __future__ import annotations
+
+from .barrier import Barrier, BarrierProof
+from .base import NoProof, Proof
+from .choice import energy_proof, proof_for
+from .film import FilmProof
+from .held import HeldProof
+from .tethered import TetherProof
+
+__all__ = [
+    "Barrier",
+    "BarrierProof",
+    "FilmProof",
+    "HeldProof",
+    "NoProof",
+    "Proof",
+    "TetherProof",
+    "energy_proof",
+    "proof_for",
+]

@@ -1,0 +1,49 @@
+"""Which proof holds for a model."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import Model
+from .attracted import AttractedProof
+from .barrier import BarrierProof
+from .base import NoProof, Proof
+from .film import FilmProof
+from .held import HeldProof
+from .tethered import TetherProof
+
+
+def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
+    """The certificate that holds for a model."""
+    if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
+        return TetherProof(model, p, rtol)
+    turning = model.oblique and not model.wall
+    if turning and _holds(model):
+        return HeldProof(model, p, rtol, None if model.strings else BarrierProof(model, p, rtol))
+    if turning and (model.strings or not model.works):
+        return NoProof()
+    if model.works == ("attraction",) and not turning and not model.strings:
+        return AttractedProof(model, p, rtol)
+    if model.works or model.strings:
+        return BarrierProof(model, p, rtol)
+    if any(str(symbol) in model.state for symbol in model.extra("film", "resistance")):
+        return NoProof()  # a film whose force is not proportional to u has no momentum integral
+    return FilmProof(model, p, rtol)
+
+
+def energy_proof(proof: Proof) -> BarrierProof | None:
+    """The proof by energy that a flight has, alone or beside another."""
+    found = proof.beside if isinstance(proof, HeldProof) else proof
+    return found if isinstance(found, BarrierProof) else None
+
+
+def _holds(model: Model) -> bool:
+    """Whether attraction alone can prove a stick: the forces fall with the gap, and the arm conserves L."""
+    attracting = [getattr(model.laws, slot) for slot in ("bridge", "attraction") if model.choice.law(slot)]
+    falling = all(getattr(law, "FALLS", False) for law in attracting)
+    return model.has("held") and falling and model.choice.law("arm") in (None, "midgap")
+
+
+def _integrable(model: Model) -> bool:
+    """Whether the laws say what the film takes and how far the glass criterion reaches (a user's need not)."""
+    return hasattr(model.laws.film, "stopping") and hasattr(model.laws.glass, "reach")

@@ -1,0 +1,213 @@
+/* Flights that creep for long: past a saddle, or in a film that strings press, a slow mode is all that is left.
+ *
+ * A Taylor step is held to 13 decay times of the fast modes (damped.h), and near a separatrix there are 1e4 such steps.
+ * Lanes that have crept for PATIENCE steps are parked; as soon as all lanes of a vector are such, or nothing else is left,
+ * they go on together by the linearly implicit Euler method, extrapolated (Deuflhard, SIAM Rev. 27, 505 (1985); Hairer &
+ * Wanner, Solving ODEs II, IV.9): L-stable, so that steps follow the slow mode alone. Every lane has its own step.
+ *
+ * Steps are judged by their own change, not by the state: the unstable mode grows from nearly nothing, and when it gets
+ * away hangs on its relative error. A step on which an event could lie is not taken: the lane goes back to its series.
+ */
+
+enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
+static const double WORTH = 25.0;      /* Taylor steps that one of these must replace: it costs five to ten */
+static const double LITTLE = 1e-5;     /* of a state: difference for its derivatives */
+static const double FLOOR = 5e-14;     /* of a state: rounding, as extrapolation enlarges it */
+
+typedef struct {
+    vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
+    series s;                        /* of which order zero is used */
+    const constants *c;
+    vec film, shear;
+    mask moving;
+} slow;
+
+static __attribute__((noinline)) void rates_at(slow *w, const vec *y, vec *rate)
+{
+    vec(*a)[TERMS] = (void *)&w->s;
+    for (int state = 0; state < STATES; state++)
+        a[state][0] = y[state];
+    coefficients(&w->s, w->c, w->film, w->shear, w->moving, 0);
+    for (int state = 0; state < STATES; state++)
+        rate[state] = a[state][1];
+}
+
+/* Central differences: an error of the derivatives is one of the stiff part, which extrapolation does not remove. */
+static void find_rates(slow *w, const vec *y)
+{
+    vec there[STATES], above[STATES], below[STATES];
+    memcpy(there, y, sizeof there);
+    for (int by = 0; by < MODEL_STATES; by++) {
+        vec high = y[by] + LITTLE*(vec_abs(y[by]) + LITTLE), low = y[by] + y[by] - high;
+        there[by] = high;
+        rates_at(w, there, above);
+        there[by] = low;
+        rates_at(w, there, below);
+        vec over = 1.0/(high - low);
+        for (int state = 0; state < STATES; state++)
+            w->rates[state][by] = (above[state] - below[state])*over;
+        there[by] = y[by];
+    }
+}
+
+/* Elimination of I - h J, no pivots: a lane where that fails becomes NaN, and its step is not taken. */
+typedef struct {
+    vec left[MODEL_STATES][MODEL_STATES], over[MODEL_STATES];
+} eliminated;
+
+static void eliminate(const slow *w, vec h, eliminated *e)
+{
+    for (int i = 0; i < MODEL_STATES; i++)
+        for (int j = 0; j < MODEL_STATES; j++)
+            e->left[i][j] = (i == j ? 1.0 : 0.0) - h*w->rates[i][j];
+    for (int k = 0; k < MODEL_STATES; k++) {
+        e->over[k] = 1.0/e->left[k][k];
+        for (int i = k + 1; i < MODEL_STATES; i++) {
+            e->left[i][k] *= e->over[k];
+            for (int j = k + 1; j < MODEL_STATES; j++)
+                e->left[i][j] -= e->left[i][k]*e->left[k][j];
+        }
+    }
+}
+
+/* Solves (I - h J) d = h f; what is integrated along has no column of its own. */
+static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, vec *d)
+{
+    for (int i = 0; i < MODEL_STATES; i++) {
+        d[i] = h*rate[i];
+        for (int j = 0; j < i; j++)
+            d[i] -= e->left[i][j]*d[j];
+    }
+    for (int i = MODEL_STATES - 1; i >= 0; i--) {
+        for (int j = i + 1; j < MODEL_STATES; j++)
+            d[i] -= e->left[i][j]*d[j];
+        d[i] *= e->over[i];
+    }
+    for (int i = MODEL_STATES; i < STATES; i++) {
+        d[i] = h*rate[i];
+        for (int j = 0; j < MODEL_STATES; j++)
+            d[i] += h*w->rates[i][j]*d[j];
+    }
+}
+
+/* Lanes where no event can lie between two states: what may fall to zero keeps half of what it had. */
+static mask clear_of_events(const slow *w, const flights *l, const fixed *f, const vec *from, const vec *to)
+{
+    const vec zero = splat(0.0);
+    mask opens = from[OPENING] > 0.0;
+    mask clear = ((opens & (to[OPENING] > 0.0)) | (~opens & (to[OPENING] < 0.0))) & (opens ^ l->closing);
+    vec away = choose(opens, splat(-1.0), splat(1.0));
+#if BRIDGE
+    mask inside = l->film != 0.0, edge = l->closing ^ inside;
+    vec target = choose(edge, splat(1.0), choose(l->closing, f->contact, f->end));
+#else
+    vec target = choose(l->closing, f->contact, f->end);
+#endif
+    clear &= 2.0*away*(to[GAP] - target) > away*(from[GAP] - target);
+    clear &= ~l->closing | (2.0*glass_clearance(w->c, to) > vec_max(glass_clearance(w->c, from), zero));
+#if OBLIQUE
+    vec first = away*(from[GAP] - f->edge);
+    clear &= (first <= 0.0) | (2.0*away*(to[GAP] - f->edge) > first);
+#endif
+#if OBLIQUE && STRINGS
+    clear &= 2.0*(M_PI - to[ROTATION]) > M_PI - from[ROTATION];
+    clear &= 2.0*to[ORBIT] > from[ORBIT];
+#endif
+    return clear;
+}
+
+/* One step of each lane: the changes, their errors over what is allowed, and whether an event could lie in it. */
+static vec extrapolated(slow *w, const flights *l, const fixed *f, const vec *rate, vec h, vec *change, mask *clear)
+{
+    vec table[COLUMNS][STATES], y[STATES], now[STATES], d[STATES], error = splat(0.0), carried = error;
+    *clear = splat_mask(-1);
+    for (int row = 0; row < COLUMNS; row++) {
+        int parts = row + 1;
+        vec part = h*(1.0/parts), sum[STATES], last[STATES];
+        eliminated e;
+        eliminate(w, part, &e);
+        memset(sum, 0, sizeof sum);
+        memcpy(last, l->y, sizeof last);
+        for (int step = 0; step < parts; step++) {
+            if (step)
+                rates_at(w, last, now);
+            advance(w, &e, part, step ? now : rate, d);
+            for (int state = 0; state < STATES; state++) {
+                sum[state] += d[state];
+                y[state] = l->y[state] + sum[state];
+            }
+            if (row == COLUMNS - 1)
+                *clear &= clear_of_events(w, l, f, l->y, y);
+            memcpy(last, y, sizeof last);
+        }
+        for (int state = 0; state < STATES; state++) {
+            vec better = sum[state];
+            for (int column = 0; column < row; column++) {
+                vec worse = table[column][state];
+                table[column][state] = better;
+                better += (better - worse)*((double)(row - column)/(column + 1));
+            }
+            table[row][state] = better;
+        }
+    }
+    for (int state = 0; state < STATES; state++) {
+        change[state] = table[COLUMNS - 1][state];
+        y[state] = l->y[state] + change[state];
+        vec allowed = f->tolerance*vec_abs(change[state]) + FLOOR*vec_abs(l->y[state]);
+        if (state == GAP)
+            carried = allowed/l->stride; /* an error of the opening velocity dies within a stride */
+        if (state == OPENING)
+            allowed = carried;
+        error = vec_larger(error, vec_abs(change[state] - table[COLUMNS - 2][state])/allowed);
+    }
+    *clear &= clear_of_events(w, l, f, l->y, y);
+    return error;
+}
+
+/* Parked lanes, on to where they creep no longer: proved, or back in the queue with what they have come to. */
+static __attribute__((noinline)) void crawl(queue *q)
+{
+    flights l;
+    fixed f;
+    slow w;
+    memset(&w, 0, sizeof w);
+    for (int lane = 0; lane < LANES; lane++)
+        unpack(q->parked[lane < q->parks ? lane : 0], &l, &f, lane);
+    mask busy = splat_mask(0);
+    for (int lane = 0; lane < q->parks; lane++)
+        busy[lane] = -1;
+    q->parks = 0;
+    w.c = &f.c;
+    w.film = l.film;
+    w.shear = l.shear;
+    w.moving = ~l.resting;
+    vec least_step = WORTH*l.stride, h = 4.0*least_step;
+    for (int count = 0; count < TRIES && bits(busy); count++) {
+        mask sticks = proved_in_flight(&l, &f, q->rtol);
+        for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
+            settle(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
+        busy &= ~sticks;
+        vec rate[STATES], change[STATES];
+        mask clear;
+        rates_at(&w, l.y, rate);
+        find_rates(&w, l.y);
+        vec error = extrapolated(&w, &l, &f, rate, h, change, &clear);
+        mask taken = busy & clear & (error <= 1.0);
+        for (int state = 0; state < STATES; state++)
+            l.y[state] += only(taken, change[state]);
+        l.time += only(taken, h);
+        l.smallest = vec_min(l.smallest, l.y[GAP]);
+        l.steps += 1;
+        vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
+        h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
+        mask leaves = busy & ~(h > least_step);
+        for (unsigned left = bits(leaves); left; left &= left - 1) {
+            int lane = __builtin_ctz(left);
+            l.crept[lane] = taken[lane] ? 0 : -10*PATIENCE; /* to no avail: not again soon */
+            pack(q->resumed[q->resumes++], &l, &f, lane);
+        }
+        busy &= ~leaves;
+    }
+    for (unsigned left = bits(busy); left; left &= left - 1)
+        pack(q->resumed[q->resumes++], &l, &f, __builtin_ctz(left));
+}

@@ -1,0 +1,38 @@
+"""Entries of a scene as a file has them, and what refuses a wrong one."""
+
+from __future__ import annotations
+
+import pytest
+from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.scene import Scene
+
+BASE = {  # granulation, as a file has it
+    "particles.reduced_radius": "50 um",
+    "particles.reduced_mass": "5.2e-6 g",
+    "particles.roughness": "0.2 um",
+    "particles.dry_restitution": 0.99,
+    "liquid.viscosity": "2 Pa s",
+    "liquid.film_thickness": "8 um",
+    "liquid.glass_transition_pressure": "20 MPa",
+}
+BRIDGE = {"bridge.surface_tension": "0.025 N/m", "bridge.volume": 0.1, "bridge.contact_angle": "0 deg"}
+
+
+def tables(entries):
+    """Return nested tables of dotted entries, leaving out those that are None."""
+    nested = {}
+    for name, value in entries.items():
+        table, _, key = name.partition(".")
+        if value is not None:
+            nested.setdefault(table, {})[key] = value
+    return nested
+
+
+def refused(entries, from_file=True):
+    """Return the InputError that a scene of these entries raises, checked to be one full line."""
+    with pytest.raises(InputError) as caught:
+        Scene.from_dict(tables(entries), from_file=from_file)
+    line = str(caught.value)
+    assert len(line.splitlines()) == 1
+    assert line.startswith(caught.value.field + ": ") and "; accepted: " in line
+    return caught.value
