@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,11 +19,13 @@ from ..proofs import NoProof, Proof
 from ..scene import Scene
 from ..settings import RTOL
 from ..simulate import collide
+from ..taylor import engine
 from .engines import engines
 from .reference import Reference
 from .tasks import Impact, Task
 
 FEATURES = ("certificate", "ledger", "trajectory")
+IN_BULK = ("rosenbrock, compiled", "taylor")
 _FEW = 100  # collisions in one call that are not compiled for
 _CUT = 3  # stretches of a phase without an event
 HORIZON = sum(locating.FIRST_STRETCH * locating.GROWTH**k for k in range(_CUT))  # x0/v0
@@ -45,16 +48,18 @@ class TimeCut(NoProof):
 def certificate(on: bool) -> Iterator[None]:
     """Collide with the proofs that hold for a scene, or with none."""
     module: Any = locating  # the flight asks this module for its proof
-    usual = module.proof_for
+    kernels: Any = engine
+    usual, variant = module.proof_for, kernels.Variant
 
     def none(_model: Model, _p: np.ndarray, _rtol: float) -> Proof:
         return TimeCut()
 
-    module.proof_for = usual if on else none
+    if not on:
+        module.proof_for, kernels.Variant = none, partial(variant, certificate=False)
     try:
         yield
     finally:
-        module.proof_for = usual
+        module.proof_for, kernels.Variant = usual, variant
 
 
 @dataclass(frozen=True)
@@ -83,14 +88,14 @@ def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list
             each.impact for each in references if each.counts and (each.outcome == "stick") == (outcome == "stick")
         ]
         if impacts:
-            for engine in ("cvodes", "rosenbrock", "rosenbrock, compiled"):
-                found += _of_engine(task, engine, outcome, impacts, repeats)
+            for name in ("cvodes", "rosenbrock", *IN_BULK):
+                found += _of_engine(task, name, outcome, impacts, repeats)
     return found
 
 
-def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], repeats: int) -> list[Cost]:
-    """One engine's rows; the compiled one has neither ledger nor trajectory."""
-    compiled = engine == "rosenbrock, compiled"
+def _of_engine(task: Task, name: str, outcome: str, impacts: list[Impact], repeats: int) -> list[Cost]:
+    """One engine's rows; those of many collisions have neither ledger nor trajectory."""
+    compiled = name in IN_BULK
     if compiled and compiler() is None:
         return []
     setups: tuple[Setup, ...] = ((), ("certificate",)) if compiled else _SETUPS
@@ -98,7 +103,7 @@ def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], rep
     setups = tuple(each for each in setups if provable or "certificate" not in each or len(each) > 1)
     copies = 1 + _FEW // len(impacts) if compiled else 1
     runs = {
-        on: _compiled(task.scene, impacts * copies) if compiled else _chained(task.scene, impacts, engine, on)
+        on: _in_bulk(task.scene, impacts * copies, name) if compiled else _chained(task.scene, impacts, name, on)
         for on in setups
     }
     best = dict.fromkeys(setups, float("inf"))
@@ -113,7 +118,7 @@ def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], rep
             changed[on] = sum((each == "stick") != (outcome == "stick") for each in outcomes) // copies
     count = len(impacts)
     return [
-        Cost(task.preset, engine, outcome, count, on, best[on] / (count * copies), best[on] / best[()], changed[on])
+        Cost(task.preset, name, outcome, count, on, best[on] / (count * copies), best[on] / best[()], changed[on])
         for on in setups
     ]
 
@@ -136,10 +141,10 @@ def _chained(scene: Scene, impacts: list[Impact], plugin: str, on: Setup) -> Cal
     return run
 
 
-def _compiled(scene: Scene, impacts: list[Impact]) -> Callable[[], list[str]]:
-    engine = next(each for each in engines() if each.name == "rosenbrock, compiled")
-    assert engine.many is not None
-    every = engine.many(scene, impacts, RTOL)
+def _in_bulk(scene: Scene, impacts: list[Impact], name: str) -> Callable[[], list[str]]:
+    found = next(each for each in engines() if each.name == name)
+    assert found.many is not None
+    every = found.many(scene, impacts, RTOL)
 
     def run() -> list[str]:
         return ["" if isinstance(each, str) else each.outcome for each in every()]

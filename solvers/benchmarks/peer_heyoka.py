@@ -23,7 +23,7 @@ from ..scene import Scene
 from .tasks import Impact
 from .translated import translated
 
-_HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
+HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
 _STEPS = 2000  # of a collision, on average, after which all are given up
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
@@ -145,7 +145,7 @@ class Batch:
             ta.reset_cooldowns(lane)
             ta.state[:, lane], ta.pars[:, lane] = self.starts[0].state, self.starts[0].parameters
             self._next(lane)
-        ta.propagate_until(np.full(size, _HORIZON), max_steps=_STEPS * (1 + count // size))
+        ta.propagate_until(np.full(size, HORIZON), max_steps=_STEPS * (1 + count // size))
 
     def _next(self, lane: int) -> bool:
         """Give a lane its next collision; freeze it if there is none. True while any lane is at work."""

@@ -66,11 +66,13 @@ class Variant:
     Arguments:
         order: of the series, 8 to LARGEST_ORDER.
         rotation: the angle turned is integrated along where it is no state.
+        certificate: sticks are proved; without, flights are given up after a time (for what a proof is worth).
     """
 
     choice: Choice
     order: int
     rotation: bool = False
+    certificate: bool = True
 
 
 @cache
@@ -118,6 +120,7 @@ def source(variant: Variant, paths: tuple[str, ...]) -> str:
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
+        "CERTIFICATE": int(variant.certificate),
         "PROOF_BY_ENERGY": int(by_energy and not unproved),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
