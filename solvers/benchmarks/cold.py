@@ -12,7 +12,7 @@ from statistics import median
 from typing import Any
 
 from ..compiled import compiler
-from .tables import table
+from .markdown import table
 
 Record = dict[str, Any]
 

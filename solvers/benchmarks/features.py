@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import locate as locating
 from ..compiled import compiler
+from ..many import OUTCOMES, collide_many
 from ..model import Model
 from ..phases import Phase
 from ..proofs import NoProof, Proof
@@ -20,13 +21,14 @@ from ..scene import Scene
 from ..settings import RTOL
 from ..simulate import collide
 from ..taylor import engine
-from .engines import engines
 from .reference import Reference
 from .tasks import Impact, Task
 
-FEATURES = ("certificate", "ledger", "trajectory")
-IN_BULK = ("rosenbrock, compiled", "taylor")
+FEATURES = ("certificate", "ledger", "trajectory", "rotation")
+TOGETHER = FEATURES[:3]
+IN_BULK = {"rosenbrock, compiled": "rosenbrock", "taylor": "taylor"}
 _FEW = 100  # collisions in one call that are not compiled for
+_MANY = 40  # times the collisions in one call of the kernel, so that what a call costs does not show
 _CUT = 3  # stretches of a phase without an event
 HORIZON = sum(locating.FIRST_STRETCH * locating.GROWTH**k for k in range(_CUT))  # x0/v0
 
@@ -77,7 +79,8 @@ class Cost:
 
 
 Setup = tuple[str, ...]
-_SETUPS: tuple[Setup, ...] = ((), *((name,) for name in FEATURES), FEATURES)
+_SETUPS: tuple[Setup, ...] = ((), *((name,) for name in TOGETHER), TOGETHER)
+_OF_MANY: tuple[Setup, ...] = ((), ("certificate",), ("rotation",))
 
 
 def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list[Cost]:
@@ -98,12 +101,10 @@ def _of_engine(task: Task, name: str, outcome: str, impacts: list[Impact], repea
     compiled = name in IN_BULK
     if compiled and compiler() is None:
         return []
-    setups: tuple[Setup, ...] = ((), ("certificate",)) if compiled else _SETUPS
-    provable = task.scene.pendulum is None
-    setups = tuple(each for each in setups if provable or "certificate" not in each or len(each) > 1)
-    copies = 1 + _FEW // len(impacts) if compiled else 1
+    setups = _OF_MANY if compiled else _SETUPS
+    copies = (_MANY if name == "taylor" else 1 + _FEW // len(impacts)) if compiled else 1
     runs = {
-        on: _in_bulk(task.scene, impacts * copies, name) if compiled else _chained(task.scene, impacts, name, on)
+        on: _in_bulk(task.scene, impacts * copies, name, on) if compiled else _chained(task.scene, impacts, name, on)
         for on in setups
     }
     best = dict.fromkeys(setups, float("inf"))
@@ -141,12 +142,12 @@ def _chained(scene: Scene, impacts: list[Impact], plugin: str, on: Setup) -> Cal
     return run
 
 
-def _in_bulk(scene: Scene, impacts: list[Impact], name: str) -> Callable[[], list[str]]:
-    found = next(each for each in engines() if each.name == name)
-    assert found.many is not None
-    every = found.many(scene, impacts, RTOL)
+def _in_bulk(scene: Scene, impacts: list[Impact], name: str, on: Setup) -> Callable[[], list[str]]:
+    stokes, angle = (np.array([getattr(each, what) for each in impacts]) for what in ("stokes", "angle"))
+    of = ("outcome", "restitution", *(["rotation"] if "rotation" in on else []))
 
     def run() -> list[str]:
-        return ["" if isinstance(each, str) else each.outcome for each in every()]
+        found = collide_many(scene, stokes=stokes, angle=angle, engine=IN_BULK[name], of=of)["outcome"].values
+        return [OUTCOMES[each] if each >= 0 else "" for each in found.tolist()]
 
     return run

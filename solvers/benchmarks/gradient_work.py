@@ -15,6 +15,7 @@ import numpy as np
 from ..compiled import compiler
 from ..many import collide_many
 from .gradient_task import COUNT, Gradients
+from .markdown import table, us
 from .tasks import TASKS, Task
 from .work import OFTEN, REPEATS, SETS, Tell
 
@@ -151,3 +152,48 @@ def _of(asked: Gradients, preset: str, repeats: int, tell: Tell, which: Sequence
 def _number(value: float) -> float | None:
     """None for what is none: JSON has no NaN."""
     return float(value) if math.isfinite(value) else None
+
+
+BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error
+NOTE = """\
+Derivatives of e_n in theta, p = p_ref (1 + theta), of the collisions of both tasks that separate. The error of a
+collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's are
+its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our own;
+it need prove no stick, and is given the derivatives of the groups in the parameters. Differences are of collisions at
+rtol 1e-13; what is listed as their tolerance is the relative step."""
+
+
+def gradient_work_text(found: Sequence[Record]) -> str:
+    """Cost at equal error, then every setting."""
+    parts = [NOTE]
+    for task in found:
+        best: dict[str, dict[float, float]] = {}
+        for row in task["rows"]:
+            own = best.setdefault(row["method"], {})
+            for bound in BOUNDS:
+                if not row["failed"] and row["error_largest"] is not None and row["error_largest"] <= bound:
+                    own[bound] = min(own.get(bound, math.inf), row["cpu"])
+        least = {bound: min((own[bound] for own in best.values() if bound in own), default=1.0) for bound in BOUNDS}
+        cells = [
+            [name, *(f"{us(own[b])} ({own[b] / least[b]:.3g})" if b in own else "-" for b in BOUNDS)]
+            for name, own in best.items()
+        ]
+        title = f"### {task['preset']}, {task['collisions']} collisions, {len(task['parameters'])} parameters"
+        said = (
+            "CPU us a gradient (times the cheapest): cheapest setting with none refused and a largest error of at most"
+        )
+        parts += [title, said, table(["method", *(f"{bound:.0e}" for bound in BOUNDS)], cells)]
+        rows = [
+            [
+                row["method"], f"{row['rtol']:.0e}", us(row["cpu"]), _shown(row["error_largest"]),
+                _shown(row["error_median"]), str(row["failed"]),
+            ]
+            for row in task["rows"]
+        ]  # fmt: skip
+        parts.append(table(["method", "rtol, or step", "CPU us", "largest error", "median", "refused"], rows))
+        parts += [f"* {name}: {why}" for name, why in task["missing"].items()]
+    return "\n\n".join(parts)
+
+
+def _shown(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1e}"

@@ -14,7 +14,7 @@ from ..compiled import compiler
 from ..many import OUTCOMES, collide_many
 from ..scene import Scene
 from ..simulate import collide
-from .tables import ms, table
+from .markdown import ms, table
 
 Record = dict[str, Any]
 

@@ -7,8 +7,8 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
-
 
 from .. import compiled, integrators
 from ..errors import ComputationError
@@ -16,7 +16,7 @@ from ..locate import locate
 from ..model import choose, load
 from ..scene import Scene
 from .engines import HEYOKA, Answer, Bulk, Engine, dimensionless, engines
-from .tables import ms, table
+from .markdown import ms, table
 from .tasks import Impact
 
 Record = dict[str, Any]
@@ -32,7 +32,9 @@ SEPARATRIX = {  # degrees: St below which it sticks, by halving with the kernel 
 }
 DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative, in St
 RTOLS = (1e-9, 1e-12)
-COPIES, REPEATS = 20, 3  # of the set in one call of a fast engine; the best of so many calls counts
+COPIES, FEW = 20, 2  # of the set in one call of taylor and of heyoka, which creeps
+PATIENCE = 20_000  # steps of heyoka a collision
+REPEATS = 3  # the best of so many calls counts
 RESOLVED = 1e2  # times the tolerance: a flight nearer than that may end on the other side
 GENERATED = "rosenbrock, generated C"
 THROUGH = "rosenbrock, compiled"
@@ -91,13 +93,16 @@ def near(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
     scene = Scene.load(PRESET)
     listed = [each for each in engines() if each.name in ("taylor", THROUGH, HEYOKA) and not each.missing]
     rows: list[Record] = []
-    for rtol in RTOLS:
-        for distance in DISTANCES:
-            tell(f"near the separatrix: {rtol:.0e}, {distance:.0e}")
-            sides = beside(distance)
-            rows += [_row(each.name, rtol, distance, sides, *_in_bulk(each, scene, sides, rtol)) for each in listed]
-            if any(each.name == THROUGH for each in listed):
-                rows.append(_row(GENERATED, rtol, distance, sides, *_inside(scene, sides, rtol)))
+    for rtol, distance in product(RTOLS, DISTANCES):
+        tell(f"near the separatrix: {rtol:.0e}, {distance:.0e}")
+        sides = beside(distance)
+        rows += [_row(each.name, rtol, distance, sides, *_in_bulk(each, scene, sides, rtol)) for each in listed]
+    if any(each.name == THROUGH for each in listed):
+        with _generated() as clock:
+            for rtol, distance in product(RTOLS, DISTANCES):
+                tell(f"near the separatrix, {GENERATED}: {rtol:.0e}, {distance:.0e}")
+                sides = beside(distance)
+                rows.append(_row(GENERATED, rtol, distance, sides, *_inside(clock, scene, sides, rtol)))
     return rows
 
 
@@ -107,9 +112,10 @@ Timed = tuple[float, list[Answer | str]]
 def _in_bulk(engine: Engine, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
     """CPU time (s) of a collision, and what they came to."""
     assert engine.many is not None
-    copies = COPIES if engine.fast else 1
+    copies = {"taylor": COPIES, HEYOKA: FEW}.get(engine.name, 1)
+    impacts = [each.impact for each in sides] * copies
     try:
-        bulk = engine.many(scene, [each.impact for each in sides] * copies, rtol)
+        bulk = _patient(scene, impacts, rtol) if engine.name == HEYOKA else engine.many(scene, impacts, rtol)
     except ComputationError as error:
         said: list[Answer | str] = [str(error)] * len(sides)
         bulk = Bulk(lambda: None, lambda _: said)
@@ -122,15 +128,23 @@ def _in_bulk(engine: Engine, scene: Scene, sides: Sequence[Side], rtol: float) -
     return best / (copies * len(sides)), bulk.read(result)[: len(sides)]
 
 
-def _inside(scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
+def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """As heyoka elsewhere, with more steps, and watching for barriers inside the film."""
+    from .peer_heyoka import collisions
+
+    batch = collisions(scene, impacts, rtol, inside=True)
+    batch.steps = PATIENCE
+    return Bulk(batch.run, lambda _: [Answer(each, math.nan) if each else "not decided" for each in batch.outcomes])
+
+
+def _inside(clock: _Clock, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
     """As `_in_bulk`, of the integrators in C alone."""
     flights = [(load(choose(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
-    with _generated() as clock:
-        best = math.inf
-        for _ in range(2):  # the first builds
-            clock.spent = 0.0
-            answers = [_located(model, groups, rtol) for model, groups in flights]
-            best = min(best, clock.spent)
+    best = math.inf
+    for _ in range(2):  # the first builds
+        clock.spent = 0.0
+        answers = [_located(model, groups, rtol) for model, groups in flights]
+        best = min(best, clock.spent)
     return best / len(sides), answers
 
 
@@ -155,10 +169,12 @@ def _row(
 
 NOTE = (
     f"Granulation at {', '.join(f'{each:g}' for each in SEPARATRIX)} deg, both sides of the Stokes number at which a "
-    "stick becomes something else (by bisection at rtol 1e-13). CPU time of a collision, mean of both sides, on one core; "
-    f"taylor and heyoka get the set {COPIES} times in one call. `{GENERATED}` is the time inside the integrators, "
-    f"compiled with -O3 and called through buffers; `{THROUGH}` is `collide_many`, with the rules between them. Where "
-    f"the distance is below {RESOLVED:g} rtol no engine can tell the side; there a wrong outcome does not count."
+    "stick becomes something else (by bisection at rtol 1e-13). CPU time of a collision, mean of both sides, one core; "
+    f"taylor gets the set {COPIES} times in one call, heyoka {FEW} times with {PATIENCE} steps a collision. "
+    f"`{GENERATED}` is the time inside the integrators, compiled with -O3 and called through buffers; `{THROUGH}` is "
+    f"`collide_many`, with the rules between them. Where the distance is below {RESOLVED:g} rtol no engine can tell "
+    "the side; there a wrong outcome does not count. A flight that heyoka gives up has lost the level that proves a "
+    "stick."
 )
 
 

@@ -15,8 +15,8 @@ from ..numbers import Numbers
 from ..scene import Scene
 from .engines import KERNEL, engines
 from .gradient_task import Gradients
+from .markdown import table
 from .peer_heyoka import HORIZON, starts, system
-from .tables import table
 from .tasks import TASKS
 
 Record = dict[str, Any]
@@ -146,8 +146,8 @@ def sharp_text(found: Sequence[Record]) -> str:
     said = "is reached" if least <= GOAL else f"is missed: {least:.1e}"
     note = (
         "Largest relative error in e_n of the collisions that separate, and the largest over the conditioning "
-        "|d ln e_n/d ln v0| (at least 1), of the kernel; against heyoka in 80-bit numbers at a tolerance of 1e-18, from "
-        f"the same equations. At 1e-17 that differs by {own} of the conditioning."
+        "|d ln e_n/d ln v0| (at least 1), of the kernel; against heyoka in 80-bit numbers at a tolerance of 1e-18, "
+        f"from the same equations. At 1e-17 that differs by {own} of the conditioning."
     )
     head = ["collisions", "rtol", "error", "over the conditioning"]
     return "\n\n".join([note, table(head, cells), f"{GOAL:.0e} times the conditioning {said}."])
