@@ -57,22 +57,20 @@ def test_gradient_record_is_complete(asked: Gradients) -> None:
     assert row["rows"][2]["failed"] == 2
     text = gradient_work.gradient_work_text([row])
     assert "gone is not installed" in text
-    assert "| refused |     - |     - |     - |     - |" in text
+    assert any(line.split() == ["|", "refused", *["|", "-"] * 4, "|"] for line in text.splitlines())
     figure = plots_more.gradient_curves({"gradient_work": [row]})
     assert [each.get_text() for each in figure.legends[0].get_texts()] == ["exact", "refused"]
 
 
 def test_the_kernel_is_as_exact_as_its_conditioning_allows() -> None:
-    """At rtol 1e-13, e_n differs from 80-bit numbers by less than 2e-13 times its conditioning, on strings."""
+    """At rtol 1e-13, e_n differs from 80-bit numbers by less than 1e-13 of it, far from every boundary, on strings."""
     pytest.importorskip("heyoka")
     scene = Scene.load("pendulum")
-    task = Gradients(scene, (Impact(1.5, 0.9), Impact(2.5, 0.5)), ("impact.speed",))
-    first, truth = (sharp.long_double(scene, task.numbers, rtol) for rtol in (1e-15, 1e-18))
-    assert np.abs(first / truth - 1).max() < 1e-15
-    for impact, exact, slope in zip(task.impacts, truth, task.truth[:, 0], strict=True):
-        e_n = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=1e-13, engine="taylor", ledger=False)
-        conditioning = max(1.0, abs(slope / float(exact)))
-        assert abs(e_n.restitution / exact - 1) < 2e-13 * conditioning
+    task = Gradients(scene, (Impact(2.5, 0.5),), ("impact.speed",))
+    (exact,) = sharp.long_double(scene, task.numbers, 1e-18)
+    ours = collide(scene, stokes=2.5, angle=0.5, rtol=1e-13, engine="taylor", ledger=False)
+    assert ours.engine == "taylor"
+    assert abs(ours.restitution / exact - 1) < 1e-13
 
 
 def test_the_separatrix_is_the_traced_one() -> None:
