@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from .dimensions import ONE, Dimension, DimensionError, dimension_of
 from .laws.base import Definition, Law, LawFunction, is_slot_call
-from .model import _GROUP_ORDER, Model
+from .model import GROUPS, Model
 from .quantities import DIMENSIONS, VOCABULARY, a, m, mu, opening, u, v0, x, x0
 from .scaling import ScalingError, dimension_matrix, group_definitions, to_groups
 from .slots import MOTION, Place, places
@@ -87,7 +87,7 @@ class UserModel:
         definitions = tuple((symbol, call(value)) for symbol, value in model.definitions)
         reached = {s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra}
         known = {*model.groups, *reached}
-        groups = [group for group in _GROUP_ORDER if group in known]
+        groups = [group for group in GROUPS if group in known]
         groups += [group.symbol for group in self.groups if group.symbol in reached]
         return replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
 
@@ -127,7 +127,7 @@ class _Extra:
     """The arguments that a slot's functions take beside their own, over all its laws."""
 
     def __init__(self, groups: Mapping[str, Group]) -> None:
-        self.order = (opening, *_GROUP_ORDER, *(group.symbol for group in groups.values()))
+        self.order = (opening, *GROUPS, *(group.symbol for group in groups.values()))
         self.found: dict[str, tuple[sp.Symbol, ...]] = {}
 
     def add(self, law: Law, all_places: Mapping[str, Place]) -> None:
@@ -232,11 +232,11 @@ def _function(
     result = _settled(label, place, value, groups)
     named = {symbol for symbol, _ in parts}
     used = set().union(*(e.free_symbols for e in (result, *(value for _, value in parts)))) - named
-    allowed = {*place.arguments, *MOTION.get(place.slot, ()), *_GROUP_ORDER, *(g.symbol for g in groups.values())}
+    allowed = {*place.arguments, *MOTION.get(place.slot, ()), *GROUPS, *(g.symbol for g in groups.values())}
     if wrong := sorted(s.name for s in used - allowed):
         own = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
         raise ScalingError(f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {own} and groups")
-    extra = [s for s in (opening, *_GROUP_ORDER, *(g.symbol for g in groups.values())) if s in used]
+    extra = [s for s in (opening, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
     arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
     return LawFunction(place.function, arguments, result, place.doc, tuple(parts))
 

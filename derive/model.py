@@ -12,7 +12,7 @@ from functools import cache
 
 import sympy as sp
 
-from . import held
+from . import held, orbital
 from .events import events, reversal, reversal_loss, start
 from .intermediates import intermediates
 from .invariants import Invariant, conserved_momentum
@@ -98,11 +98,13 @@ def derive(structure: Structure) -> Model:
         definitions += tether_definitions()
     elif held.admits(structure):
         definitions += held.definitions(structure)
+    if orbital.admits(structure):
+        definitions += orbital.definitions(structure)
     used = _closure(functions, definitions)
     return Model(
         structure,
         states,
-        groups=tuple(q for q in _GROUP_ORDER if q in used),
+        groups=tuple(q for q in GROUPS if q in used),
         slots=_slots(structure),
         definitions=tuple((symbol, expression) for symbol, expression in definitions if symbol in used),
         functions=functions,
@@ -114,7 +116,7 @@ def _tethered(structure: Structure) -> bool:
     return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
 
 
-_GROUP_ORDER = (
+GROUPS = (
     stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
     radius_ratio, mass_ratio, glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
 )  # fmt: skip
@@ -247,6 +249,15 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): "
                 "hold > 0, flight < 0 and rebound < 0 prove a stick.",
                 tuple(held.margins(structure).items()),
+            )
+        )
+    if orbital.admits(structure):
+        functions.append(
+            ModelFunction(
+                "orbital",
+                "Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for "
+                "either arm: margins of the proof by the orbit's momentum.",
+                tuple(orbital.margins(structure).items()),
             )
         )
     if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument

@@ -55,14 +55,22 @@ def structures() -> tuple[Structure, ...]:
     return (*full, *reduced)
 
 
-def committed() -> tuple[Structure, ...]:
-    """Every structure that is emitted: the paper's, with another attraction, a spreading film, another partner."""
+def known() -> tuple[Structure, ...]:
+    """Every structure that a scene can ask for: the paper's, another partner, another attraction, a spreading film."""
     others = [Structure(True, bridge, False, partner=partner) for partner in _PARTNERS for bridge in _EITHER]
     shapes = (*structures(), *others)
     extended = []
     for attraction, spread in product(_EITHER, repeat=2):
         extended += [replace(s, attraction=attraction, spread=spread) for s in shapes if s.bridge or not spread]
     return tuple(extended)
+
+
+def committed() -> tuple[Structure, ...]:
+    """The structures that are emitted ahead; the others are derived when a scene first asks for one.
+
+    Left out is what puts together more than one of strings, another attraction and a spreading film.
+    """
+    return tuple(s for s in known() if s.strings + s.attraction + s.spread < 2)
 
 
 _EITHER = (False, True)

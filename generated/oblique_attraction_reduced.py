@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d6a81a6f6224f79128123437be4c2b5873057c35f9add92008e14a8e323bc39f
+# Equations sha256 55a3b643d0f49913ca98660ad4c4926ef513f808b02ca367cd5753caca28ee7e
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -55,12 +55,13 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "held",
+    "orbital",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d6a81a6f6224f79128123437be4c2b5873057c35f9add92008e14a8e323bc39f"
+DIGEST = "55a3b643d0f49913ca98660ad4c4926ef513f808b02ca367cd5753caca28ee7e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -312,6 +313,29 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "hold": hold,
         "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(1 - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
+    either arm: margins of the proof by the orbit's momentum.
+
+    Total operations: 29
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    slip = orbital_rate - spin
+    rotation_energy_unit = obliquity**2/16
+    return {
+        "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 44d755c8e8b04c488f06e18e69237ac07b2c91edf7bdc04f1bef33fc9410d0c9
+# Equations sha256 9a84702722e8b89e66088938d57c197c062abe36a97d4c595342b31e7c6a3416
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -30,7 +30,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -65,12 +65,13 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "held",
+    "orbital",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "44d755c8e8b04c488f06e18e69237ac07b2c91edf7bdc04f1bef33fc9410d0c9"
+DIGEST = "9a84702722e8b89e66088938d57c197c062abe36a97d4c595342b31e7c6a3416"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -376,6 +377,30 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "hold": hold,
         "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
+    either arm: margins of the proof by the orbit's momentum.
+
+    Total operations: 73
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    slip = orbital_rate - spin
+    rotation_energy_unit = obliquity**2/16
+    rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
+    return {
+        "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }
 
 

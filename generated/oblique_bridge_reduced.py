@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007
+# Equations sha256 45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -61,12 +61,13 @@ FUNCTIONS = (
     "reversal_loss",
     "outputs",
     "held",
+    "orbital",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007"
+DIGEST = "45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -332,6 +333,29 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "hold": hold,
         "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
+    either arm: margins of the proof by the orbit's momentum.
+
+    Total operations: 29
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbit/32
+    slip = orbital_rate - spin
+    rotation_energy_unit = obliquity**2/16
+    return {
+        "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 
 

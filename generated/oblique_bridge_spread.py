@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 33dd68c7d807f1ca078ac72479f0439c43141959e5a42ca9e2c7c696a1d96c45
+# Equations sha256 80b525c906e103c5d8423df864fc23ff130ba9cb8f51239588f2115dba866789
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -29,7 +29,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -63,12 +63,13 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "held",
+    "orbital",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "33dd68c7d807f1ca078ac72479f0439c43141959e5a42ca9e2c7c696a1d96c45"
+DIGEST = "80b525c906e103c5d8423df864fc23ff130ba9cb8f51239588f2115dba866789"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -360,6 +361,30 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "hold": hold,
         "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
+    either arm: margins of the proof by the orbit's momentum.
+
+    Total operations: 73
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    slip = orbital_rate - spin
+    rotation_energy_unit = obliquity**2/16
+    rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
+    return {
+        "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e7edde922bf9837f511d911d314167005029a1d6fac22cef9f5a7ff54c0b983d
+# Equations sha256 43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -32,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, pi, sin
+from casadi import fmax, pi, sin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -68,9 +68,10 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "held",
+    "orbital",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e7edde922bf9837f511d911d314167005029a1d6fac22cef9f5a7ff54c0b983d"
+DIGEST = "43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -413,4 +414,28 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "hold": hold,
         "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
+    }
+
+
+def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
+    either arm: margins of the proof by the orbit's momentum.
+
+    Total operations: 73
+    """
+    gap = state["gap"]
+    orbit = state["orbit"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    distance = aspect*gap + 4
+    orbital_rate = orbit/distance**2
+    slip = orbital_rate - spin
+    rotation_energy_unit = obliquity**2/16
+    rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
+    return {
+        "slip": slip,
+        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

@@ -14,6 +14,7 @@ from casadi import SX, Function, jtimes, vertcat
 
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import Path, Step
+from .model import Choice
 from .phases import Flow, Watch, event_table, expressions
 
 _LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
@@ -100,6 +101,21 @@ def fly(path: Path, plugin: str, tolerance: Tolerance, kind: Flow, start: np.nda
     return flown
 
 
+def as_located(path: Path, choice: Choice) -> Flown:
+    """The located flight itself, its extras integrated along: one solution, which cannot miss its own events."""
+    start = path.model.start(path.p)
+    begun = np.concatenate([start, np.zeros(len(path.extras))])
+    flown = Flown(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
+    for step, end in zip(path.steps, path.ends, strict=True):
+        if step.duration > 0:
+            flow = Flow(choice, step.phase.region, path.extras)
+            flown.pieces.append(Piece(str(step.phase), flow, begun, flown.time, step.duration))
+            flown.time += step.duration
+        flown.events += [(kind, flown.time) for kind in step.kinds]
+        begun = end
+    return flown
+
+
 def _flight(
     engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p: np.ndarray
 ) -> tuple[float, np.ndarray]:
@@ -122,6 +138,7 @@ def _flight(
     parameters = np.append(p, [motion, 0.0])
     duration = step.duration
     scale = float(p[list(flow.model.groups).index("glass_number")]) if step.event == "glass" else 1.0
+    nearer = np.inf
     for _ in range(_TRIES):
         landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
         shift = float(dt[0])
@@ -132,6 +149,9 @@ def _flight(
             if float(_slope(flow, watched, step.event)(landed, parameters)) > _RISES * scale / duration:
                 break  # met on the way back: the engine's own event was earlier
             return duration + shift, landed
+        if abs(shift) > nearer / 2:
+            break  # beside a saddle every step is amplified, and they go to and fro
+        nearer = abs(shift)
         duration += shift
         y = flight(duration)
     missed = f"does not meet the event {step.event}: the collision lies within its error of a boundary"

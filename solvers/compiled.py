@@ -64,10 +64,7 @@ def _private(folder: Path) -> bool:
 
 
 def compiled(function: Function) -> Function:
-    """`function` as machine code if there is a compiler, else itself.
-
-    Safe with several processes: a library is built under a name of its own and then moved into place.
-    """
+    """`function` as machine code if there is a compiler, else itself; safe with several processes."""
     found = compiler()
     if found is None:
         return function
@@ -79,18 +76,29 @@ def compiled(function: Function) -> Function:
         key = hashlib.sha256(b"\0".join([text, version.encode(), " ".join(FLAGS).encode()])).hexdigest()[:32]
         library = cache_folder() / f"{name}-{key}.so"
         if not library.is_file():
-            fresh = Path(work) / "fresh.so"
-            built = subprocess.run(
-                [path, *FLAGS, "-o", str(fresh), str(source), "-lm"], capture_output=True, text=True, check=False
-            )
-            if built.returncode:
-                last = (built.stderr.strip().splitlines() or ["no message"])[-1]
-                sys.stderr.write(f"{path} cannot compile {name} ({last}): it runs interpreted\n")
+            said = build(path, FLAGS, source, library)
+            if said:
+                sys.stderr.write(f"{path} cannot compile {name} ({said}): it runs interpreted\n")
                 return function
-            beside = library.with_suffix(f".{os.getpid()}")
-            shutil.copyfile(fresh, beside)
-            beside.replace(library)
     return external(name, str(library))
+
+
+def build(path: str, flags: tuple[str, ...], source: Path, library: Path) -> str:
+    """Compile a C file beside which there is room; the error if it fails, else "".
+
+    The library is built under a name of its own and then moved into place: several processes may do so at once.
+    """
+    fresh = source.with_suffix(".so")
+    built = subprocess.run(
+        [path, *flags, "-o", str(fresh), str(source), "-lm"], capture_output=True, text=True, check=False
+    )
+    if built.returncode:
+        said = built.stderr.strip().splitlines() or ["no message"]
+        return next((line for line in said if "error" in line), said[-1])
+    beside = library.with_suffix(f".{os.getpid()}")
+    shutil.copyfile(fresh, beside)
+    beside.replace(library)
+    return ""
 
 
 def _source(function: Function, folder: Path) -> Path:

@@ -88,9 +88,12 @@ def text(name: str) -> str:
 
 
 def header(path: str) -> str:
-    """Text of an emitted C header of the kernel, a path below `generated`, verified."""
-    _verified(path)
-    return (_FOLDER / path).read_text(encoding="utf-8")
+    """Text of an emitted C header of the kernel, a path below `generated`, verified; derived where not committed."""
+    if committed(path):
+        _verified(path)
+        return (_FOLDER / path).read_text(encoding="utf-8")
+    name = Path(path).stem
+    return cached(f"kernel-{name}.h", lambda: _derived_header(name)).read_text(encoding="utf-8")
 
 
 def committed(path: str) -> bool:
@@ -170,6 +173,12 @@ def _derived_structure(name: str) -> str:
     from ..derive.emit.one import structure_text  # imports sympy
 
     return structure_text(name)
+
+
+def _derived_header(name: str) -> str:
+    from ..derive.emit.one import structure_header_text  # imports sympy
+
+    return structure_header_text(name)
 
 
 def _derived_law(slot: str, name: str) -> str:

@@ -97,7 +97,7 @@ def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Toleranc
     """What an integrator is told so that results come out at about `rtol`.
 
     The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a
-    tiny part of x0, which must be resolved; at very small angles without bridge or strings, the doublet is opened
+    tiny part of x0, which must be resolved (unless strings pull harder); at very small angles without bridge or strings, the doublet is opened
     by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both in whole decades, so that
     integrators are shared.
     """
@@ -105,6 +105,8 @@ def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Toleranc
     absolute = 1e-3
     if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
         absolute = 10.0 ** max(4 * math.floor(math.log10(centrifugal) / 4) - 3, -200)
+    if "weight" in groups:  # stiffness over string_ratio is at least 1
+        centrifugal -= groups["weight"] * groups["aspect"] / groups["string_ratio"]
     if centrifugal > 1:
         rtol = max(rtol * 10.0 ** -math.ceil(math.log10(centrifugal)), min(rtol, _TIGHTEST))
     if plugin == "cvodes":

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .errors import ComputationError
-from .integrators import IntegrationFailed, Locator, Stop, locator, plain, tolerance
+from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, plain, tolerance
 from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
 from .proofs import Proof, proof_for
@@ -21,7 +21,8 @@ LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from an
 REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
-_MAX_STEPS = 20_000  # phases of one flight
+_MAX_STEPS = 1_000  # phases of one flight
+_LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ class Path:
     time: float = 0.0  # of the last state
     smallest_gap: float = 1.0
     extras: tuple[str, ...] = ()
+    dry_loss: float = 0.0  # taken by reversals and rests, over m v0^2
 
     @property
     def kinds(self) -> list[str]:
@@ -98,7 +100,8 @@ class Locate:
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
         self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
-        self.extras = extras + (model.works if self.proof.watches == "energy" else ())
+        works = self.proof.watches == "energy" or any(work in extras for work in model.works)
+        self.extras = tuple(name for name in extras if name not in model.works) + (model.works if works else ())
         self.path = Path(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
@@ -179,7 +182,22 @@ class Locate:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level) if stop.event == "turning" else stop
         except IntegrationFailed as error:
+            if self._loosened():
+                return self._advance(
+                    locator(self._flow(), self.watch, self.tolerance, self.machine_code), stretch, level
+                )
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
+
+    def _loosened(self) -> bool:
+        """Go on with a looser tolerance, where it had been tightened for the start of a grazing flight.
+
+        Further on that may be below the rounding of what has become large.
+        """
+        if self.tolerance.relative >= self.rtol:
+            return False
+        looser = min(self.tolerance.relative * _LOOSER, self.rtol)
+        self.tolerance = Tolerance(looser, self.tolerance.absolute * looser / self.tolerance.relative)
+        return True
 
     def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
         """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
@@ -260,6 +278,7 @@ class Locate:
         """
         at_touch = not self.path.steps and flown == 0.0
         after = self.model.values("reversal", self.y, self.p)
+        self.path.dry_loss += self.model.values("reversal_loss", self.y, self.p)["dry_contact"]
         self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
         if at_touch and not self.model.bridge:
             self.path.separated = True
@@ -270,6 +289,7 @@ class Locate:
         holds = inward > 0 and self._too_weak(after["opening"], inward)
         if holds:
             kinds += ("rests",)
+            self.path.dry_loss += float(self.y[1]) ** 2 / 2
             self.y[1] = 0.0
             phase = self.phase.with_(resting=True, motion=OPENING)
         else:

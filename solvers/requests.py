@@ -180,10 +180,9 @@ def checked_numbers(name: str, values: Any, package: Package | None = None) -> n
         raise InputError(name, repr(values), "numbers (SI), in one dimension", "is not a list of numbers") from None
     if array.ndim > 1:
         raise InputError(name, f"{array.ndim} dimensions", "one dimension, or a single number", "is not accepted")
-    distinct = np.unique(array)  # NaN comes last
-    ends = distinct[[0, -1]] if distinct.size else distinct
     # every range is an interval: the values between two ends that it holds need not be asked
-    held = all(math.isfinite(end) and entry.range.holds(float(end)) for end in ends)
-    for value in ends if held else distinct:
-        entry.number(float(value))
+    ends = (float(array.min()), float(array.max())) if array.size else ()  # NaN if any is
+    if not all(math.isfinite(end) and entry.range.holds(end) for end in ends):
+        for value in np.unique(array):
+            entry.number(float(value))
     return array

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .buffered import LOCK
-from .chain import Flown, Stopped, fly
+from .chain import Flown, Stopped, as_located, fly
 from .cohesion import generalised_centrifugal
 from .errors import ComputationError
 from .integrators import tolerance as told
@@ -83,8 +83,8 @@ def collide(
 
 def _by_casadi(scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool) -> Collision:
     with LOCK:
-        located, flown, flow, used = _compute(scene, n, rtol, plugin, ledger, trajectory)
-        return _result(scene, n, located, flown, flow, plugin, used, trajectory)
+        found = _compute(scene, n, rtol, plugin, ledger, trajectory)
+        return _result(scene, n, *found, trajectory)
 
 
 def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool, trajectory: bool) -> Collision:
@@ -96,10 +96,11 @@ def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool
 
 def _compute(
     scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool
-) -> tuple[Path, Flown, Flow, float]:
+) -> tuple[Path, Flown, Flow, str, float]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
 
-    Also returns the tolerance that it took.
+    Where no tolerance helps, the located flight itself is the answer. Also returns the engine that answers and the
+    tolerance that it took.
     """
     small = load(choose(scene, n.oblique, fold=True))
     choice = choose(scene, n.oblique, full=ledger or trajectory, fold=True)
@@ -114,11 +115,15 @@ def _compute(
         try:
             flown = fly(located, plugin, told(tolerance, plugin, n.groups), flow, start)
         except Stopped as failure:
-            if tolerance <= _TIGHTEST or not failure.missed:
+            if failure.missed and tolerance > _TIGHTEST:
+                tolerance = max(tolerance * 1e-2, _TIGHTEST)
+                continue
+            try:
+                located = locate(flow.model, n.groups, tolerance, flow.extras)
+            except ComputationError:
                 raise n.in_si(_failure(failure, flow.model, plugin)) from None
-            tolerance = max(tolerance * 1e-2, _TIGHTEST)
-        else:
-            return located, flown, flow, tolerance
+            return located, as_located(located, choice), flow, "rosenbrock", tolerance
+        return located, flown, flow, plugin, tolerance
 
 
 def _extras(model: Model, ledger: bool) -> tuple[str, ...]:

@@ -29,6 +29,7 @@ from .held import held
 from .laws import film_ends, head_on_closed_form, long_strings_vanish, rigid_rotation_is_free, small_angle_is_linear
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
+from .orbital import orbital
 from .partners import partner_checks
 from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
 from .tethered import tethered
@@ -73,6 +74,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield least_energy_is_a_minimum()
     yield from tethered()
     yield from held()
+    yield from orbital()
     yield from certificates(own)
     yield groups_span_the_nullspace()
     yield groups_are_the_papers()

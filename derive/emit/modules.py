@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 
 import sympy as sp
 
@@ -13,7 +14,7 @@ from ..model import Model
 from ..quantities import VOCABULARY
 from ..scaling import group_definitions, scale_definitions
 from .printer import Printer
-from .taylor import structure_header
+from .taylor import Beside, structure_header
 from .taylor_laws import law_header
 from .text import INDENT, assignment, docstring, module, needed, operations
 
@@ -172,14 +173,18 @@ def _function(model: Model, name: str, printer: Printer) -> list[str]:
     return [*lines, f"{INDENT}}}", ""]
 
 
-def law_kernel(law: Law) -> str:
-    """The C header of a law, for the Taylor kernel."""
-    return law_header(law, law_digest(law), _PROVENANCE)
+def law_kernel(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header of a law, for the Taylor kernel; `groups` are a user's."""
+    return law_header(law, law_digest(law), _PROVENANCE, groups)
 
 
-def structure_kernel(model: Model) -> str:
-    """The C header of a structure, for the Taylor kernel."""
-    return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, {}))
+def structure_kernel(
+    model: Model, own: Own | None = None, definitions: Mapping[sp.Symbol, sp.Expr] | None = None
+) -> str:
+    """The C header of a structure, for the Taylor kernel; `own` and `definitions` are of a user's groups."""
+    meanings = {name: meaning for name, (_, meaning) in (own or {}).items()}
+    beside = Beside(definitions or {}, meanings)
+    return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
 
 
 def scaling_digest() -> str:

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
-from .. import structure as shapes
+import sympy as sp
+
+from ..custom import UserModel
 from ..laws import LAWS
+from ..laws.base import Law
 from ..model import derive
 from ..modelfile import read
-from ..structure import Structure
-from .modules import law_module, structure_module
+from ..quantities import opening
+from ..structure import Structure, known
+from .modules import law_kernel, law_module, structure_kernel, structure_module
+from .printer import EmissionError
 from .user import own_names
 
 
 def named(name: str) -> Structure:
     """The structure whose module has this name; KeyError if there is none."""
-    every = {each.name: each for each in (*shapes.structures(), *getattr(shapes, "committed", tuple)())}
-    return every[name]
+    return {each.name: each for each in known()}[name]
 
 
 def structure_text(name: str) -> str:
@@ -33,3 +38,51 @@ def user_structure_text(source: str, model: str, name: str) -> str:
     """Text of a structure's module with the calls of a user's model, from the text of the model file."""
     found = read(Path(f"{model}.py"), source, model)
     return structure_module(found.extended(derive(named(name))), own_names(found))
+
+
+def structure_header_text(name: str) -> str:
+    """Text of a structure's C header for the kernel; `#error` and a sentence where it has none."""
+    try:
+        return structure_kernel(derive(named(name)))
+    except EmissionError as error:
+        return _none(error)
+
+
+def user_structure_header_text(source: str, model: str, name: str) -> str:
+    """The same with the calls and groups of a user's model."""
+    found = read(Path(f"{model}.py"), source, model)
+    definitions = {group.symbol: group.definition for group in found.groups}
+    try:
+        return structure_kernel(found.extended(derive(named(name))), own_names(found), definitions)
+    except EmissionError as error:
+        return _none(error)
+
+
+def user_law_header_text(source: str, model: str, slot: str, name: str) -> str:
+    """Text of a law's C header as the structures of a user's model call it, of a law of the model or the library."""
+    found = read(Path(f"{model}.py"), source, model)
+    groups = {group.symbol for group in found.groups}
+    try:
+        for law in found.laws:
+            if (law.slot, law.name) == (slot, name):
+                return law_kernel(law, groups)
+        law, beside = _wide(LAWS[slot][name], found)
+        return law_kernel(law, groups | beside)
+    except EmissionError as error:
+        return _none(error, f"law {slot} {name}: ")
+
+
+def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
+    """A law of the library that takes no notice of what a model's calls pass beside; and what of that stands still."""
+    still: set[sp.Symbol] = set()
+    functions = []
+    for each in law.functions:
+        passed = model.extra.get(f"{law.slot}.{each.name}", ())
+        unused = tuple(sp.Symbol(f"unused_{symbol.name}", real=True) for symbol in passed)
+        still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol != opening}
+        functions.append(replace(each, arguments=(*each.arguments, *unused)))
+    return replace(law, functions=tuple(functions)), still
+
+
+def _none(error: EmissionError, where: str = "") -> str:
+    return f"#error {where}{' '.join(str(error).split())}\n"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -9,42 +12,55 @@ from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import VOCABULARY, opening
-from ..scaling import group_definitions
-from .taylor_c import Constants, Recurrences, Text, comment, function
-from .taylor_laws import signatures
+from .taylor_c import Constants, Recurrences, comment, function
 from .taylor_program import Program
-from .taylor_tethered import tethered_functions
+from .taylor_proofs import held_functions, tethered_functions
+from .taylor_scale import scale_function
 from .text import needed
 
 _FLAGS = (FILM, SHEAR)
+_WORKS = {"capillary": "bridge", "attraction": "attraction"}  # of the ledger, and the slot of the force
 RESTING = "moving"  # mask: zero where the gap is held
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What a user's model brings beside the library's vocabulary.
+
+    Arguments:
+        definitions: its groups in SI quantities.
+        meanings: of groups and quantities, by name.
+    """
+
+    definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    meanings: Mapping[str, str] = field(default_factory=dict)
 
 
 class Header:
     """Text of one structure's header, built part by part around its constants."""
 
-    def __init__(self, model: Model) -> None:
-        self.model = model
+    def __init__(self, model: Model, beside: Beside) -> None:
+        self.model, self.beside = model, beside
         self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, _FLAGS)
         self.calls: dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]] = {}
         self.flow = self._program("right_hand_side")
         self.rates = dict(self._outputs)
         self.turning: str | sp.Expr | None = None
-        if self.model.structure.oblique and not self.model.structure.strings:
+        if any(each.name == "turning_rate" for each in model.functions) and not model.structure.strings:
             self.turning = self._more(self.flow, self.model["turning_rate"].outputs)["rotation"]
         self.work_rate: str | sp.Expr | None = None
         self._work_operations: set[str] = set()
-        if self.model.structure.bridge:
-            wanted = [pair for pair in self.model["energy_rates"].outputs if pair[0] == "capillary"]
+        wanted = [value for key, value in model["energy_rates"].outputs if key in _WORKS]
+        if wanted:
             before = len(self.flow.operations)
-            self.work_rate = self._more(self.flow, tuple(wanted))["capillary"]
+            self.work_rate = self._more(self.flow, (("capillary", sp.Add(*wanted)),))["capillary"]
             self._work_operations = {operation.name for operation in self.flow.operations[before:]}
         self.made = Recurrences(self.flow, self.constants, lambda name: f"s->{name}")
 
     # ---- programs
 
     def _program(self, name: str) -> Program:
-        program = Program(self.model.states, lambda slot, call: signatures()[slot, call])
+        program = Program(self.model.states)
         outputs = self.model[name].outputs
         kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
         for symbol, expression in kept:
@@ -76,11 +92,13 @@ class Header:
         states = [state.name for state in self.model.states]
         flags = {
             "OBLIQUE": shape.oblique, "BRIDGE": shape.bridge, "STRINGS": shape.strings, "REDUCED": shape.reduced,
+            "ATTRACTION": shape.attraction, "SPREAD": shape.spread, "WALL": shape.partner == "wall",
         }  # fmt: skip
         lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
         if self.work_rate is not None:
+            closed = [f"defined({slot.upper()}_FORCE_WORK)" for slot in self._attracting]
             lines += [
-                "#if defined(BRIDGE_FORCE_WORK)",
+                f"#if {' && '.join(closed)}",
                 "#define CAPILLARY_STATE 0",
                 "#else",
                 "#define CAPILLARY_STATE 1 /* no closed form: the work is integrated along */",
@@ -103,7 +121,7 @@ class Header:
                 if not isinstance(argument, str) and argument.free_symbols:
                     constants.factor(argument, f"{name}_argument_{position + 1}")
         lines = ["typedef struct {"]
-        lines += [f"    vec {group.name}; /* {VOCABULARY[group.name].meaning} */" for group in self.model.groups]
+        lines += [f"    vec {group.name}; /* {self._meaning(group)} */" for group in self.model.groups]
         lines += [f"    vec {name};" for name in constants.prepared]
         for name, (slot, call, _) in self.calls.items():
             lines.append(f"    {slot}_{call}_constants {name};")
@@ -112,32 +130,28 @@ class Header:
         for name, (slot, call, arguments) in self.calls.items():
             passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
-        body.append("glass_pressure_clearance_prepare(&c->glass, c->glass_number);")
+        body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
         return [
             *lines,
-            *self._scaling(),
+            *scale_function(self.model, self.beside.definitions),
             *comment("What is computed once a collision, from its groups."),
             *function("static inline void prepare(constants *c)", body),
             "",
         ]
 
-    def _scaling(self) -> list[str]:
-        """The groups from SI quantities, whose names are exported in the order they are given in."""
-        definitions = group_definitions()
-        expressions = {group: definitions.get(group, group) for group in self.model.groups}
-        used = set().union(*(expression.free_symbols for expression in expressions.values()))
-        names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
-        text = Text(lambda symbol: f"q[SI_{symbol.name.upper()}]")
-        lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
-        lines += [
-            "const char quantity_names[] =",
-            *(f'    "{name} "' for name in names[:-1]),
-            f'    "{names[-1]}";',
-            "",
-        ]
-        body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
-        doc = "The groups of a collision from its quantities in SI."
-        return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+    def _meaning(self, group: sp.Symbol) -> str:
+        return self.beside.meanings.get(group.name) or VOCABULARY[group.name].meaning
+
+    @property
+    def _attracting(self) -> list[str]:
+        return [slot for slot in _WORKS.values() if slot in self.model.slots]
+
+    def _glass_groups(self) -> str:
+        """What a user's glass law takes beside gap and approach, as arguments."""
+        (call,) = (
+            node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node)
+        )
+        return "".join(f", {self._passed(argument)}" for argument in call.args[2:])
 
     def _passed(self, argument: sp.Expr) -> str:
         text = self.constants.factor(argument, "argument")
@@ -210,7 +224,7 @@ class Header:
         return self._valued(outputs, head, results, doc or self.model[name].doc)
 
     def _valued(self, outputs: list[tuple[str, sp.Expr]], head: str, results: dict[str, str], doc: str) -> list[str]:
-        program = Program(self.model.states, lambda slot, call: signatures()[slot, call])
+        program = Program(self.model.states)
         kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
         for symbol, expression in kept:
             program.define(symbol, expression)
@@ -243,12 +257,13 @@ class Header:
             "static inline vec inward_force(const constants *c, const vec *y)",
             {"inward_force": "return"},
         )
-        total = [("energy", sp.Add(*(expression for _, expression in model["energies"].outputs)))]
+        escape = model["escape_energy" if shape.partner == "wall" else "energies"]
+        total = [("energy", sp.Add(*(expression for _, expression in escape.outputs)))]
         lines += self._valued(
             total,
             "static inline vec stored_energy(const constants *c, const vec *y)",
             {"energy": "return"},
-            model["energies"].doc + " Their sum.",
+            escape.doc + " Their sum.",
         )
         shown = {key: f"shown[{position}]" for position, (key, _) in enumerate(model["outputs"].outputs)}
         lines.append(f"enum {{ OUTPUTS = {len(shown)} }};")
@@ -263,12 +278,23 @@ class Header:
                     f"static inline vec potential_{key}(const constants *c, const vec *y)",
                     {key: "return"},
                 )
+        if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
+            lines += ["#define BY_ORBIT 1", "enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };"]
+            lines += self._value(
+                "orbital",
+                "static inline void orbital(const constants *c, const vec *y, vec *found)",
+                {"slip": "found[SLIP_RATE]", "orbit_energy": "found[ORBIT_ENERGY]", "surface": "found[SLIP_ENERGY]"},
+                "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
+                "(surface arm), over m v0^2 (derive/orbital.py).",
+            )
+        prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
         if any(each.name == "tethered" for each in model.functions):
-            prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
             lines += tethered_functions(model, self.constants, prepared)
-        if shape.bridge:
+        if any(each.name == "held" for each in model.functions):
+            lines += held_functions(model, self.constants, prepared)
+        if self._attracting:
             lines += self._work()
-        if not (shape.oblique or shape.bridge or shape.strings):
+        if (shape.partner == "wall" or not shape.oblique) and not (shape.bridge or shape.strings):
             lines += self._momentum()
         if shape.oblique:
             edge = dict(model["events"].outputs)["tangential_edge"]
@@ -285,44 +311,54 @@ class Header:
         ]
 
     def _work(self) -> list[str]:
-        """Capillary work from the law's antiderivative: the force over the rate at which its argument grows."""
-        force = next(value for symbol, value in self.model.definitions if symbol.name == "bridge_force")
-        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
-        gap = self.model.states[0]
-        name = "bridge_force"
-        per = sp.cancel(force / call / call.args[0].diff(gap))
-        scale = self.constants.factor(call.args[0].diff(gap), "bridge_gap_factor")
-        factor = self.constants.factor(per, "bridge_work_factor")
+        """Work against attractions by the laws' antiderivatives: force over the rate at which its argument grows."""
+        gap, terms = self.model.states[0], []
+        for slot in self._attracting:
+            force = next(value for symbol, value in self.model.definitions if symbol.name == f"{slot}_force")
+            call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+            name = next(name for name, (own, _, _) in self.calls.items() if own == slot)
+            per = sp.cancel(force / call / call.args[0].diff(gap))
+            scale = self.constants.factor(call.args[0].diff(gap), f"{slot}_gap_factor")
+            factor = self.constants.factor(per, f"{slot}_work_factor")
+            at = "gap" if scale == "1.0" else f"{scale}*gap"
+            terms.append(f"{factor}*{slot}_force_work(&c->{name}, {at})")
+        what = "Capillary work" if self._attracting == ["bridge"] else "Work against what attracts"
         return [
             "#if !CAPILLARY_STATE",
-            *comment("Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap."),
+            *comment(f"{what} up to a gap over m v0^2, from a fixed but arbitrary gap."),
             *function(
-                "static inline vec capillary_work(const constants *c, vec gap)",
-                [f"return {factor}*{name}_work(&c->{self._call_name()}, {scale}*gap);"],
+                "static inline vec capillary_work(const constants *c, vec gap)", [f"return {' + '.join(terms)};"]
             ),
             "#endif",
             "",
         ]
 
     def _momentum(self) -> list[str]:
-        """What the film takes of the opening velocity up to a gap: du/dx is minus its force over the velocity."""
+        """What the film takes of the opening velocity along a gap: du/dx is minus its force over the velocity."""
         force = next(value for symbol, value in self.model.definitions if symbol.name == "film_force").subs(FILM, 1)
         call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
         name = next(name for name, (slot, _, _) in self.calls.items() if slot == "film")
+        if call.has(opening):
+            return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
         factor = self.constants.factor(sp.cancel(force / call / opening), "film_momentum_factor")
         return [
+            "#define FILM_MOMENTUM 1",
+            *comment("Velocity over v0 that the film takes per gap."),
+            *function(
+                "static inline vec film_slowing(const constants *c, vec gap)",
+                [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
+            ),
+            "#if defined(FILM_RESISTANCE_WORK)",
             *comment("Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap."),
             *function(
                 "static inline vec film_momentum(const constants *c, vec gap)",
                 [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
             ),
+            "#endif",
             "",
         ]
 
-    def _call_name(self) -> str:
-        return next(name for name, (slot, _, _) in self.calls.items() if slot == "bridge")
 
-
-def structure_header(model: Model, digest: str, provenance: str, doc: str) -> str:
+def structure_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
     """The C header of a structure."""
-    return Header(model).text(digest, provenance, doc)
+    return Header(model, beside or Beside()).text(digest, provenance, doc)

@@ -22,10 +22,11 @@ class Text:
     """Prints an expression over lanes; `names` says what symbols are called.
 
     Arguments:
-        calls: of slot functions whose still arguments have been prepared, the call up to its last argument.
+        calls: of slot functions whose still arguments have been prepared, the call up to the argument that moves, and
+            which of its arguments that is.
     """
 
-    def __init__(self, names: Callable[[sp.Symbol], str], calls: Mapping[str, str] | None = None) -> None:
+    def __init__(self, names: Callable[[sp.Symbol], str], calls: Mapping[str, tuple[str, int]] | None = None) -> None:
         self._names, self._calls = names, calls or {}
 
     def __call__(self, expression: sp.Expr) -> str:
@@ -54,7 +55,8 @@ class Text:
             return first, _ATOM
         if isinstance(node, AppliedUndef) and is_slot_call(node):
             if node.func.__name__ in self._calls:
-                return f"{self._calls[node.func.__name__]}{self.vector(node.args[-1])})", _ATOM
+                call, position = self._calls[node.func.__name__]
+                return f"{call}{self.vector(node.args[position])})", _ATOM
             arguments = ", ".join(self.vector(argument) for argument in node.args)
             return f"{node.func.__name__.replace('.', '_')}({arguments})", _ATOM
         if type(node) in _FUNCTIONS:
@@ -236,7 +238,8 @@ class Recurrences:
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
-            return f"{target} = {_times(factors[0])}product({series[0]}, {series[1]}, k);"
+            older, newer = (self.array(part) for part in sorted(operation.series, key=self._age))
+            return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind == "square":
             return f"{target} = square({series[0]}, k);"
         if kind == "reciprocal":
@@ -260,6 +263,10 @@ class Recurrences:
         slot, function, arguments = operation.call
         passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
+
+    def _age(self, name: str) -> int:
+        """Place of a series in the program; what is given comes first."""
+        return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
 
     def values(self) -> list[str]:
         """Local variables with the values at order zero; `where` of the series that are given must be such."""

@@ -5,14 +5,12 @@ A structure calls a law through its slot (`bridge_force_next`), so every law of 
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Set as AbstractSet
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
-from ..laws.base import Law, LawFunction, is_slot_call
-from ..model import Model, derive
-from ..structure import structures
+from ..laws.base import Law, LawFunction
+from ..model import GROUPS
 from .taylor_c import Constants, Recurrences, Text, comment, function
 from .taylor_program import Program, cheapest
 from .taylor_work import antiderivative
@@ -21,32 +19,13 @@ from .text import needed
 LIMIT = sp.Symbol("limit", positive=True)  # what an event compares a law's value with
 
 
-@cache
-def signatures() -> dict[tuple[str, str], tuple[bool, ...]]:
-    """For every slot function, which of its arguments move along a flight, as the structures call it."""
-    found: dict[tuple[str, str], tuple[bool, ...]] = {}
-    for structure in structures():
-        model = derive(structure)
-        moving = moving_symbols(model)
-        expressions = [value for _, value in model.definitions]
-        expressions += [value for each in model.functions if each.name != "tethered" for _, value in each.outputs]
-        for expression in expressions:
-            for node in sorted(sp.sympify(expression).atoms(AppliedUndef), key=sp.default_sort_key):
-                if is_slot_call(node):
-                    slot, name = node.func.__name__.split(".")
-                    moves = tuple(bool(argument.free_symbols & moving) for argument in node.args)
-                    before = found.setdefault((slot, name), moves)
-                    found[slot, name] = tuple(a or b for a, b in zip(before, moves, strict=True))
-    return found
+def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = frozenset()) -> tuple[bool, ...]:
+    """Which arguments of a law's function are series along a flight: all that are no groups.
 
-
-def moving_symbols(model: Model) -> set[sp.Symbol]:
-    """States, and definitions that depend on them."""
-    moving = set(model.states)
-    for symbol, expression in model.definitions:
-        if expression.free_symbols & moving:
-            moving.add(symbol)
-    return moving
+    Arguments:
+        groups: those of a user's model, beside the library's.
+    """
+    return tuple(argument not in groups and argument not in GROUPS for argument in arguments)
 
 
 def compared() -> set[tuple[str, str]]:
@@ -54,29 +33,21 @@ def compared() -> set[tuple[str, str]]:
     return {("glass", "pressure")}
 
 
-def fits(law: Law) -> bool:
-    """Whether the kernel's structures call a law as it is: with these arguments, the same on approach and rebound."""
-    called = {each.name: signatures().get((law.slot, each.name)) for each in law.functions if not each.for_proof}
-    arguments = {each.name: len(each.arguments) for each in law.functions}
-    there = any(moves is not None for moves in called.values())
-    return (
-        there
-        and "suction" not in called
-        and all(moves is None or len(moves) == arguments[name] for name, moves in called.items())
-    )
+def law_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header of a law.
 
-
-def law_header(law: Law, digest: str, provenance: str) -> str:
-    """The C header of a law."""
+    Arguments:
+        groups: those of a user's model, beside the library's.
+    """
     lines = comment(f"{provenance}\nEquations sha256 {digest}")
     lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
     for each in law.functions:
-        moves = signatures().get((law.slot, each.name))
-        if each.for_proof:
+        if each.name == "suction":
+            lines += ["#define FILM_CAVITATES 1 /* no force while opening */", ""]
+        elif each.for_proof:
             lines += _asked(law.slot, each)
-        if moves is None or each.for_proof:
-            continue
-        lines += _function(law.slot, each, moves)
+        elif each.name != "potential":  # which is the work of the force
+            lines += _function(law, each, moves(each.arguments, groups))
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -95,9 +66,10 @@ def _asked(slot: str, each: LawFunction) -> list[str]:
     ]
 
 
-def _function(slot: str, each: LawFunction, moves: tuple[bool, ...]) -> list[str]:
-    moving = tuple(argument for argument, moved in zip(each.arguments, moves, strict=True) if moved)
-    still = tuple(argument for argument, moved in zip(each.arguments, moves, strict=True) if not moved)
+def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
+    slot = law.slot
+    moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
+    still = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if not moved)
     name = f"{slot}_{each.name}"
     kept, _ = needed([each.result], each.definitions)
     if not moving:
@@ -114,7 +86,9 @@ def _function(slot: str, each: LawFunction, moves: tuple[bool, ...]) -> list[str
     program, result = cheapest(each.result, kept, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in still})
     lines = _recurrences(name, each.doc, program, result, constants, moving)
-    work = _work(each, kept, moving, constants)
+    if each.falls:
+        lines += [f"#define {name.upper()}_FALLS 1 /* it never grows with its first argument */", ""]
+    work = _work(law, each, kept, moving, constants)
     if work is not None:
         lines += work_lines(name, work, constants, moving[0])
     # what follows may hoist more constants, so the struct is written last
@@ -181,6 +155,7 @@ def _recurrences(
 
 
 def _work(
+    law: Law,
     each: LawFunction,
     kept: list[tuple[sp.Symbol, sp.Expr]],
     moving: tuple[sp.Symbol, ...],
@@ -188,6 +163,11 @@ def _work(
 ) -> sp.Expr | None:
     if each.name not in ("force", "resistance") or len(moving) != 1:
         return None
+    for other in law.functions:
+        if (other.name, other.arguments) == ("potential", each.arguments):
+            known = other(*other.arguments)
+            if sp.simplify(known.diff(moving[0]) - each(*each.arguments)) == 0:
+                return known
     force = each.result
     for symbol, value in reversed(kept):
         if value.free_symbols & {moving[0], *(s for s, v in kept if v.has(moving[0]))}:

@@ -6,7 +6,7 @@ walks a whitelist of sympy nodes, as the CasADi printer does.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -55,18 +55,14 @@ class Program:
 
     Arguments:
         moving: symbols that are series from the start.
-        call_moves: for a slot function, which of its arguments are series wherever it is called.
     """
 
-    def __init__(
-        self, moving: Iterable[sp.Symbol], call_moves: Callable[[str, str], tuple[bool, ...]] | None = None
-    ) -> None:
+    def __init__(self, moving: Iterable[sp.Symbol]) -> None:
         self.operations: list[Operation] = []
         self.inputs = tuple(symbol.name for symbol in moving)
         self._moving: dict[sp.Basic, str] = {symbol: symbol.name for symbol in moving}
         self.named: dict[sp.Symbol, sp.Expr] = {}  # constants with a name of their own, in order
         self._names: set[str] = set(self.inputs)
-        self._call_moves = call_moves
 
     @property
     def cost(self) -> float:
@@ -131,6 +127,8 @@ class Program:
             return self._add(kind, (inner,), name, f"{kind}_of_{inner}")
         if isinstance(node, (sp.sin, sp.cos)):
             return self._circular(node, name)
+        if isinstance(node, (sp.sinh, sp.cosh, sp.tanh)):
+            return self.series(node.rewrite(sp.exp), name)
         raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")
 
     def _sum(self, node: sp.Add, name: str | None) -> str:
@@ -222,12 +220,7 @@ class Program:
 
     def _call(self, node: AppliedUndef, name: str | None) -> str:
         slot, function = node.func.__name__.split(".")
-        moves = self._call_moves(slot, function) if self._call_moves else tuple(map(self.moves, node.args))
-        arguments: list[str | sp.Expr] = []
-        for argument, moving in zip(node.args, moves, strict=True):
-            if moving != self.moves(argument):
-                raise EmissionError(f"argument {argument} of {slot}.{function} is a series here and not elsewhere")
-            arguments.append(self.series(argument) if moving else argument)
+        arguments = [self.series(argument) if self.moves(argument) else argument for argument in node.args]
         series = tuple(argument for argument in arguments if isinstance(argument, str))
         return self._add("call", series, None, f"{slot}_{function}_law", call=(slot, function, tuple(arguments)))
 

@@ -22,7 +22,6 @@ from .modules import (
     structure_kernel,
     structure_module,
 )
-from .taylor_laws import fits
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
@@ -50,8 +49,7 @@ def emitted() -> dict[str, str]:
     for slot, laws in LAWS.items():
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
-            if fits(law):
-                files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
+            files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     for structure in committed():
         model = derive(structure)

@@ -22,6 +22,9 @@
 #define BRIDGE 0
 #define STRINGS 0
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 0)
 
@@ -179,8 +182,16 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return splat(0.0);
 }
 
+#define FILM_MOMENTUM 1
+/* Velocity over v0 that the film takes per gap. */
+static inline vec film_slowing(const constants *c, vec gap)
+{
+    return c->film_force_factor*film_resistance_value(&c->film_resistance_law, gap);
+}
+#if defined(FILM_RESISTANCE_WORK)
 /* Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap. */
 static inline vec film_momentum(const constants *c, vec gap)
 {
     return c->film_force_factor*film_resistance_work(&c->film_resistance_law, gap);
 }
+#endif

@@ -27,6 +27,9 @@
 #define BRIDGE 1
 #define STRINGS 0
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #if defined(BRIDGE_FORCE_WORK)
 #define CAPILLARY_STATE 0
 #else
@@ -95,6 +98,10 @@ static inline void scale(constants *c, const vec *q)
     c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*(0.5*q[SI_CONTACT_ANGLE] +
         1.0)*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
     c->dry_restitution = q[SI_DRY_RESTITUTION];
+#if OWN_RUPTURE
+    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance(q[SI_VOLUME],
+        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
+#endif
 }
 
 /* What is computed once a collision, from its groups. */
@@ -143,7 +150,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->bridge_force[k] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
     s->rate_of_opening[k] = -s->bridge_force[k] - s->film_force[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

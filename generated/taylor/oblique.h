@@ -26,6 +26,9 @@
 #define BRIDGE 0
 #define STRINGS 0
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 1)
 
@@ -158,7 +161,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
     s->rate_of_opening[k] = s->centrifugal_force[k] - s->film_force[k];
     s->rate_of_orbit[k] = -product(s->distance, s->shear_force, k);
-    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_spin[k] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 13fba4e7c3c03db5ab26cca133075e0a8af83e680af4e7d7d6e8d62665f45007 */
+ * Equations sha256 45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -29,6 +29,9 @@
 #define BRIDGE 1
 #define STRINGS 0
 #define REDUCED 1
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #if defined(BRIDGE_FORCE_WORK)
 #define CAPILLARY_STATE 0
 #else
@@ -67,6 +70,10 @@ typedef struct {
     vec tangential_restitution_factor;
     vec energy_per_inverse_inertia_ratio;
     vec slope_per_distance_over_inertia_ratio_squared;
+    vec contact;
+    vec nearest;
+    vec farthest;
+    vec spun_up;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -112,6 +119,10 @@ static inline void scale(constants *c, const vec *q)
     c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*(0.5*q[SI_CONTACT_ANGLE] +
         1.0)*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
     c->dry_restitution = q[SI_DRY_RESTITUTION];
+#if OWN_RUPTURE
+    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance(q[SI_VOLUME],
+        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
+#endif
 }
 
 /* What is computed once a collision, from its groups. */
@@ -132,6 +143,10 @@ static inline void prepare(constants *c)
     c->energy_per_inverse_inertia_ratio = 0.03125*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
     c->slope_per_distance_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
+    c->nearest = c->aspect*c->contact + 4.0;
+    c->farthest = c->aspect*c->rupture_gap + 4.0;
+    c->spun_up = (c->farthest*c->farthest)*c->momentum/((c->farthest*c->farthest) + 6.4);
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -197,7 +212,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->rate_of_orbit[k] = -product(s->distance, s->shear_force, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;
@@ -324,6 +339,25 @@ static inline vec potential_slope(const constants *c, const vec *y)
         bridge_force;
     return slope;
 }
+
+#if defined(BRIDGE_FORCE_FALLS)
+#define HELD (REDUCED || MIDGAP_ARM)
+/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py). */
+static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
+{
+    vec largest_orbit = vec_larger(y[ORBIT], c->spun_up);
+    vec least_attraction = bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
+    vec hold = least_attraction -
+        0.0625*c->aspect*(largest_orbit*largest_orbit)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+    *hold_margin = hold;
+    *flight = 0.5*(vec_larger(y[OPENING], -c->dry_restitution*y[OPENING])*vec_larger(y[OPENING],
+        -c->dry_restitution*y[OPENING])) - hold*(c->rupture_gap - y[GAP]);
+    *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;
+}
+#else
+#define HELD 0
+#endif
 
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */

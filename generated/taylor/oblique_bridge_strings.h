@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e7edde922bf9837f511d911d314167005029a1d6fac22cef9f5a7ff54c0b983d */
+ * Equations sha256 43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -33,6 +33,9 @@
 #define BRIDGE 1
 #define STRINGS 1
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #if defined(BRIDGE_FORCE_WORK)
 #define CAPILLARY_STATE 0
 #else
@@ -72,6 +75,11 @@ typedef struct {
     vec energy_per_spin_squared;
     vec energy_per_strings_rise_law;
     vec tangential_restitution_factor;
+    vec rotation_energy_unit;
+    vec orbit_energy_per_orbit_squared_over_distance_squared;
+    vec contact;
+    vec nearest;
+    vec farthest;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -124,6 +132,10 @@ static inline void scale(constants *c, const vec *q)
     c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*(0.5*q[SI_CONTACT_ANGLE] +
         1.0)*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
     c->dry_restitution = q[SI_DRY_RESTITUTION];
+#if OWN_RUPTURE
+    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance(q[SI_VOLUME],
+        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
+#endif
 }
 
 /* What is computed once a collision, from its groups. */
@@ -142,6 +154,11 @@ static inline void prepare(constants *c)
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
+    c->orbit_energy_per_orbit_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
+    c->nearest = c->aspect*c->contact + 4.0;
+    c->farthest = c->aspect*c->rupture_gap + 4.0;
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -243,10 +260,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
         s->string_pull[k];
     s->combination_2[k] = s->shear_force[k] + s->string_sideways[k];
     s->rate_of_orbit[k] = -product(s->distance, s->combination_2, k);
-    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_spin[k] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->bridge_force, s->opening, k);
+    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;
@@ -363,6 +380,76 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     shown[2] = orbital_rate;
     shown[3] = y[SPIN];
 }
+
+#define BY_ORBIT 1
+enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
+/* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
+ * arm), over m v0^2 (derive/orbital.py). */
+static inline void orbital(const constants *c, const vec *y, vec *found)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec slip = orbital_rate - y[SPIN];
+    vec root_of_spin = vec_sqrt(y[SPIN]);
+    vec root_of_orbit = vec_sqrt(y[ORBIT]);
+    vec combination = root_of_orbit + 1.6*root_of_spin;
+    vec rigid_share = root_of_spin/combination;
+    vec orbit_squared = y[ORBIT]*y[ORBIT];
+    vec orbit_squared_over_distance_squared = orbit_squared/distance_squared;
+    vec orbit_energy =
+        c->orbit_energy_per_orbit_squared_over_distance_squared*orbit_squared_over_distance_squared;
+    vec combination_squared = combination*combination;
+    vec combination_squared_squared = combination_squared*combination_squared;
+    vec combination_2 = distance + 1.6;
+    vec combination_2_squared = combination_2*combination_2;
+    vec combination_2_squared_squared = combination_2_squared*combination_2_squared;
+    vec distance_squared_over_combination_2_squared_squared = distance_squared/combination_2_squared_squared;
+    vec rigid_share_squared = rigid_share*rigid_share;
+    vec rigid_share_squared_squared = rigid_share_squared*rigid_share_squared;
+    vec rigid_share_squared_by_rigid_share = rigid_share_squared*rigid_share;
+    vec combination_2_squared_by_combination_2 = combination_2_squared*combination_2;
+    vec inverse_combination_2_squared_by_combination_2 = 1.0/combination_2_squared_by_combination_2;
+    vec inverse_combination_2_squared_squared = 1.0/combination_2_squared_squared;
+    vec combination_3 = 0.5*distance_squared_over_combination_2_squared_squared +
+        1.28*rigid_share_squared_squared + 1.0666666666666667*inverse_combination_2_squared_by_combination_2 -
+        1.0666666666666667*rigid_share_squared_by_rigid_share - 1.28*inverse_combination_2_squared_squared;
+    vec combination_squared_squared_by_combination_3 = combination_squared_squared*combination_3;
+    vec combination_4 = 0.5*orbit_squared_over_distance_squared -
+        combination_squared_squared_by_combination_3;
+    vec surface = c->rotation_energy_unit*combination_4;
+    found[SLIP_RATE] = slip;
+    found[ORBIT_ENERGY] = orbit_energy;
+    found[SLIP_ENERGY] = surface;
+}
+
+#if defined(BRIDGE_FORCE_FALLS)
+#define HELD (REDUCED || MIDGAP_ARM)
+/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py). */
+static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
+{
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
+    vec largest_orbit = vec_larger(y[ORBIT], spun_up);
+    vec least_attraction = bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
+    vec hold = least_attraction + c->weight*(c->aspect*c->contact +
+        8.0*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])))*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
+        4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION]))) -
+        0.0625*c->aspect*(largest_orbit*largest_orbit)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+    vec largest_pull = c->weight*(c->aspect*c->rupture_gap +
+        8.0)*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect)*(c->rupture_gap*c->rupture_gap) + 4.0*c->aspect*c->rupture_gap + 16.0);
+    *hold_margin = hold;
+    *flight = 0.5*(vec_larger(y[OPENING], -c->dry_restitution*y[OPENING])*vec_larger(y[OPENING],
+        -c->dry_restitution*y[OPENING])) - hold*(c->rupture_gap - y[GAP]);
+    *rebound = (c->dry_restitution*c->dry_restitution)*(largest_pull + least_attraction) - hold;
+}
+#else
+#define HELD 0
+#endif
 
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */

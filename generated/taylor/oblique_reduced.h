@@ -25,6 +25,9 @@
 #define BRIDGE 0
 #define STRINGS 0
 #define REDUCED 1
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 1)
 

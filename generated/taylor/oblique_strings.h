@@ -29,6 +29,9 @@
 #define BRIDGE 0
 #define STRINGS 1
 #define REDUCED 0
+#define ATTRACTION 0
+#define SPREAD 0
+#define WALL 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 0)
 
@@ -212,7 +215,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->rate_of_opening[k] = s->centrifugal_force[k] - s->film_force[k] - s->string_pull[k];
     s->combination_2[k] = s->shear_force[k] + s->string_sideways[k];
     s->rate_of_orbit[k] = -product(s->distance, s->combination_2, k);
-    s->rate_of_spin[k] = 0.3125*product(s->arm_lever_law.result, s->shear_force, k);
+    s->rate_of_spin[k] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;

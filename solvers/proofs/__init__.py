@@ -7,6 +7,7 @@ from .base import NoProof, Proof
 from .choice import energy_proof, proof_for
 from .film import FilmProof
 from .held import HeldProof
+from .orbital import OrbitalProof
 from .tethered import TetherProof
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "FilmProof",
     "HeldProof",
     "NoProof",
+    "OrbitalProof",
     "Proof",
     "TetherProof",
     "energy_proof",

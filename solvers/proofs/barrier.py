@@ -28,7 +28,8 @@ class BarrierProof:
     """Energy below a barrier of the effective potential that lies further out.
 
     For the surface arm angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite; there
-    the level is lowered by what the drift can still do, and the stick is not called a theorem.
+    the level is lowered by what the drift can still do, and the stick is not called a theorem (between equal spheres
+    `OrbitalProof` decides in its place).
     """
 
     watches: str | None = "energy"
@@ -77,22 +78,27 @@ class BarrierProof:
     def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
         """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).
 
-        |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
-        slip, and while the doublet breathes by the change of the rigid rate L/I. Energy and barrier move by omega dL.
+        The arm is short by x/r of r/2, so |dL| = (x/r) |dJ|. J can still change by what keeps it from rigid rotation,
+        and while the doublet breathes by the change of the rigid share. Energy and barrier move by omega dL each,
+        where omega L/2 is the rigid rotation's energy.
         """
         if self.theorem:
             return 0.0
-        state = dict(zip(self.model.state, y, strict=False))
-        aspect, obliquity = self.groups["aspect"], self.groups["obliquity"]
-        inside, outside = 4 + aspect * state["gap"], 4 + aspect * barrier
-        rate = state["orbit"] / inside**2
-        change = abs(rate - state["spin"])
-        reach = state["gap"]
+        orbit = y[list(self.model.state).index("orbit")]
+        rigid = self._rigid(y, float(y[0]))
+        change, reach = abs(orbit - rigid), float(y[0])
         if not phase.resting:
+            change += self._rigid(y, barrier) - self._rigid(y, 0.0)
             reach = barrier
-            change += rate * (outside**2 - 16.0) / (16.0 + 6.4)
-        lost = 1.6 * aspect * reach * change
-        return float(2 * max(rate, state["spin"]) * lost * obliquity**2 / 16)
+        lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
+        energy = self.model.values("effective_potential", y, self.p)["energy"]
+        # first touch is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
+        whole = self._momentum(y) * self.model.values("start", y, self.p)["orbit"]
+        return float(4 * energy * max(orbit / rigid, 1.0) * lost / whole)
+
+    def _rigid(self, y: np.ndarray, gap: float) -> float:
+        """The orbit's momentum at a gap if all turns as one body with the angular momentum of `y`."""
+        return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbit"]
 
     def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)

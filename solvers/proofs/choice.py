@@ -10,11 +10,18 @@ from .barrier import BarrierProof
 from .base import NoProof, Proof
 from .film import FilmProof
 from .held import HeldProof
+from .orbital import OrbitalProof, knows
 from .tethered import TetherProof
 
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
+    found = _first(model, p, rtol)
+    return OrbitalProof(model, p, rtol, found) if knows(model) else found
+
+
+def _first(model: Model, p: np.ndarray, rtol: float) -> Proof:
+    """What is asked first, or alone."""
     if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
         return TetherProof(model, p, rtol)
     turning = model.oblique and not model.wall
@@ -33,8 +40,9 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
 
 def energy_proof(proof: Proof) -> BarrierProof | None:
     """The proof by energy that a flight has, alone or beside another."""
-    found = proof.beside if isinstance(proof, HeldProof) else proof
-    return found if isinstance(found, BarrierProof) else None
+    while isinstance(proof, HeldProof | OrbitalProof):
+        proof = proof.beside
+    return proof if isinstance(proof, BarrierProof) else None
 
 
 def _holds(model: Model) -> bool:

@@ -61,9 +61,7 @@ def answers(
     found = np.zeros(impacts.angle.size, ANSWER)
     for oblique in (True, False):
         which = np.flatnonzero((impacts.angle > 0) == oblique)
-        if which.size and not _fill(
-            found, impacts, which, _call(impacts.scene, oblique, rtol, rotation, budget), threads
-        ):
+        if which.size and not _fill(found, impacts, which, _call(impacts, oblique, rtol, rotation, budget), threads):
             return None
     return found
 
@@ -76,7 +74,7 @@ def flown(
     Arguments:
         log: zeros of HAPPENING, MOST_EVENTS a collision, to be filled with what happened.
     """
-    fly = _call(impacts.scene, oblique, rtol, rotation, budget)
+    fly = _call(impacts, oblique, rtol, rotation, budget)
     if fly is None:
         return None
     made = np.zeros(impacts.angle.size, ANSWER)
@@ -107,12 +105,14 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
     return True
 
 
-def _call(scene: Scene, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
-    """The kernel of a scene as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
+def _call(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
+    """The kernel of these impacts as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
     MOST_EVENTS a collision, or None).
     """
-    rtol = min(rtol, _LOOSEST)
-    library = kernel(Variant(choose(scene, oblique), order_for(rtol), rotation)) if knows(scene) else None
+    rtol, scene = min(rtol, _LOOSEST), those.scene
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
+    library = kernel(Variant(choice, order_for(rtol), rotation, own)) if knows(scene) else None
     if library is None:
         return None
     wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import os
 import platform
-import shutil
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -17,9 +14,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import emitted
-from ..compiled import cache_folder, compiler
+from ..compiled import build, cache_folder, compiler
 from ..model import Choice, choose
+from .headers import headers
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -37,12 +34,16 @@ FLAGS = (
     "-w",
 )
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
+_DRIVER = (
+    "roots.h", "barrier.h", "proofs.h", "queue.h", "rules.h", "events.h", "damped.h", "crawl.h",
+    "lanes.h",
+)  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
 ANSWER = np.dtype(
     [
-        ("shown", "f8", 4),
+        ("shown", "f8", 5),
         ("time", "f8"),
         ("smallest_gap", "f8"),
         ("turned", "f8"),
@@ -66,12 +67,14 @@ class Variant:
     Arguments:
         order: of the series, 8 to LARGEST_ORDER.
         rotation: the angle turned is integrated along where it is no state.
+        own_rupture: the bridge ruptures where its own law says.
         certificate: sticks are proved; without, flights are given up after a time (for what a proof is worth).
     """
 
     choice: Choice
     order: int
     rotation: bool = False
+    own_rupture: bool = False
     certificate: bool = True
 
 
@@ -96,53 +99,39 @@ def _processor() -> frozenset[str]:
     return frozenset({"sse2"})
 
 
-def headers(choice: Choice) -> tuple[str, ...] | None:
-    """The emitted headers of a choice, laws first; None if it has what the kernel does not know."""
-    paths = [f"taylor/laws/{slot}_{law.replace('-', '_')}.h" for slot, law in choice.laws]
-    paths.append(f"taylor/{choice.structure}.h")
-    return tuple(paths) if choice.package is None and all(map(emitted.committed, paths)) else None
-
-
 def knows(scene: Scene) -> bool:
-    """Whether the kernel can collide a scene here: its laws are emitted for it, and there is a compiler."""
-    common = scene.bridge is None or scene.bridge.rupture == "common"  # the one in its groups
-    return common and compiler() is not None and all(headers(choose(scene, oblique)) for oblique in (True, False))
+    """Whether the kernel can collide a scene here: its laws have recurrences, and there is a compiler."""
+    return compiler() is not None and all(headers(choose(scene, oblique, fold=True)) for oblique in (True, False))
 
 
-def source(variant: Variant, paths: tuple[str, ...]) -> str:
-    """C source of a kernel."""
-    choice = variant.choice
-    slots = dict(choice.laws)
-    by_energy = "bridge" in slots or ("strings" in slots and "shear" not in slots)
-    unproved = "shear" in slots and ("strings" in slots or "bridge" not in slots)
+def source(variant: Variant, emitted: tuple[str, ...]) -> str:
+    """C source of a kernel, from its emitted headers."""
+    slots = dict(variant.choice.laws)
     settings = {
         "LANES": lanes(),
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
         "CERTIFICATE": int(variant.certificate),
-        "PROOF_BY_ENERGY": int(by_energy and not unproved),
+        "OWN_RUPTURE": int(variant.own_rupture),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
-    parts += [emitted.header(path) for path in paths]
-    parts += [
-        (_RUNTIME / name).read_text()
-        for name in ("roots.h", "barrier.h", "queue.h", "rules.h", "events.h", "damped.h", "crawl.h", "lanes.h")
-    ]
+    parts += emitted
+    parts += [(_RUNTIME / name).read_text() for name in _DRIVER]
     return "\n".join(parts)
 
 
 @cache
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
-    found, paths = compiler(), headers(variant.choice)
-    if found is None or paths is None:
+    found, emitted = compiler(), headers(variant.choice)
+    if found is None or emitted is None:
         return None
     path, version = found
-    text = source(variant, paths)
+    text = source(variant, emitted)
     machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
     content = "\0".join([text, version, " ".join(FLAGS), machine])
     key = hashlib.sha256(content.encode()).hexdigest()[:32]
@@ -157,17 +146,11 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
 
 
 def _built(path: str, text: str, library: Path) -> bool:
-    """Compile; built under a name of its own and then moved into place, so that several processes may do so at once."""
+    """Compile; safe with several processes."""
     with tempfile.TemporaryDirectory(prefix="wetdoublet-") as work:
-        written, fresh = Path(work) / "kernel.c", Path(work) / "kernel.so"
+        written = Path(work) / "kernel.c"
         written.write_text(text)
-        command = [path, *FLAGS, "-o", str(fresh), str(written), "-lm"]
-        built = subprocess.run(command, capture_output=True, text=True, check=False)
-        if built.returncode:
-            last = (built.stderr.strip().splitlines() or ["no message"])[-1]
-            sys.stderr.write(f"{path} cannot compile the Taylor kernel ({last}): other engines answer\n")
-            return False
-        beside = library.with_suffix(f".{os.getpid()}")
-        shutil.copyfile(fresh, beside)
-        beside.replace(library)
-    return True
+        said = build(path, FLAGS, written, library)
+    if said:
+        sys.stderr.write(f"{path} cannot compile the Taylor kernel ({said}): other engines answer\n")
+    return not said

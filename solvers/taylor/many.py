@@ -8,7 +8,7 @@ import numpy as np
 
 from ...generated import scaling
 from ..errors import InputError
-from ..numbers import si_values
+from ..numbers import formulas, si_values
 from ..requests import Request
 from .engine import PATIENT, Impacts, answers
 
@@ -24,7 +24,7 @@ _PLAIN = {
     **dict.fromkeys(("particles.youngs_modulus", "particles.poisson_ratio"), 1.0),
     **dict.fromkeys(("liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure"), 1.0),
     **dict.fromkeys(("bridge.surface_tension", "bridge.volume", "bridge.contact_angle"), 1.0),
-    **dict.fromkeys(("pendulum.length", "pendulum.gravity"), 1.0),
+    **dict.fromkeys(("pendulum.length", "pendulum.gravity", "attraction.hamaker"), 1.0),
 }
 _RENAMED = {
     "radius": "reduced_radius",
@@ -77,26 +77,34 @@ def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:
     if not request.vary:
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / scene.stokes_per_speed
         return Impacts(scene, speed, request.angle, {}), np.ones(request.size, bool)
-    quick = all(name in _PLAIN for name in request.vary) and not any(
-        given == "particles.density" for given, _ in scene.given
-    )
-    values, sound = _quickly(request) if quick else _one_by_one(request)
+    values, sound = _quickly(request) if _plain(request) else _one_by_one(request)
     unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
     speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
     impacts = Impacts(scene, speed, request.angle, values)
     return impacts.part(np.flatnonzero(sound)), sound
 
 
+def _plain(request: Request) -> bool:
+    """Whether every entry that varies is a quantity by itself, and judged by itself."""
+    scene = request.scene
+    own = {f"custom.{name}" for name in scene.package.quantities} if scene.package is not None else set()
+    if not all(name in _PLAIN or name in own for name in request.vary) or scene.partner is not None:
+        return False
+    bare = scene.attraction is not None and "particles.roughness" in request.vary  # it keeps the gap open
+    return not bare and not any(given == "particles.density" for given, _ in scene.given)
+
+
 def _quickly(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
     values = {name: np.full(request.size, value) for name, value in si_values(request.scene, None, None).items()}
     for name, column in request.vary.items():
         own = name.partition(".")[2]
-        values[_RENAMED.get(own, own)] = column * _PLAIN[name]
+        values[_RENAMED.get(own, own)] = column * _PLAIN.get(name, 1.0)
     film = values["film_thickness"]
     sound = values["roughness"] < film * (1 - _NEAR)
     rupture = film
     if request.scene.bridge is not None:
-        gap = scaling.rupture_gap(values["reduced_radius"], film, values["volume"], values["contact_angle"])
+        formula, arguments = formulas(request.scene)["rupture_gap"]
+        gap = np.asarray(formula(*(values[name] for name in arguments)))
         sound &= (gap > 1 + _NEAR) & np.isfinite(gap)
         rupture = gap * film
     if request.scene.pendulum is not None:

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ..cohesion import generalised_centrifugal
+from ..model import choose
 from ..numbers import Numbers
 from ..result import Collision, Event
 from ..scene import Scene
@@ -44,6 +46,12 @@ def collision(
             return None
         return float(found["shown"][position]) * scale if n.oblique else 0.0
 
+    def partner_spin() -> float | None:
+        if scene.wall:
+            return 0.0 if separated else None
+        unequal = choose(scene, n.oblique, fold=True).structure.startswith("oblique_pair")
+        return shown(4 if unequal else 3, n.rate)
+
     time = float(found["time"]) * n.time
     values: dict[str, Any] = {
         "outcome": _OUTCOMES[found["outcome"]],
@@ -54,6 +62,7 @@ def collision(
         "smallest_gap": float(found["smallest_gap"]) * n.length if separated else None,
         "final_rotation_rate": shown(2, n.rate),
         "final_spin": shown(3, n.rate),
+        "final_spin_partner": None if scene.partner is None else partner_spin(),
         "reversal": _KINDS[found["reversal"]] if found["reversal"] >= 0 else None,
         "certified": bool(found["certified"]),
         "until": None if separated else time,
@@ -67,6 +76,7 @@ def collision(
         **values,
         stokes=n.stokes,
         centrifugal=n.centrifugal,
+        generalised_centrifugal=generalised_centrifugal(scene, n),
         capillary=n.capillary,
         reynolds=n.reynolds,
         speed=n.speed,

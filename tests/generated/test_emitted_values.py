@@ -17,7 +17,9 @@ from wetdoublet.derive.laws import LAWS, Law, LawFunction, fill
 from wetdoublet.derive.model import Model, derive
 from wetdoublet.derive.quantities import VOCABULARY
 from wetdoublet.derive.scaling import group_definitions
-from wetdoublet.derive.structure import Structure, committed, structures
+from wetdoublet.derive.emit.one import structure_text
+from wetdoublet.derive.structure import Structure, committed, known, structures
+from wetdoublet.solvers.emitted import executed
 from wetdoublet.generated import scaling
 from wetdoublet.generated.assemble import Laws, casadi_functions
 
@@ -72,8 +74,11 @@ RANGES = {
 }
 
 
+@cache
 def emitted(name: str) -> ModuleType:
-    """An emitted module of `generated`."""
+    """An emitted module: of `generated`, or of a structure that is derived when it is first asked for."""
+    if name in {structure.name for structure in set(known()) - set(committed())}:
+        return executed(name, structure_text(name).encode())
     return importlib.import_module(f"wetdoublet.generated.{name}")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -11,6 +12,25 @@ from wetdoublet.solvers.sensitivity.parameters import known
 
 GRANULATION, DRY, PENDULUM = (Scene.load(name) for name in ("granulation", "granulation-dry-bridge", "pendulum"))
 HARD = {"liquid.glass_transition_pressure": 1e13}
+DIMENSIONS = {  # exponents of length, mass, time of what is not a pure number
+    "particles.reduced_radius": (1, 0, 0),
+    "particles.reduced_mass": (0, 1, 0),
+    "particles.roughness": (1, 0, 0),
+    "particles.youngs_modulus": (-1, 1, -2),
+    "liquid.viscosity": (-1, 1, -1),
+    "liquid.film_thickness": (1, 0, 0),
+    "liquid.glass_transition_pressure": (-1, 1, -2),
+    "bridge.surface_tension": (0, 1, -2),
+    "pendulum.length": (1, 0, 0),
+    "pendulum.gravity": (1, 0, -2),
+    "impact.speed": (1, 0, -1),
+}
+
+
+def cancelling(elasticity: Mapping[str, float | None]) -> list[float]:
+    """What is left in each unit when all that carries it is rescaled; nothing, for a pure number."""
+    rows = [(DIMENSIONS[name], value or 0.0) for name, value in elasticity.items() if name in DIMENSIONS]
+    return [sum(exponents[unit] * value for exponents, value in rows) for unit in range(3)]
 
 
 @dataclass(frozen=True)

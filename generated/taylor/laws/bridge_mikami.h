@@ -44,6 +44,8 @@ static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_ov
     return result;
 }
 
+#define BRIDGE_FORCE_FALLS 1 /* it never grows with its first argument */
+
 #define BRIDGE_FORCE_WORK 1
 /* An antiderivative of it: work in closed form. */
 static inline vec bridge_force_work(const bridge_force_constants *c, vec gap_over_radius)
@@ -53,4 +55,12 @@ static inline vec bridge_force_work(const bridge_force_constants *c, vec gap_ove
     vec exp_of_combination = vec_exp(combination);
     vec work = c->tail*gap_over_radius + c->work_per_exp_of_combination*exp_of_combination;
     return work;
+}
+
+/* Rupture distance over R that goes with this law.
+ *
+ * Source: Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998). */
+static inline vec bridge_rupture_distance(vec volume, vec contact_angle)
+{
+    return (0.62*contact_angle + 0.99)*vec_exp(0.34*vec_log(volume));
 }

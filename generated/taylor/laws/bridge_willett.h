@@ -78,3 +78,12 @@ static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_ov
     vec result = 2.0*exp_of_combination_2;
     return result;
 }
+
+/* Rupture distance over R that goes with this law.
+ *
+ * Source: Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000). */
+static inline vec bridge_rupture_distance(vec volume, vec contact_angle)
+{
+    return (0.5*contact_angle + 1.0)*(0.1*vec_exp(0.6666666666666666*vec_log(volume)) +
+        vec_exp(0.3333333333333333*vec_log(volume)));
+}

@@ -4,17 +4,43 @@
  * and never makes a wrong one.
  */
 
+#define ATTRACTS (BRIDGE || ATTRACTION)
+
 typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
-    vec far_gap, far_height;   /* heights count the capillary work from first touch; -infinity where there is none */
+    vec far_gap, far_height;   /* heights count the work against attractions from first touch; -infinity where there is none */
 #if SURFACE_ARM
-    vec near_energy, far_energy; /* the part of the heights that depends on angular momentum */
+    vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
 #endif
     vec largest;               /* energy at first touch */
     vec touch;                 /* capillary work at first touch */
 } barrier;
 
 static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificate.py has it */
+
+static const double NODES[6] = {
+    0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
+    0.769902674194304687, 0.904117256370474857, 0.981560634246719251};
+static const double WEIGHTS[6] = {
+    0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
+    0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
+
+/* Integral over ln(gap) by Gauss-Legendre panels; the integrand takes the gap. */
+static vec integral(
+    const constants *c, const vec *y, vec low, vec high, vec (*integrand)(const constants *, const vec *, vec))
+{
+    vec whole = high - low;
+    double longest = 0.0;
+    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
+    int panels = 2 + (int)(2.0*longest);
+    vec half = whole*(0.5/panels), sum = splat(0.0);
+    for (int panel = 0; panel < panels; panel++)
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            sum += WEIGHTS[node % 6]*integrand(c, y, vec_exp(low + half*(2*panel + 1 + place)));
+        }
+    return sum*half;
+}
 
 #if defined(POTENTIAL)
 enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grids in the film and beyond, steps to a maximum */
@@ -36,34 +62,20 @@ static vec energy_at(const constants *c, const vec *y, vec gap)
 }
 
 #if CAPILLARY_STATE
-static const double NODES[6] = {
-    0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
-    0.769902674194304687, 0.904117256370474857, 0.981560634246719251};
-static const double WEIGHTS[6] = {
-    0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
-    0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
+static inline vec slope_in_logarithm(const constants *c, const vec *y, vec gap)
+{
+    return slope_at(c, y, gap)*gap;
+}
 
-/* Capillary work from first touch to a gap, by Gauss-Legendre panels in ln(gap): potential without rotation. */
 static vec height_at(const constants *c, const vec *y, vec gap)
 {
-    vec whole = vec_log(gap);
-    double longest = 0.0;
-    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
-    int panels = 2 + (int)(2.0*longest);
-    vec half = whole*(0.5/panels), sum = splat(0.0);
-    for (int panel = 0; panel < panels; panel++)
-        for (int node = 0; node < 12; node++) {
-            double place = node < 6 ? NODES[node] : -NODES[node - 6];
-            vec here = vec_exp(half*(2*panel + 1 + place));
-            sum += WEIGHTS[node % 6]*slope_at(c, y, here)*here;
-        }
-    return energy_at(c, y, splat(1.0)) + sum*half;
+    return energy_at(c, y, splat(1.0)) + integral(c, y, splat(0.0), vec_log(gap), slope_in_logarithm);
 }
 #else
 static vec height_at(const constants *c, const vec *y, vec gap)
 {
     vec height = energy_at(c, y, gap);
-#if BRIDGE
+#if ATTRACTS
     height += capillary_work(c, gap) - capillary_work(c, splat(1.0));
 #endif
     return height;
@@ -133,99 +145,64 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
     found->near_gap = choose(hidden, found->far_gap, found->near_gap);
     found->near_height = choose(hidden, found->far_height, found->near_height);
 #if SURFACE_ARM
-    found->near_energy = energy_at(c, y, found->near_gap);
-    found->far_energy = energy_at(c, y, found->far_gap);
+    found->near_work = found->near_height - energy_at(c, y, found->near_gap);
+    found->far_work = found->far_height - energy_at(c, y, found->far_gap);
 #endif
 }
 
-#if SURFACE_ARM
-/* Angular momentum drifts: heights are of the present one, at the gaps found for the first, less what the drift can
- * still do. |dL| <= (8/5) m a x |dxi|, from dL/dt = -x F_t and (16/5) m a^2 dxi/dt = 2a F_t; xi can still change by the
- * slip, and while the doublet breathes by the change of the rigid rate L/I. Energy and barrier move by omega dL. */
-static vec height_now(const constants *c, const vec *y, vec gap, vec first_height, vec first_energy, mask rests)
-{
-    vec inside = 4.0 + c->aspect*y[GAP], outside = 4.0 + c->aspect*gap;
-    vec rate = y[ORBIT]/(inside*inside);
-    vec change = vec_abs(rate - y[SPIN]) + only(~rests, rate*(outside*outside - 16.0)*(1.0/22.4));
-    vec lost = 1.6*c->aspect*choose(rests, y[GAP], gap)*change;
-    vec drift = 2.0*vec_max(rate, y[SPIN])*lost*c->obliquity*c->obliquity*(1.0/16.0);
-    return first_height - first_energy + energy_at(c, y, gap) - drift;
-}
-#endif
-
+#if !SURFACE_ARM
 /* The height of the barrier ahead of a gap; -infinity if there is none. */
-static inline vec height_ahead(const constants *c, const vec *y, const barrier *b, mask rests)
+static inline vec height_ahead(const vec *y, const barrier *b)
 {
-    vec none = splat(-INFINITY), gap = y[GAP], near = b->near_height, far = b->far_height;
-#if SURFACE_ARM
-    near = height_now(c, y, b->near_gap, near, b->near_energy, rests);
-    far = height_now(c, y, b->far_gap, far, b->far_energy, rests);
+    vec none = splat(-INFINITY), gap = y[GAP];
+    return choose(b->near_gap > gap, b->near_height, choose(b->far_gap > gap, b->far_height, none));
+}
+#endif
+
+/* The capillary work done since first touch. */
+static inline vec work_done(const constants *c, const vec *y, const barrier *b)
+{
+#if CAPILLARY_STATE
+    (void)c;
+    (void)b;
+    return y[CAPILLARY_WORK];
+#elif ATTRACTS
+    return capillary_work(c, y[GAP]) - b->touch;
 #else
     (void)c;
-    (void)rests;
+    (void)y;
+    (void)b;
+    return splat(0.0);
 #endif
-    return choose(b->near_gap > gap, near, choose(b->far_gap > gap, far, none));
 }
 
-/* Mechanical energy, the capillary work done since first touch included. */
-static inline vec mechanical_energy(const constants *c, const vec *y, const barrier *b)
+#if SURFACE_ARM && BY_ORBIT
+/* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/orbital.py). */
+static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
-    vec energy = stored_energy(c, y);
-#if CAPILLARY_STATE
-    energy += y[CAPILLARY_WORK];
-    (void)b;
-#elif BRIDGE
-    energy += capillary_work(c, y[GAP]) - b->touch;
-#else
-    (void)b;
-#endif
-    return energy;
+    vec here[ORBITAL], there[ORBITAL], beyond[STATES];
+    memcpy(beyond, y, sizeof beyond);
+    beyond[GAP] = gap;
+    orbital(c, y, here);
+    orbital(c, beyond, there);
+    vec needed = 0.5*y[OPENING]*y[OPENING] + work_done(c, y, b) - work + here[ORBIT_ENERGY] - there[ORBIT_ENERGY]
+                 + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite, and so the test false, without a barrier */
+    return (gap > y[GAP]) & (y[ORBIT] >= 16.0*y[SPIN]) & (needed < -margin);
 }
 
-/* Lanes whose energy is below the barrier ahead by more than its error. */
-static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
-    vec height = height_ahead(c, y, b, rests);
+    return out_of_reach(c, y, b, b->near_gap, b->near_work, tolerance)
+           | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
+}
+#elif !SURFACE_ARM
+/* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
+{
+    vec height = height_ahead(y, b);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return mechanical_energy(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
 }
 #endif
-
-#if !OBLIQUE && !BRIDGE && !STRINGS
-enum { DEPTHS = 16 };
-
-/* Head-on with a film alone: velocity at every gap is known in advance. Closing, the film stops the motion at a gap where
- * this speed would not yet meet the glass criterion; opening, before its surface. */
-static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
-{
-    double margin = SAFETY*tolerance;
-    vec gap = y[GAP], speed = -y[OPENING], here = film_momentum(c, gap), there[STATES];
-    mask stopped = ~closing & (y[OPENING] - (film_momentum(c, splat(1.0)) - here) < -margin);
-    vec deepest = vec_max(contact, gap*1e-40);
-    vec ratio = vec_exp(vec_log(deepest/gap)*(1.0/DEPTHS));
-    there[GAP] = gap;
-    there[OPENING] = y[OPENING]*(1.0/(1.0 - margin));
-    for (int k = 0; k < DEPTHS; k++) {
-        there[GAP] *= ratio;
-        mask slow = speed - (here - film_momentum(c, there[GAP])) < -margin;
-        stopped |= closing & slow & (glass_clearance(c, there) > 0.0);
-    }
-    return stopped;
-}
-#endif
-
-#if OBLIQUE && STRINGS && !BRIDGE && TETHERED
-/* Strings that turn and a film: lanes where the margins of derive/tethered.py hold by more than their error, as
- * solvers/phases.py `tethered_margin` has it. */
-static mask held_by_strings(const constants *c, const vec *y, double tolerance)
-{
-    double margin = SAFETY*tolerance;
-    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
-    tethered_inward(c, y, &outward, &pull);
-    mask held = outward - pull + margin*(outward + pull) < 0.0;
-    if (!bits(held))
-        return held;
-    tethered_stops(c, y, &film, &recoil);
-    return held & (film + slack < 0.0) & (recoil + slack < 0.0);
-}
 #endif

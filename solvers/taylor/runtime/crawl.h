@@ -97,7 +97,7 @@ static mask clear_of_events(const slow *w, const flights *l, const fixed *f, con
     mask opens = from[OPENING] > 0.0;
     mask clear = ((opens & (to[OPENING] > 0.0)) | (~opens & (to[OPENING] < 0.0))) & (opens ^ l->closing);
     vec away = choose(opens, splat(-1.0), splat(1.0));
-#if BRIDGE
+#if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = l->closing ^ inside;
     vec target = choose(edge, splat(1.0), choose(l->closing, f->contact, f->end));
 #else
@@ -178,12 +178,12 @@ static __attribute__((noinline)) void crawl(queue *q)
         busy[lane] = -1;
     q->parks = 0;
     w.c = &f.c;
-    w.film = l.film;
+    w.film = acting(&l);
     w.shear = l.shear;
     w.moving = ~l.resting;
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
-        mask sticks = proved_in_flight(&l, &f, q->rtol);
+        mask sticks = proved_in_flight(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
             settle(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         busy &= ~sticks;

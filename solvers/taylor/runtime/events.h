@@ -4,6 +4,7 @@
 typedef struct {
     vec time;              /* of the first event, as a part of the step; beyond 1 if there is none */
     mask event;
+    vec gap;               /* at the end of the step */
 } first_event;
 
 /* sum of |a_k| h^k, k = 1..ORDER: what a function can change by within the step */
@@ -128,7 +129,7 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
             look(found, close, s->glass.result, zero, one, h, splat_mask(GLASS));
     }
     /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
-#if BRIDGE
+#if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
     mask event = (edge & splat_mask(FILM_EDGE)) |
@@ -137,16 +138,20 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     vec target = choose(closing, f->contact, f->end);
     mask event = (closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE));
 #endif
-    vec wander = reach(s->gap, h);
-    close = moves & ~(away*(s->gap[0] - target) > wander);
+    /* where the doublet cannot turn the gap is monotone, and nearest at the step's end */
+    mask turns = moves & ~(least_of(s->opening, h) > 0.0);
+    found->gap = sum_at(s->gap, h);
+    vec from = s->gap[0], to = found->gap;
+    if (bits(turns)) {
+        to = choose(turns, from - away*reach(s->gap, h), to);
+        look(found, turns, s->opening, zero, -away, h, splat_mask(TURNED_KIND));
+    }
+    close = moves & ~(away*(to - target) > 0.0);
     if (bits(close))
         look(found, close, s->gap, target, away, h, event);
-    close = moves & ~(least_of(s->opening, h) > 0.0);
-    if (bits(close))
-        look(found, close, s->opening, zero, -away, h, splat_mask(TURNED_KIND));
 #if OBLIQUE
     mask own = moves & (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
-    close = own & (closing ^ (l->shear != 0.0)) & ~(away*(s->gap[0] - f->edge) > wander);
+    close = own & (closing ^ (l->shear != 0.0)) & ~(away*(to - f->edge) > 0.0);
     if (bits(close))
         look(found, close, s->gap, f->edge, away, h, splat_mask(TANGENTIAL_EDGE));
 #endif

@@ -101,9 +101,9 @@ static void fly(queue *q)
         if (!bits(l.alive))
             break;
         /* a stick is as good a step later: the level is looked at in every second turn */
-        mask sticks = splat_mask(0);
+        mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
-            sticks = proved_in_flight(&l, &f, q->rtol);
+            sticks |= proved_in_flight(&l, &f, q->rtol);
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         criteria_met(q, &l, &f);
@@ -111,7 +111,7 @@ static void fly(queue *q)
             continue;
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, l.film, l.shear, ~l.resting);
+        expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
         vec h = only(l.alive, step_size(&s, &f, &creeps));
         if (bits(creeps))
@@ -122,7 +122,10 @@ static void fly(queue *q)
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
-        for (int state = 0; state < STATES; state++)
+        if (bits(falls))
+            found.gap = sum_at(a[GAP], h);
+        l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
+        for (int state = GAP + 1; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);

@@ -5,11 +5,12 @@ enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
 enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
 static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
+static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
 typedef struct {
-    double shown[4];    /* restitution, tangential restitution, rotation rate, spin: as far as the model has them */
+    double shown[5];    /* restitution, tangential restitution, rotation rate, spin, partner's spin: as far as there are */
     double time, smallest_gap, turned, final_gap;
     int32_t outcome, certified, status, steps;
     int32_t reversal; /* the first criterion met; -1 for none */
@@ -79,16 +80,19 @@ static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;
     f->tolerance = splat(q->rtol);
-    f->rest = splat(1e-3);
+    f->rest = splat(SLOW);
 #if OBLIQUE
-    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0);
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
+#if STRINGS
+    net -= f->c.weight*f->c.aspect/f->c.string_ratio;
+#endif
     EACH_LANE(lane)
     {
         double of = centrifugal[lane];
         if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
             f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
-        if (of > 1.0)
-            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(of))), fmin(q->rtol, TIGHTEST));
+        if (net[lane] > 1.0)
+            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(q->rtol, TIGHTEST));
         if (of > MOST_OBLIQUE)
             beyond |= 1u << lane;
     }
@@ -125,24 +129,19 @@ static void fill_queue(queue *q)
 #else
         f.edge = splat(INFINITY);
 #endif
-        unsigned proved = 0;
 #if PROOF_BY_ENERGY
         find_barriers(&f.c, y, f.contact, f.end, &f.b);
         f.b.largest = stored_energy(&f.c, y);
-#if BRIDGE && !CAPILLARY_STATE
+#if ATTRACTS && !CAPILLARY_STATE
         f.b.touch = capillary_work(&f.c, splat(1.0));
 #else
         f.b.touch = splat(0.0);
 #endif
-        proved = bits(below_barrier(&f.c, y, &f.b, splat_mask(0), q->rtol));
-#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
-        proved = bits(held_by_strings(&f.c, y, q->rtol));
-#elif !OBLIQUE
-        proved = bits(stopped_by_film(&f.c, y, f.contact, splat_mask(-1), q->rtol));
 #endif
-#if !CERTIFICATE
-        proved = 0;
-#endif
+        mask all = splat_mask(-1), none = splat_mask(0);
+        unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
+                          bits(held_sticks(&f.c, y, all, q->rtol));
+        proved *= CERTIFICATE;
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);
@@ -254,13 +253,17 @@ static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
 {
 #if !CERTIFICATE
     return l->time > GIVEN_UP;
-#elif PROOF_BY_ENERGY
-    return below_barrier(&f->c, l->y, &f->b, l->resting, tolerance);
-#elif OBLIQUE && STRINGS && !BRIDGE && TETHERED
-    return held_by_strings(&f->c, l->y, tolerance);
-#elif !OBLIQUE
-    return stopped_by_film(&f->c, l->y, f->contact, l->closing, tolerance);
 #else
-    return splat_mask(0);
+    return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
+#endif
+}
+
+/* Where the film acts: a liquid that cavitates does not while it is opened. */
+static inline vec acting(const flights *l)
+{
+#if defined(FILM_CAVITATES)
+    return only(l->closing, l->film);
+#else
+    return l->film;
 #endif
 }

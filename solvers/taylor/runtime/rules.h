@@ -11,7 +11,7 @@ static void opens(flights *l, const fixed *f, int lane)
 {
     l->closing[lane] = 0;
     l->resting[lane] = 0;
-    if (l->y[GAP][lane] == 1.0)
+    if (!SPREAD && l->y[GAP][lane] == 1.0)
         l->film[lane] = 0.0;
     if (l->y[GAP][lane] == f->edge[lane])
         l->shear[lane] = 0.0;
@@ -41,7 +41,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         l->y[OPENING][lane] = 0.0;
         l->resting[lane] = -1;
         l->closing[lane] = 0;
-        if (!OBLIQUE) /* nothing moves, and the force is inward */
+        if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* nothing changes what holds them */
             finish(q, l, f, lane, DECIDED, STICK, 1);
     } else
         opens(l, f, lane);

@@ -25,9 +25,15 @@ INLINE vec between(const vec *a, const vec *b, int k, int from, int to)
     return low + high;
 }
 
+/* b is the newer: its last coefficient comes last of all */
 INLINE vec product(const vec *a, const vec *b, int k)
 {
-    return between(a, b, k, 0, k);
+    if (k == 0)
+        return a[0]*b[0];
+    vec sum = a[k]*b[0];
+    if (k > 1)
+        sum += between(a, b, k, 1, k - 1);
+    return sum + a[0]*b[k];
 }
 
 /* Twice the sum of q_j q_(k-j) over j < k/2, from..., and the middle one if there is one. */
@@ -49,7 +55,12 @@ INLINE vec square(const vec *a, int k)
 /* sum of b_j q_(k-j), j = 1..k */
 INLINE vec rest(const vec *b, const vec *q, int k)
 {
-    return between(b, q, k, 1, k);
+    if (k == 1)
+        return b[1]*q[0];
+    vec sum = b[k]*q[0];
+    if (k > 2)
+        sum += between(b, q, k, 2, k - 1);
+    return sum + b[1]*q[k - 1];
 }
 
 INLINE vec reciprocal(const vec *a, const vec *q, int k)

@@ -1,4 +1,4 @@
-"""The stick proof on strings in C: its margins as values over lanes, where the laws say what the proof asks of them."""
+"""The stick proofs by margins in C, as values over lanes: on strings, and by what attracts, where the laws permit."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from sympy.core.function import AppliedUndef
 
 from ..laws.base import is_slot_call
 from ..model import Model
+from ..slots import places
 from .taylor_c import Constants, Text, comment, function
+from .taylor_laws import moves
 from .text import needed
 
-# Two functions, the cheap and telling margin first.
+# On strings two functions, the cheap and telling margin first.
 PARTS = {
     "tethered_inward": (
         ("outward", "pull"),
@@ -45,6 +47,24 @@ def tethered_functions(model: Model, constants: Constants, prepared: dict[tuple[
     return [*lines, "#else", "#define TETHERED 0", "#endif", ""]
 
 
+def held_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The margins of derive/held.py, for laws whose force falls with the gap; arguments as above."""
+    outputs = dict(model["held"].outputs)
+    falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    kept, _ = needed(list(outputs.values()), model.definitions)
+    doc = "What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py)."
+    return [
+        f"#if {' && '.join(falling)}",
+        "#define HELD (REDUCED || MIDGAP_ARM)",
+        *_function("held_margins", doc, kept, outputs, moving, constants, prepared),
+        "#else",
+        "#define HELD 0",
+        "#endif",
+        "",
+    ]
+
+
 def _function(
     name: str,
     doc: str,
@@ -63,12 +83,20 @@ def _function(
             local[symbol] = symbol.name
         else:
             constants.define(symbol, expression)
-    body += [f"*{key} = {text.vector(expression)};" for key, expression in outputs.items()]
-    results = ", ".join(f"vec *{key}" for key in outputs)
+    taken = {symbol.name for symbol, _ in kept}
+    into = {key: f"{key}_margin" if key in taken else key for key in outputs}
+    body += [f"*{into[key]} = {text.vector(expression)};" for key, expression in outputs.items()]
+    results = ", ".join(f"vec *{name}" for name in into.values())
     head = f"static inline void {name}(const constants *c, const vec *y, {results})"
     return [*comment(doc), *function(head, body)]
 
 
-def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, str]:
-    """How laws with constants are called: by value, their still arguments in the constants."""
-    return {f"{slot}.{name}": f"{slot}_{name}_value(&c->{where}, " for (slot, name), where in prepared.items()}
+def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, tuple[str, int]]:
+    """How laws with constants are called: by value, the still arguments in the constants; where the moving one is."""
+    return {
+        f"{slot}.{name}": (
+            f"{slot}_{name}_value(&c->{where}, ",
+            moves(places()[f"{slot}.{name}"].arguments).index(True),
+        )
+        for (slot, name), where in prepared.items()
+    }

@@ -1,0 +1,116 @@
+"""The proof by the orbit's momentum: what F_t exchanges, and that it never adds to the margin (derive/orbital.py)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy as sp
+
+from ..laws import LAWS
+from ..model import derive
+from ..orbital import exchanged, lag, midgap, rigid_share, surface
+from ..quantities import aspect, gap, obliquity, orbit, spin
+from ..scaling import DISTANCE
+from ..structure import Structure
+from .base import Check, vanishing
+from .closed import emitted_rates, filled
+
+_FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
+_P, _Q = sp.symbols("root_J root_xi", positive=True)  # square roots of momentum and spin: all is rational in them
+_CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
+_FULL = Structure(oblique=True, bridge=True, strings=False)
+_REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <= 1 and phi <= pi/2
+
+
+def exchange() -> Check:
+    """The emitted rates of J and xi are in the ratio that `exchanged` says, for every arm."""
+    left = []
+    rates = emitted_rates(derive(_FULL))
+    here = 4 + aspect * gap
+    for law in LAWS["arm"].values():
+        to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbit, spin))
+        left.append(to_orbit + exchanged(here, law["lever"](here)) * to_spin)
+    return vanishing("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi", left)
+
+
+def stationary() -> Check:
+    """The slip energy is zero where omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
+    left: list[sp.Expr] = []
+    for lever, energy in (("midgap", _midgap()), ("surface", _surface())):
+        left += [_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q))]
+    return vanishing("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing", left)
+
+
+def _settled(expression: sp.Expr) -> sp.Expr:
+    return sp.cancel(sp.together(expression))
+
+
+def _midgap() -> sp.Expr:
+    return midgap(_FAR, _P**2, _Q**2)
+
+
+def _surface() -> sp.Expr:
+    return surface(_FAR, _P**2, _Q**2, rigid_share(_P**2, _Q**2))
+
+
+def _change(lever: str, energy: sp.Expr) -> sp.Expr:
+    """Change of the margin per dxi by what is exchanged at the distance `near`."""
+    margin = _P**4 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + energy
+    rate = exchanged(_NEAR, LAWS["arm"][lever]["lever"](_NEAR))
+    return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
+
+
+def midgap_takes() -> Check:
+    """Midgap: d(margin)/dxi = -(32/5)(omega - xi) a^2, which F_t never adds to; the rest is the energy of a slip."""
+    ratio = _settled(_change("midgap", _midgap()) / (_P**2 / _NEAR**2 - _Q**2))
+    ok = ratio.is_number and bool(ratio < 0)
+    return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
+
+
+def surface_takes() -> Check:
+    """Surface: the same sign at every distance r <= d of the exchange, for rho between 4 and d, d - rho <= 4.
+
+    r d(margin)/dxi is quadratic in r; omega = xi at r = rho is one root, (rho xi/(dh/dJ)) the other, where h is the
+    slip energy less J^2/(2 d^2). It has the sign that takes while dh/dJ < xi rho/r.
+    """
+    rest = _surface() - _P**4 / (2 * _FAR**2)
+    rho = sp.Symbol("rho", positive=True)
+    slope = (rest.diff(_P) / (2 * _P)).subs(_P, rho * _Q) / _Q**2
+    left = sp.together(sp.cancel(rho / _FAR - slope)).subs(_FAR, rho + _REACH / (1 + _CLOSER)).subs(rho, 4 + _BEYOND)
+    top, bottom = sp.fraction(sp.cancel(left))
+    ok = _no_negative(top * sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))) and (
+        _no_negative(bottom) or _no_negative(-bottom)
+    )
+    rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
+    quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
+    figure = f"-dJ/dxi = {lag()} a r; d - rho <= {_REACH} a"
+    return Check("exchange takes, surface", "d(margin)/dxi has the sign of -(omega - xi)", ok and quadratic, figure)
+
+
+def _no_negative(part: sp.Expr) -> bool:
+    expanded = sp.expand(part)
+    if not expanded.free_symbols:
+        return bool(expanded > 0)
+    return all(c >= 0 for c in sp.Poly(expanded, *sorted(expanded.free_symbols, key=str)).coeffs())
+
+
+def as_emitted() -> Check:
+    """What is emitted is this energy, in units of m v0^2, and the slip."""
+    left: list[sp.Expr] = []
+    for structure in (_FULL, replace(_FULL, reduced=True)):
+        model = derive(structure)
+        found = {name: model.expanded(value) for name, value in model["orbital"].outputs}
+        here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
+        unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
+        left.append(found["slip"] - (orbit / here**2 - turning))
+        left.append(found["orbit_energy"] - unit * orbit**2 / (2 * here**2))
+        left.append(found["midgap"] - unit * midgap(here, orbit, turning))
+        if "surface" in found:
+            own = surface(here, orbit, turning, rigid_share(orbit, turning))
+            left.append(found["surface"] - unit * own)
+    return vanishing("orbital: as emitted", "slip and slip energies over m v0^2", left)
+
+
+def orbital() -> tuple[Check, ...]:
+    """Every check of the proof."""
+    return (exchange(), stationary(), midgap_takes(), surface_takes(), as_emitted())

@@ -1,0 +1,51 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 6b3272e96508125119537f053c024f8c88a4bcdc8de03051a220f4a29a137b9f */
+
+/* film law `cavitating`: `finite` on approach; on rebound the liquid sustains no suction and cavitates, which
+ * leaves no force.
+ *
+ * Source: Barnocky & Davis, Phys. Fluids 31, 1324 (1988); derived: the pressure cut off at ambient. */
+
+typedef struct { char none[0]; } film_resistance_constants;
+
+static inline void film_resistance_prepare(film_resistance_constants *c)
+{
+    (void)c;
+}
+
+typedef struct {
+    vec inverse_gap[TERMS];
+    vec result[TERMS];
+} film_resistance_series;
+
+/* Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1). Coefficient k
+ * of its series; products of series: 1. */
+INLINE void film_resistance_next(film_resistance_series *s, const film_resistance_constants *c, const vec
+    *gap, int k)
+{
+    (void)gap; (void)c;
+    s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);
+    s->result[k] = k == 0 ? gap[k] + s->inverse_gap[k] + (-2.0) : gap[k] + s->inverse_gap[k];
+}
+
+/* Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1). */
+static inline vec film_resistance_value(const film_resistance_constants *c, vec gap)
+{
+    (void)gap; (void)c;
+    vec inverse_gap = 1.0/gap;
+    vec result = gap + inverse_gap + (-2.0);
+    return result;
+}
+
+#define FILM_RESISTANCE_WORK 1
+/* An antiderivative of it: work in closed form. */
+static inline vec film_resistance_work(const film_resistance_constants *c, vec gap)
+{
+    (void)c;
+    vec gap_squared = gap*gap;
+    vec log_of_gap = vec_log(gap);
+    vec work = 0.5*gap_squared + log_of_gap - 2.0*gap;
+    return work;
+}
+
+#define FILM_CAVITATES 1 /* no force while opening */

@@ -1,0 +1,103 @@
+"""By the momentum of the orbit: what holds a doublet now holds it for good (derive/orbital.py).
+
+It decides where energy does not: fast spin that the orbit will never get back, resting contact, cycles on glassy liquid
+that lose next to nothing, and the surface arm, for which angular momentum is not conserved.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import Model
+from ..phases import CLOSING, Phase
+from .base import SAFETY, Proof
+from .panels import panels
+
+_LEVERS = ("midgap", "surface")
+_GAPS = 49  # at which the doublet is asked whether it gets there
+_CYCLES = 20  # maxima of the gap, each below the one before, that are taken for chatter on strings
+_STILL = 1e-9  # of v0: slower is a turning point
+
+
+def knows(model: Model) -> bool:
+    """Whether the proof is about this model: equal spheres that turn, the library's laws, something that attracts."""
+    return model.has("orbital") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
+
+
+class OrbitalProof:
+    """Asks, after another proof, whether some gap ahead is out of reach for good.
+
+    On strings no proof covers the slip that their torque makes; there it ends chatter, after some cycles whose maxima
+    fall, and the stick is not called a theorem. Nor is it with the surface arm (MODEL.md section 6).
+
+    Arguments:
+        beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
+            flight watches for.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
+        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
+        groups = dict(zip(model.groups, p, strict=True))
+        self.end = groups.get("rupture_gap", 1.0)
+        self.aspect, self.obliquity = groups["aspect"], groups["obliquity"]
+        self.lever = model.choice.law("arm") or "midgap"
+        self.theorem = beside.theorem
+        self.watches = None if self._drifts else beside.watches
+        self._maxima: list[float] = []
+
+    @property
+    def _drifts(self) -> bool:
+        return self.lever == "surface"
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self.beside.level(y, phase)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        if not self._drifts and self.beside.decided(y, phase):
+            self.theorem = self.beside.theorem
+            return True
+        self.theorem = not (self._drifts or self.model.strings)
+        if self.model.strings:
+            return self._chatters(y, phase) and self.holds(y)
+        turned_back = phase.resting or (phase.motion == CLOSING and y[1] > -_STILL)
+        return bool((turned_back or self._drifts) and self.holds(y))
+
+    def _chatters(self, y: np.ndarray, phase: Phase) -> bool:
+        """Whether each of the last maxima of the gap was below the one before."""
+        if phase.resting or phase.motion != CLOSING or abs(y[1]) > _STILL:
+            return False
+        if self._maxima and y[0] >= self._maxima[-1]:
+            self._maxima.clear()
+        self._maxima.append(float(y[0]))
+        return len(self._maxima) > _CYCLES
+
+    def holds(self, y: np.ndarray) -> bool:
+        """Whether the margin is below zero at some gap ahead by more than its error."""
+        gap, opening, orbit = map(float, y[:3])
+        if not gap < self.end:
+            return False
+        turning = orbit / (4 + self.aspect * gap) ** 2 - self.model.values("orbital", y, self.p)["slip"]
+        if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbit:
+            return False  # beyond what is proved of the surface arm's exchange: rho < 4 a
+        edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
+        inward, attraction = self._work(edges, y, orbit), self._work(edges, y, 0.0)
+        found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbit), self.p).full())
+        names = self.model.names("orbital")
+        slips, energy = found[names.index("slip")], found[names.index(self.lever)]
+        needed = opening**2 / 2 - inward + np.where(slips < 0, energy, 0.0)
+        turned = (self.obliquity**2 / 16) * abs(orbit) * np.maximum(-slips, 0.0)
+        error = opening**2 + abs(opening) + 2 * np.abs(attraction) + np.abs(inward) + turned
+        return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
+
+    def _work(self, edges: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
+        """Work against what pulls inward from the first gap to each of the others, the orbit's momentum as given."""
+        force = self.model.function("inward_force")
+        work: np.ndarray = np.cumsum(
+            panels(lambda gaps: np.asarray(force(self._states(gaps, y, orbit), self.p).full()), edges)
+        )
+        return work
+
+    def _states(self, gaps: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
+        states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
+        states[0], states[2] = gaps, orbit
+        return states
