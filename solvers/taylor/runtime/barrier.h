@@ -5,6 +5,9 @@
  */
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
+#if !defined(BY_ORBIT) /* derive/orbital.py knows the model */
+#define BY_ORBIT 0
+#endif
 
 typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
