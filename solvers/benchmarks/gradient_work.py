@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
@@ -22,6 +23,7 @@ from .work import OFTEN, REPEATS, SETS, Tell
 Record = dict[str, Any]
 Run = Callable[[], np.ndarray]
 
+_CARRIED = f"{__package__.rpartition('.')[0]}.sensitivity.kernel"
 FINE = tuple(10.0**-k for k in range(6, 14))
 COARSE = (1e-7, 1e-9, 1e-11)
 DIFFERENCES = 1e-13  # tolerance of collisions whose differences are taken; then steps take the part of tolerances
@@ -51,12 +53,46 @@ def methods() -> tuple[Method, ...]:
     """All of them, those that are missing here included."""
     heyoka = "" if find_spec("heyoka") else "heyoka is not installed (pip install wetdoublet[bench])"
     no_compiler = "" if compiler() else "no C compiler (cc, gcc, clang)"
+    carried = no_compiler if find_spec(_CARRIED) else "the kernel of this version carries no derivatives"
     return (
+        Method("gradients_many", _gradients_many, SETS, FINE, carried),
+        Method("taylor, kernel alone", _kernel, SETS, FINE, carried),
         Method("rosenbrock, forward", partial(_casadi, "forward")),
         Method("rosenbrock, adjoint", partial(_casadi, "adjoint")),
         Method("heyoka, variational equations", _heyoka, SETS, FINE, heyoka),
         Method("central differences of taylor", _differences, SETS, STEPS, no_compiler),
     )
+
+
+def _gradients_many(asked: Gradients, copies: int, rtol: float) -> Run:
+    """`gradients_many` by the kernel, as a user calls it."""
+    many = import_module(_CARRIED.replace(".kernel", ".many"))
+    stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
+    units = np.tile(asked.units, (copies, 1))
+
+    def run() -> np.ndarray:
+        found = many.gradients_many(
+            asked.scene, stokes=stokes, angle=angle, wrt=list(asked.names), of="restitution", rtol=rtol
+        )
+        rows: np.ndarray = found["gradient"].values[0] * units
+        return rows
+
+    return run
+
+
+def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
+    """The kernel's derivatives in the parameters, without what `gradients_many` adds: boundaries too near, labels."""
+    from ..taylor.engine import Impacts
+
+    kernel = import_module(_CARRIED)
+    stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
+    impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
+
+    def run() -> np.ndarray:
+        found: np.ndarray = kernel.along(impacts, asked.kind, asked.names, ("restitution",), rtol).first[0]
+        return found
+
+    return run
 
 
 def _casadi(method: str, asked: Gradients, _: int, rtol: float) -> Run:
