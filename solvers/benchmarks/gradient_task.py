@@ -85,7 +85,7 @@ class Gradients:
         NaN where they are refused: at a loose tolerance a boundary is too near.
         """
         wrt = list(self.names if names is None else names)
-        found = []
+        found: list[list[float | None]] = []
         for each in self.impacts:
             try:
                 one = sensitivities(
@@ -98,7 +98,7 @@ class Gradients:
             row = one.gradient["restitution"]
             assert row is not None  # it separates
             found.append([row[name] for name in wrt])
-        rows: np.ndarray = np.array(found) * self.units[:, [self.names.index(name) for name in wrt]]
+        rows: np.ndarray = np.array(found, dtype=float) * self.units[:, [self.names.index(name) for name in wrt]]
         return rows
 
     @cached_property

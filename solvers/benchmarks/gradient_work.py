@@ -164,17 +164,16 @@ def _of(asked: Gradients, preset: str, repeats: int, tell: Tell, which: Sequence
         run = method.prepare(asked, method.copies, rtol)
         found = run()  # builds and caches
         errors = asked.errors(found[: len(asked.impacts)])
-        row = {"method": method.name, "rtol": rtol, "cpu": math.inf, "wall": math.inf}
+        row: Record = {"method": method.name, "rtol": rtol, "cpu": math.inf, "wall": math.inf}
         row |= {"error_largest": _number(errors.max()), "error_median": _number(np.median(errors))}
         row["failed"] = int(np.isnan(errors).sum())
         ready.append((method, row, run))
     for method, row, run in (each for _ in range(repeats) for each in ready):
         for _ in range(OFTEN if method.copies > 1 else 1):
-            cpu, wall = time.process_time(), time.perf_counter()
+            cpu, wall, count = time.process_time(), time.perf_counter(), method.copies * len(asked.impacts)
             run()
-            cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
-            row["cpu"] = min(row["cpu"], cpu / (method.copies * len(asked.impacts)))
-            row["wall"] = min(row["wall"], wall / (method.copies * len(asked.impacts)))
+            cpu, wall = (time.process_time() - cpu) / count, (time.perf_counter() - wall) / count
+            row["cpu"], row["wall"] = min(row["cpu"], cpu), min(row["wall"], wall)
     return {
         "preset": preset,
         "collisions": len(asked.impacts),

@@ -267,7 +267,8 @@ def prepare(
 
 def _below(start: Start) -> float:
     """The gap just below the outermost barrier."""
-    barriers = start.flight.proof.beside.barriers(start.flight.y)
+    proof: Any = start.flight.proof
+    barriers = getattr(proof, "beside", proof).barriers(start.flight.y)  # what a flight watches for
     return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
 
 
