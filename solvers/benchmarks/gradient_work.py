@@ -25,7 +25,7 @@ Run = Callable[[], np.ndarray]
 
 _CARRIED = f"{__package__.rpartition('.')[0]}.sensitivity.kernel"
 FINE = tuple(10.0**-k for k in range(6, 14))
-COARSE = (1e-7, 1e-9, 1e-11)
+COARSE = (1e-8, 1e-10)
 DIFFERENCES = 1e-13  # tolerance of collisions whose differences are taken; then steps take the part of tolerances
 STEPS = (1e-3, 1e-4, 1e-5)
 

@@ -24,9 +24,7 @@ Record = dict[str, Any]
 PRESET = "granulation"
 SEPARATRIX = {  # degrees: St below which it sticks, by halving with the kernel at rtol 1e-13 to a width of 3e-14
     30.0: 0.08575245746193548,
-    40.0: 0.05867947362008179,
     50.0: 0.04111769751269967,
-    60.0: 0.028158087032688402,
     70.0: 0.01765780132932007,
     80.0: 0.008493502839467865,
 }

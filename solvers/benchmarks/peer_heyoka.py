@@ -19,6 +19,7 @@ from ..errors import ComputationError
 from ..locate import CRITERIA, Locate
 from ..model import Choice, choose, load
 from ..numbers import Numbers
+from ..proofs.choice import energy_proof
 from ..scene import Scene
 from .tasks import Impact
 from .translated import translated
@@ -267,8 +268,8 @@ def prepare(
 
 def _below(start: Start) -> float:
     """The gap just below the outermost barrier."""
-    proof: Any = start.flight.proof
-    barriers = getattr(proof, "beside", proof).barriers(start.flight.y)  # what a flight watches for
+    proof = energy_proof(start.flight.proof)
+    barriers = () if proof is None else proof.barriers(start.flight.y)
     return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
 
 

@@ -23,7 +23,7 @@ REPEATS = 3  # the best of so many counts
 OFTEN = 7  # times as many of fast engines
 SETS = 20  # times the collisions are repeated within one call of an engine that takes many
 _LONG = 0.05  # s: a collision that takes longer is not repeated
-_DEAR = 5.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
+_DEAR = 2.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
 
 Tell = Callable[[str], None]
 

@@ -88,7 +88,7 @@ at first touch, against the largest absolute error in e_n among those that separ
   functions with parameters bound once. Both stop at terminal events, with the rules of our own flights between them.
   scipy's look for grazing minima afterwards, CVODE does not.
 * **diffrax**: Tsit5, jitted and vectorised over the set, its own events with a Newton root finder.
-* An engine whose collisions take more than five seconds at one tolerance is not asked for the next.
+* An engine whose collisions take more than two seconds at one tolerance is not asked for the next.
 * A peer that is not installed is named at the top, and so is a compiler that is missing. AMICI is not among the peers:
   there is no model of a collision for it here.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Where an error is below the difference to
