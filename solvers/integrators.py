@@ -97,9 +97,9 @@ def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Toleranc
     """What an integrator is told so that results come out at about `rtol`.
 
     The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a
-    tiny part of x0, which must be resolved (unless strings pull harder); at very small angles without bridge or strings, the doublet is opened
-    by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both in whole decades, so that
-    integrators are shared.
+    tiny part of x0, which must be resolved (unless strings pull harder); at very small angles without bridge or
+    strings, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both
+    in whole decades, so that integrators are shared.
     """
     centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
     absolute = 1e-3

@@ -183,9 +183,8 @@ class Locate:
             return self._overshot(find, stop, level) if stop.event == "turning" else stop
         except IntegrationFailed as error:
             if self._loosened():
-                return self._advance(
-                    locator(self._flow(), self.watch, self.tolerance, self.machine_code), stretch, level
-                )
+                find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
+                return self._advance(find, stretch, level)
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _loosened(self) -> bool:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 import signal
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..many import OUTCOMES
+from ..model import choose
 from .environment import environment
 from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, judge, runs
 from .stress_sample import SEED, Case, sample
 
 DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate")
-_BLOCK = 8  # cases a worker takes at a time
+_BLOCK = 12  # cases a worker takes at a time
 _ALONE = 40  # fewer are not worth starting workers for
 WORST = 20  # cases that are kept as scene files, of each sort
 
@@ -27,13 +29,15 @@ class Stress:
     """What a stress test found.
 
     Arguments:
-        verdicts: in the order of the sample.
+        verdicts: in the order of the sample, as far as it got.
         wall: s.
+        wanted: cases there would have been.
     """
 
     verdicts: tuple[Verdict, ...]
     wall: float
     where: dict[str, Any]
+    wanted: int = 0
 
     def issues(self, *kinds: str) -> list[tuple[Verdict, Issue]]:
         """All issues of these kinds, with their cases."""
@@ -44,13 +48,23 @@ class Stress:
         """Disagreements without an explanation: what makes a stress test fail."""
         return [(one, issue) for one, issue in self.issues(*DISAGREEMENTS) if not issue.explained]
 
+    @property
+    def interrupted(self) -> bool:
+        return len(self.verdicts) < self.wanted
+
+    @property
+    def remarks(self) -> Counter[str]:
+        """How many scenes leave the range of a law, by law and entry."""
+        return Counter(remark for one in self.verdicts for remark in one.remarks)
+
     def summary(self) -> str:
         """One line."""
         failed = self.issues("failure")
         strange = sum(not issue.explained for _, issue in failed)
         explained = len(self.issues(*DISAGREEMENTS)) - len(self.unexplained)
+        scenes = f"{len(self.verdicts)} of {self.wanted}" if self.interrupted else f"{len(self.verdicts)}"
         return (
-            f"stress: {len(self.verdicts)} scenes, {len(self.unexplained)} unexplained disagreements, "
+            f"stress: {scenes} scenes, {len(self.unexplained)} unexplained disagreements, "
             f"{explained} within the stated error of a boundary, {len(failed)} failures "
             f"({strange} without a physical reason), {self.wall:.0f} s"
         )
@@ -66,23 +80,27 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
         InputError: scipy, whose quasi-random sequence this is, is not installed.
     """
     start, where = time.perf_counter(), environment()
+    tell(0, count)
     cases = sample(count, seed)
-    verdicts: list[Verdict | None] = [None] * count
-    done = 0
-    for first, block in _judged(cases):
-        verdicts[first : first + len(block)] = block
-        done += len(block)
-        tell(done, count)
-    return Stress(tuple(one for one in verdicts if one is not None), time.perf_counter() - start, where)
+    verdicts: dict[int, Verdict] = {}
+    try:
+        for block, found in _judged(cases):
+            verdicts.update(zip(block, found, strict=True))
+            tell(len(verdicts), count)
+    except KeyboardInterrupt:
+        if not verdicts:
+            raise
+    done = tuple(verdicts[k] for k in sorted(verdicts))
+    return Stress(done, time.perf_counter() - start, where, count)
 
 
-def _judged(cases: Sequence[Case]) -> Iterator[tuple[int, list[Verdict]]]:
-    """Blocks of verdicts, as they are finished."""
-    firsts = range(0, len(cases), _BLOCK)
+def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
+    """Blocks of cases by number, and their verdicts, as they are finished."""
+    blocks = _blocks(cases)
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if len(cases) < _ALONE or cores == 1:
-        for first in firsts:
-            yield first, _block(cases[first : first + _BLOCK])
+        for block in blocks:
+            yield block, _block([cases[k] for k in block])
         return
     from concurrent.futures import as_completed
 
@@ -90,11 +108,19 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[int, list[Verdict]]]:
 
     pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
     try:
-        waiting = {pool.submit(_block, cases[first : first + _BLOCK]): first for first in firsts}
+        waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
         for future in as_completed(waiting):
-            yield waiting[future], future.result()
+            yield waiting.pop(future), future.result()
     finally:
         pool.shutdown(wait=True, kill_workers=True)
+
+
+def _blocks(cases: Sequence[Case]) -> list[list[int]]:
+    """Cases that share structure and laws go to one worker, which builds and compiles for them once."""
+    alike: dict[Any, list[int]] = {}
+    for k, case in enumerate(cases):
+        alike.setdefault(choose(case.scene, bool(case.scene.angle)), []).append(k)
+    return [group[k : k + _BLOCK] for group in alike.values() for k in range(0, len(group), _BLOCK)]
 
 
 def _deaf() -> None:
@@ -111,6 +137,7 @@ def record(found: Stress) -> dict[str, Any]:
         "environment": found.where,
         "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
         "summary": found.summary(),
+        "outside_of_ranges": dict(found.remarks),
         "outcomes": {name: sum(_outcome(one) == name for one in found.verdicts) for name in OUTCOMES},
         "cases": [_case(one) for one in found.verdicts],
         "wall": found.wall,
@@ -127,7 +154,7 @@ def _case(one: Verdict) -> dict[str, Any]:
         "kind": one.case.kind,
         "distance": one.case.distance,
         "change": one.case.change,
-        "scene": one.case.scene.to_dict(),
+        "scene": one.case.scene.to_dict() if one.issues else None,  # the others are drawn again by seed and number
         "stokes": one.case.scene.stokes,
         "angle": one.case.scene.angle,
         "outcome": _outcome(one),

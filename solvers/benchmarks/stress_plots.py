@@ -33,7 +33,7 @@ def draw(found: Stress, folder: Path) -> list[Path]:
 
 def over_impacts(found: Stress) -> Figure:
     """Difference of e_n between engines, and cost of the fast one, a point a sampled scene."""
-    figure = Figure(figsize=(9.6, 4.4), layout="constrained")
+    figure = Figure(figsize=(10.4, 5.0), layout="constrained")
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)
     sampled = [one for one in found.verdicts if one.case.kind == "sampled"]
     error = [max(one.error or 0.0, 1e-16) for one in sampled]
@@ -46,10 +46,13 @@ def over_impacts(found: Stress) -> Figure:
         shown: Any = None
         for outcome, marker in _MARKERS.items():
             here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.found.values())]
-            style: Any = {"c": [values[k] for k in here], "norm": norm, "cmap": "viridis", "linewidths": 0}
-            drawn = axes.scatter(*_places(sampled, here), marker=marker, s=13, label=outcome, **style)
+            here.sort(key=lambda k: values[k])  # used at once; the worst on top
+            style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
+            coloured = [values[k] for k in here]
+            drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
+            axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
-        figure.colorbar(shown, ax=axes, label=label, pad=0.01)
+        figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
         _marked(axes, found)
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
         axes.set_yticks(range(0, 91, 15))
@@ -57,6 +60,11 @@ def over_impacts(found: Stress) -> Figure:
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=5, frameon=False)
     return figure
+
+
+def _size(count: int) -> float:
+    """Area of a mark: smaller where there are many."""
+    return float(np.clip(9000.0 / max(count, 1), 2.0, 20.0))
 
 
 def _places(sampled: list[Any], here: list[int]) -> tuple[list[float], list[float]]:
@@ -95,8 +103,8 @@ def near(found: Stress) -> Figure:
         at: Any = sorted({distance for distance, _ in points}, reverse=True)
         middle = [float(np.median([cpu for distance, cpu in points if distance == each])) for each in at]
         colour = _COLOURS.get(name, "#202020")
-        axes.plot(*np.array(points).T, ".", color=colour, alpha=0.25, markersize=4)
-        axes.plot(at, middle, "-o", color=colour, markersize=4, linewidth=1.3, label=name)
+        axes.plot(*np.array(points).T, ".", color=colour, alpha=0.25, markersize=4, markeredgewidth=0)
+        axes.plot(at, middle, "-o", color=colour, markersize=4, linewidth=1.5, label=f"{name}, median")
     axes.set(
         xscale="log",
         yscale="log",
@@ -106,5 +114,5 @@ def near(found: Stress) -> Figure:
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     if beside:
         axes.invert_xaxis()
-        axes.legend(frameon=False)
+        axes.legend(frameon=False, ncols=2, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
     return figure

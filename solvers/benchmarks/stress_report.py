@@ -76,6 +76,9 @@ def report(found: Stress, scenes: list[Path]) -> str:
     parts += ["## Disagreements", _listed(found, DISAGREEMENTS)]
     parts += ["## Failures", _failures(found)]
     parts += ["## Engines", _engines(found), _ledgers(found)]
+    if found.remarks:
+        rows = [[said, str(count)] for said, count in sorted(found.remarks.items())]
+        parts += ["## Outside the range of a law", table(["entry and law", "scenes"], rows)]
     parts += ["## Error and cost over Stokes number and angle", "![map](stress-map.png)"]
     parts += ["## Near the separatrix", "![near the separatrix](stress-near.png)", _near(found)]
     if scenes:

@@ -59,7 +59,10 @@ def _count(text: str) -> int:
 
 
 def _stress(count: int, folder: Path) -> None:
-    """Run, report, and say in one last line what came of it; CheckFailed if engines disagree without a reason."""
+    """Run, report, and say in one last line what came of it; CheckFailed if engines disagree without a reason.
+
+    An interrupt ends it with a report of what is judged by then.
+    """
     from ..benchmarks.stress import stress
     from ..benchmarks.stress_report import write
 
@@ -68,10 +71,15 @@ def _stress(count: int, folder: Path) -> None:
     files = write(found, folder)
     for one, issue in found.unexplained:
         click.echo(f"unexplained ({issue.kind}): {one.case.name}: {issue.said}")
+    if found.remarks:
+        outside = sum(bool(one.remarks) for one in found.verdicts)
+        click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.md")
     click.echo(f"written: {', '.join(map(str, files[:4]))}" + (f" and {len(files) - 4} scenes" if files[4:] else ""))
     click.echo(found.summary())
     if found.unexplained:
         raise CheckFailed(f"{len(found.unexplained)} unexplained disagreements; see {folder / 'stress.md'}")
+    if found.interrupted:
+        raise KeyboardInterrupt(f"interrupted: {len(found.verdicts)} of {count} scenes are in {folder / 'stress.md'}")
 
 
 def _tell(what: str) -> None:

@@ -46,6 +46,8 @@ class FilmProof:
 
     def held(self, gap: float, opening: float) -> bool:
         """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""
+        if opening == 0.0:
+            return True  # at rest nothing moves it
         loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
         return bool(opening - loss < -self.margin)
 

@@ -15,7 +15,7 @@ from .panels import panels
 
 _LEVERS = ("midgap", "surface")
 _GAPS = 49  # at which the doublet is asked whether it gets there
-_CYCLES = 20  # maxima of the gap, each below the one before, that are taken for chatter on strings
+_CYCLES = 20  # maxima of the gap, none above the one before, that are taken for chatter on strings
 _STILL = 1e-9  # of v0: slower is a turning point
 
 
@@ -28,7 +28,7 @@ class OrbitalProof:
     """Asks, after another proof, whether some gap ahead is out of reach for good.
 
     On strings no proof covers the slip that their torque makes; there it ends chatter, after some cycles whose maxima
-    fall, and the stick is not called a theorem. Nor is it with the surface arm (MODEL.md section 6).
+    do not grow, and the stick is not called a theorem. Nor is it with the surface arm (MODEL.md section 6).
 
     Arguments:
         beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
@@ -63,10 +63,10 @@ class OrbitalProof:
         return bool((turned_back or self._drifts) and self.holds(y))
 
     def _chatters(self, y: np.ndarray, phase: Phase) -> bool:
-        """Whether each of the last maxima of the gap was below the one before."""
+        """Whether none of the last maxima of the gap was above the one before, but for its error."""
         if phase.resting or phase.motion != CLOSING or abs(y[1]) > _STILL:
             return False
-        if self._maxima and y[0] >= self._maxima[-1]:
+        if self._maxima and y[0] > self._maxima[-1] * (1 + self.margin):
             self._maxima.clear()
         self._maxima.append(float(y[0]))
         return len(self._maxima) > _CYCLES

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
+from wetdoublet.solvers.benchmarks import stress as stress_test
 from wetdoublet.solvers.benchmarks import stress_check as checking
 from wetdoublet.solvers.benchmarks.stress_check import FAST, RTOL, Found, judge
 from wetdoublet.solvers.benchmarks.stress_sample import DISTANCES, SEED, Case, sample
@@ -191,3 +192,32 @@ def test_scipy_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> 
 def test_fast_is_the_engine_of_many() -> None:
     """The engine under test is the compiled Taylor kernel where there is one."""
     assert ("taylor" if "taylor" in checking.ENGINES else "rosenbrock") == FAST
+
+
+def test_an_interrupt_keeps_what_is_judged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Ctrl-C after the first block: its cases are in the report, the last line counts them, and the status is 130."""
+    usual = stress_test._judged
+
+    def once(cases: Any) -> Any:
+        yield next(iter(usual(cases[:2])))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(stress_test, "_judged", once)
+    assert run("bench", "--stress", "12", "--out", str(tmp_path)) == 130
+    out, err = capsys.readouterr()
+    assert " of 12 scenes, " in out.strip().splitlines()[-1]
+    assert "interrupted" in err
+    assert 1 <= len(json.loads((tmp_path / "stress.json").read_text())["cases"]) <= 2
+
+
+def test_ranges_that_laws_leave_are_counted_once(
+    recwarn: pytest.WarningsRecorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A case outside the range of its bridge law says so in its verdict, without the value, and warns of nothing."""
+    scene = Scene.load("granulation").with_entries({"bridge.law": "willett-simple"}).with_impact(angle="60 deg")
+    monkeypatch.setattr(checking, "runs", lambda: {"rosenbrock": lambda s, r: checking.chained(s, r, "rosenbrock")})
+    verdict = judge(Case("one", scene))
+    assert verdict.remarks == ("bridge.volume above 0.001, outside the range of the law willett-simple",)
+    assert not recwarn.list

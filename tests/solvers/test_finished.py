@@ -1,0 +1,71 @@
+"""Flights that an integrator cannot fly at the tolerance it is told, or lands beside their events, come to an end."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from wetdoublet.solvers import Scene, collide, simulate
+from wetdoublet.solvers.chain import Stopped
+
+IMPACTS = {"granulation": (0.06, "60 deg"), "pendulum": (1.5, "45 deg")}
+
+
+@pytest.mark.parametrize("preset", IMPACTS)
+@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
+def test_the_located_flight_answers_where_an_engine_cannot(
+    preset: str, engine: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It has the outcome, events, outputs and ledger of the flight; the result names Rosenbrock's method."""
+    stokes, angle = IMPACTS[preset]
+    usual = collide(preset, stokes=stokes, angle=angle, engine="rosenbrock")
+
+    def stops(path: Any, _plugin: str, _tolerance: Any, _kind: Any, start: Any) -> Any:
+        raise Stopped("gave up", path.steps[0], 0.0, start)
+
+    monkeypatch.setattr(simulate, "fly", stops)
+    found = collide(preset, stokes=stokes, angle=angle, engine=engine, trajectory=True)
+    assert (found.engine, found.outcome, found.reversal) == ("rosenbrock", usual.outcome, usual.reversal)
+    assert [event.kind for event in found.events] == [event.kind for event in usual.events]
+    for name in ("restitution", "contact_time", "rotation", "smallest_gap", "final_spin"):
+        assert getattr(found, name) == pytest.approx(getattr(usual, name), rel=1e-7)
+    assert found.energy is not None
+    assert usual.energy is not None
+    assert found.energy.to_dict() == pytest.approx(usual.energy.to_dict(), abs=1e-7 * usual.energy.initial)
+    assert found.trajectory is not None
+    assert float(found.trajectory.gap[-1]) == pytest.approx(float(found.trajectory.gap.max()), rel=1e-9)
+
+
+def test_grazing_incidence_pulled_in_by_strings() -> None:
+    """89.97 deg at St 5e-5: gravity swings the spheres together at 4e7 times the speed of impact.
+
+    A tolerance for a doublet that turns within 1e-4 of x0 would be below the rounding of that motion.
+    """
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 9.10416e-3, "density": 2466.94, "roughness": 1.01768e-4, "dry_restitution": 1.0,
+            },
+            "liquid": {
+                "viscosity": 2.66928e-5, "film_thickness": 3.96381e-4, "glass_transition_pressure": 4.77684e9,
+            },
+            "pendulum": {"length": 0.457281, "gravity": 22.476, "law": "small-angle"},
+            "model": {"glass": "film-corrected"},
+        }
+    )  # fmt: skip
+    found = collide(scene, stokes=4.7542e-05, angle=1.57033, engine="rosenbrock", ledger=False)
+    assert found.outcome == "stick"
+    assert [event.kind for event in found.events] == ["rough", "rotation reverses"]
+
+
+def test_solids_that_give_nothing_back() -> None:
+    """Head-on with e_dry = 0 the reversal leaves both at rest, just inside the film: a stick, and proved."""
+    scene = Scene.load("granulation-dry-bridge").with_entries(
+        {
+            "particles.dry_restitution": 0.0,
+            "liquid.glass_transition_pressure": "0.3 Pa",
+            "model.glass": "film-corrected",
+        }
+    )
+    found = collide(scene, stokes=6e-5, angle=0.0, ledger=False)
+    assert (found.outcome, found.certified, found.reversal) == ("stick", True, "glass")
