@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
@@ -15,6 +14,9 @@ import numpy as np
 
 from ..compiled import compiler
 from ..many import collide_many
+from ..sensitivity.kernel import along
+from ..sensitivity.many import gradients_many
+from ..taylor.engine import Impacts
 from .gradient_task import COUNT, Gradients
 from .markdown import table, us
 from .tasks import TASKS, Task
@@ -23,7 +25,6 @@ from .work import OFTEN, REPEATS, SETS, Tell
 Record = dict[str, Any]
 Run = Callable[[], np.ndarray]
 
-_CARRIED = f"{__package__.rpartition('.')[0]}.sensitivity.kernel"
 FINE = tuple(10.0**-k for k in range(6, 14))
 COARSE = (1e-8, 1e-10)
 DIFFERENCES = 1e-13  # tolerance of collisions whose differences are taken; then steps take the part of tolerances
@@ -53,10 +54,9 @@ def methods() -> tuple[Method, ...]:
     """All of them, those that are missing here included."""
     heyoka = "" if find_spec("heyoka") else "heyoka is not installed (pip install wetdoublet[bench])"
     no_compiler = "" if compiler() else "no C compiler (cc, gcc, clang)"
-    carried = no_compiler if find_spec(_CARRIED) else "the kernel of this version carries no derivatives"
     return (
-        Method("gradients_many", _gradients_many, SETS, FINE, carried),
-        Method("taylor, kernel alone", _kernel, SETS, FINE, carried),
+        Method("gradients_many", _gradients_many, SETS, FINE, no_compiler),
+        Method("taylor, kernel alone", _kernel, SETS, FINE, no_compiler),
         Method("rosenbrock, forward", partial(_casadi, "forward")),
         Method("rosenbrock, adjoint", partial(_casadi, "adjoint")),
         Method("heyoka, variational equations", _heyoka, SETS, FINE, heyoka),
@@ -66,12 +66,11 @@ def methods() -> tuple[Method, ...]:
 
 def _gradients_many(asked: Gradients, copies: int, rtol: float) -> Run:
     """`gradients_many` by the kernel, as a user calls it."""
-    many = import_module(_CARRIED.replace(".kernel", ".many"))
     stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
     units = np.tile(asked.units, (copies, 1))
 
     def run() -> np.ndarray:
-        found = many.gradients_many(
+        found = gradients_many(
             asked.scene, stokes=stokes, angle=angle, wrt=list(asked.names), of="restitution", rtol=rtol
         )
         rows: np.ndarray = found["gradient"].values[0] * units
@@ -82,15 +81,14 @@ def _gradients_many(asked: Gradients, copies: int, rtol: float) -> Run:
 
 def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
     """The kernel's derivatives in the parameters, without what `gradients_many` adds: boundaries too near, labels."""
-    from ..taylor.engine import Impacts
-
-    kernel = import_module(_CARRIED)
     stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
     impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
 
     def run() -> np.ndarray:
-        found: np.ndarray = kernel.along(impacts, asked.kind, asked.names, ("restitution",), rtol).first[0]
-        return found
+        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol)
+        assert found is not None  # there is a compiler
+        rows: np.ndarray = found.first[0]
+        return rows
 
     return run
 

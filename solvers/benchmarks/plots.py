@@ -154,7 +154,7 @@ def cost_bars(record: Record) -> Figure:
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
     ratios = [ratio for _, each in rows for ratio in each.values()] or [1.0]
-    axes.set_xlim(min(0.8, 0.65 * min(ratios)), max(1.5, 1.3 * max(ratios)))
+    axes.set_xlim(min(0.8, 0.65 * min(ratios)), max(1.5, 1.6 * max(ratios)))
     axes.grid(True, axis="x", which="major", linewidth=0.4, color="#CCCCCC")
     axes.set_axisbelow(True)
     axes.set_xlabel("CPU time with one feature on, over that of the bare collision (= 1)")

@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 Record = dict[str, Any]
 
@@ -42,7 +42,8 @@ def near_curves(record: Record) -> Figure:
             axes.loglog(xs, ys, line, color=colour, marker=marker, markersize=5.5, linewidth=1.3, label=name)
             failed = [(x, y) for x, y, row in zip(xs, ys, here, strict=True) if row["failed"]]
             if failed:
-                axes.loglog(*zip(*failed), "", color=colour, marker=marker, markersize=5.5, markerfacecolor="white")
+                style: Any = {"color": colour, "marker": marker, "markersize": 5.5, "markerfacecolor": "white"}
+                axes.loglog(*zip(*failed), linestyle="none", **style)
         _grid(axes)
         axes.set_title(f"rtol {rtol:.0e}", fontsize=9.5)
         axes.set_xlabel("relative distance in St from the separatrix")
@@ -66,7 +67,9 @@ def gradient_curves(record: Record) -> Figure:
             xs, ys = [row["error_largest"] for row in here], [row["cpu"] * 1e6 for row in here]
             axes.loglog(xs, ys, line, color=colour, marker=marker, markersize=5.5, linewidth=1.3, label=name)
         _grid(axes)
-        axes.set_title(f"{task['preset']}: {task['collisions']} gradients to {len(task['parameters'])}", fontsize=9.5)
+        axes.set_title(
+            f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters", fontsize=9.5
+        )
         axes.set_xlabel("largest error, over the largest derivative")
     panels[0].invert_xaxis()
     panels[0].set_ylabel("CPU time a gradient (us)")
@@ -78,6 +81,8 @@ def gradient_curves(record: Record) -> Figure:
 def _grid(axes: Axes) -> None:
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     axes.xaxis.set_major_locator(LogLocator(base=100, numticks=20))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0), numticks=20))
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.tick_params(labelleft=True)
