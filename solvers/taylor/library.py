@@ -117,6 +117,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "CERTIFICATE": int(variant.certificate),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
+        "LIBRARY_LAWS": int(variant.choice.package is None),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
