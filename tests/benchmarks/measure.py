@@ -57,6 +57,8 @@ def main() -> None:
     }
     if folder == USUAL:
         parts["kernel"] = lambda: script("kernel.py")
+        parts["kinds"] = lambda: script("kinds.py")
+        parts["kernel_gradients"] = lambda: script("kernel_gradients.py")
     parts["page"] = lambda: script("page.py", str(folder))
     failed = []
     for name, measure in parts.items():
