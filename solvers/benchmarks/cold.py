@@ -1,16 +1,29 @@
-"""Cold start: what the first result costs in a fresh process."""
+"""Cold start and first use: what the first result costs in a fresh process, with and without something compiled."""
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+import tempfile
 import time
+from collections.abc import Mapping
+from statistics import median
+from typing import Any
+
+from ..compiled import compiler
+from .markdown import table
+
+Record = dict[str, Any]
 
 COMMANDS = {
     "python": ["-c", "pass"],
     "import casadi": ["-c", "import casadi"],
     "collide granulation": ["-m", "wetdoublet.solvers", "collide", "granulation", "--json"],
 }
+IMPORTS = "import wetdoublet.solvers.many, xarray"
+CALL = "from wetdoublet.solvers import collide_many; collide_many('{preset}', stokes=0.5, angle=1.0, engine='taylor')"
+PRESETS = ("granulation", "pendulum")
 
 
 def cold_start(repeats: int = 5) -> dict[str, list[float]]:
@@ -18,7 +31,54 @@ def cold_start(repeats: int = 5) -> dict[str, list[float]]:
     taken: dict[str, list[float]] = {name: [] for name in COMMANDS}
     for _ in range(repeats):
         for name, arguments in COMMANDS.items():
-            start = time.perf_counter()
-            subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
-            taken[name].append(time.perf_counter() - start)
+            taken[name].append(_process(arguments))
     return taken
+
+
+def _process(arguments: list[str], environment: Mapping[str, str] | None = None) -> float:
+    """Wall time (s) of a whole process."""
+    start = time.perf_counter()
+    subprocess.run([sys.executable, *arguments], check=True, capture_output=True, env=environment)
+    return time.perf_counter() - start
+
+
+def first_use(repeats: int = 5) -> list[Record]:
+    """Wall times (s) of whole processes that collide by the kernel, of each preset.
+
+    `first` finds an empty cache and compiles, `second` finds what that left, `imports` only imports the same.
+    """
+    rows: list[Record] = []
+    if compiler() is None:
+        return rows
+    for preset in PRESETS:
+        taken: dict[str, list[float]] = {"first": [], "second": [], "imports": []}
+        for _ in range(repeats):
+            with tempfile.TemporaryDirectory() as folder:
+                where = os.environ | {"WETDOUBLET_CACHE": folder}
+                call = f"{IMPORTS}\n{CALL.format(preset=preset)}"
+                for name, program in (("first", call), ("second", call), ("imports", IMPORTS)):
+                    taken[name].append(_process(["-c", program], where))
+        rows.append({"preset": preset, **taken})
+    return rows
+
+
+def cold_table(taken: Mapping[str, list[float]]) -> str:
+    """Wall times of fresh processes."""
+    least = {name: min(times) for name, times in taken.items()}
+    base = least.get("import casadi")
+    rows = [
+        [name, f"{least[name]:.3f}", f"{median(times):.3f}", f"{least[name] / base:.2f}" if base else "-"]
+        for name, times in taken.items()
+    ]
+    return table(["process", "best s", "median s", "times import casadi"], rows)
+
+
+def first_table(found: list[Record]) -> str:
+    """Whole processes by what they find; the difference to the imports is of the best of each."""
+    rows = []
+    for each in found:
+        least = {name: min(each[name]) for name in ("imports", "first", "second")}
+        more = [f"{least[name]:.3f} ({least[name] - least['imports']:+.3f})" for name in ("first", "second")]
+        rows.append([each["preset"], f"{least['imports']:.3f}", *more])
+    head = ["collide_many by the kernel", "imports alone, s", "empty cache, s (beyond the imports)"]
+    return table([*head, "next process, s (beyond the imports)"], rows)

@@ -19,7 +19,7 @@ from ..sensitivity.flight import Course, course_of, flight
 from ..sensitivity.gradients import sensitivities
 from ..sensitivity.parameters import known
 from ..simulate import collide
-from .tables import ms, table
+from .markdown import ms, table
 
 COUNT = 12  # parameters
 RTOL = 1e-10

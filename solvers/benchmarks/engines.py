@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
@@ -30,7 +31,22 @@ class Answer:
 
 
 Collide = Callable[[int], Answer]
-Answers = Callable[[], list[Answer | str]]  # of all collisions at once; text says why one has failed
+
+
+@dataclass(frozen=True)
+class Bulk:
+    """All collisions in one call.
+
+    Arguments:
+        run: the call that is timed.
+        read: what it came to, collision by collision; text says why one has failed.
+    """
+
+    run: Callable[[], Any]
+    read: Callable[[Any], list[Answer | str]]
+
+    def __call__(self) -> list[Answer | str]:
+        return self.read(self.run())
 
 
 @dataclass(frozen=True)
@@ -39,31 +55,38 @@ class Engine:
 
     Arguments:
         one: from scene, impacts and tolerance, the function that computes collision k; it raises ComputationError.
-        many: the same for a function that computes all of them in one call.
+        many: the same for all of them in one call.
         builds: it builds integrators for every tolerance, so that a first pass has to be thrown away for each.
+        fast: it is asked at more tolerances, and more often.
         missing: why it cannot be used here; empty if it can.
     """
 
     name: str
     one: Callable[[Scene, Sequence[Impact], float], Collide] | None = None
-    many: Callable[[Scene, Sequence[Impact], float], Answers] | None = None
+    many: Callable[[Scene, Sequence[Impact], float], Bulk] | None = None
     builds: bool = True
+    fast: bool = False
     missing: str = ""
+
+
+KERNEL, HEYOKA = "taylor, kernel alone", "heyoka, batch of 8"
 
 
 def engines() -> tuple[Engine, ...]:
     """All engines, those that are missing here included."""
     scipy = _absent("scipy")
     chained = [Engine(name, one=partial(_chained, name)) for name in ENGINES if name in ("cvodes", "rosenbrock")]
+    absent = "" if compiler() else "no C compiler (cc, gcc, clang)"
     bulk = [
-        Engine(in_bulk(name), many=partial(_many, name), missing="" if compiler() else "no C compiler (cc, gcc, clang)")
+        Engine(in_bulk(name), many=partial(_many, name), fast=name == "taylor", missing=absent)
         for name in ENGINES
         if name != "cvodes"
     ]
     return (
         *chained,
         *bulk,
-        Engine("heyoka, batch of 8", many=_heyoka, missing=_absent("heyoka")),
+        Engine(KERNEL, many=_kernel, fast=True, missing=absent),
+        Engine(HEYOKA, many=_heyoka, fast=True, missing=_absent("heyoka")),
         Engine("sundae CVODE, numba", one=_sundae, missing=_absent("sksundae", "scikit-sundae") or _absent("numba")),
         Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
         Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
@@ -102,35 +125,53 @@ def _chained(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) 
     return one
 
 
-def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
-    """`collide_many`, as a user calls it."""
-    stokes, angle = (np.array([getattr(impact, name) for impact in impacts]) for name in ("stokes", "angle"))
+def _columns(impacts: Sequence[Impact]) -> tuple[np.ndarray, np.ndarray]:
+    """Stokes numbers and angles."""
+    return tuple(np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))  # type: ignore[return-value]  # two
 
-    def every() -> list[Answer | str]:
-        data = collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine)
+
+def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """`collide_many` of outcome and restitution, as a user calls it."""
+    stokes, angle = _columns(impacts)
+
+    def read(data: Any) -> list[Answer | str]:
         found = zip(data["outcome"].values.tolist(), data["restitution"].values.tolist(), data["reason"].values)
         return [str(why) if outcome < 0 else Answer(OUTCOMES[outcome], e_n) for outcome, e_n, why in found]
 
-    return every
+    return Bulk(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine), read)
 
 
-def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
+def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """The Taylor kernel without what `collide_many` adds: checks, what the kernel hands over, labels."""
+    from ..taylor.engine import Impacts, answers
+
+    stokes, angle = _columns(impacts)
+    given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
+
+    def read(found: Any) -> list[Answer | str]:
+        rows = zip(found["status"].tolist(), found["outcome"].tolist(), found["shown"][:, 0].tolist())
+        return [
+            Answer(OUTCOMES[outcome], e_n if outcome else 0.0) if status <= 1 else f"handed over ({status})"
+            for status, outcome, e_n in rows
+        ]
+
+    return Bulk(lambda: answers(given, rtol), read)
+
+
+def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """All collisions through one queue."""
     from .peer_heyoka import collisions
 
     batch = collisions(scene, impacts, min(rtol, LOOSEST))  # looser, its energy misses the level that proves a stick
 
-    def every() -> list[Answer | str]:
-        batch.run()
-        return [
-            Answer(outcome, e_n) if outcome else "not decided"
-            for outcome, e_n in zip(batch.outcomes, batch.restitutions)
-        ]
+    def read(_: None) -> list[Answer | str]:
+        pairs = zip(batch.outcomes, batch.restitutions)
+        return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]
 
-    return every
+    return Bulk(batch.run, read)
 
 
-def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Answers:
+def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """All collisions side by side."""
     from .peer_diffrax import collisions
 

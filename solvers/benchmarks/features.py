@@ -6,24 +6,29 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from .. import locate as locating
 from ..compiled import compiler
+from ..many import OUTCOMES, collide_many
 from ..model import Model
 from ..phases import Phase
 from ..proofs import NoProof, Proof
 from ..scene import Scene
 from ..settings import RTOL
 from ..simulate import collide
-from .engines import engines
+from ..taylor import engine
 from .reference import Reference
 from .tasks import Impact, Task
 
-FEATURES = ("certificate", "ledger", "trajectory")
+FEATURES = ("certificate", "ledger", "trajectory", "rotation")
+TOGETHER = FEATURES[:3]
+IN_BULK = {"rosenbrock, compiled": "rosenbrock", "taylor": "taylor"}
 _FEW = 100  # collisions in one call that are not compiled for
+_MANY = 40  # times the collisions in one call of the kernel, so that what a call costs does not show
 _CUT = 3  # stretches of a phase without an event
 HORIZON = sum(locating.FIRST_STRETCH * locating.GROWTH**k for k in range(_CUT))  # x0/v0
 
@@ -45,16 +50,18 @@ class TimeCut(NoProof):
 def certificate(on: bool) -> Iterator[None]:
     """Collide with the proofs that hold for a scene, or with none."""
     module: Any = locating  # the flight asks this module for its proof
-    usual = module.proof_for
+    kernels: Any = engine
+    usual, variant = module.proof_for, kernels.Variant
 
     def none(_model: Model, _p: np.ndarray, _rtol: float) -> Proof:
         return TimeCut()
 
-    module.proof_for = usual if on else none
+    if not on:
+        module.proof_for, kernels.Variant = none, partial(variant, certificate=False)
     try:
         yield
     finally:
-        module.proof_for = usual
+        module.proof_for, kernels.Variant = usual, variant
 
 
 @dataclass(frozen=True)
@@ -72,7 +79,8 @@ class Cost:
 
 
 Setup = tuple[str, ...]
-_SETUPS: tuple[Setup, ...] = ((), *((name,) for name in FEATURES), FEATURES)
+_SETUPS: tuple[Setup, ...] = ((), *((name,) for name in TOGETHER), TOGETHER)
+_OF_MANY: tuple[Setup, ...] = ((), ("certificate",), ("rotation",))
 
 
 def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list[Cost]:
@@ -83,22 +91,20 @@ def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list
             each.impact for each in references if each.counts and (each.outcome == "stick") == (outcome == "stick")
         ]
         if impacts:
-            for engine in ("cvodes", "rosenbrock", "rosenbrock, compiled"):
-                found += _of_engine(task, engine, outcome, impacts, repeats)
+            for name in ("cvodes", "rosenbrock", *IN_BULK):
+                found += _of_engine(task, name, outcome, impacts, repeats)
     return found
 
 
-def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], repeats: int) -> list[Cost]:
-    """One engine's rows; the compiled one has neither ledger nor trajectory."""
-    compiled = engine == "rosenbrock, compiled"
+def _of_engine(task: Task, name: str, outcome: str, impacts: list[Impact], repeats: int) -> list[Cost]:
+    """One engine's rows; those of many collisions have neither ledger nor trajectory."""
+    compiled = name in IN_BULK
     if compiled and compiler() is None:
         return []
-    setups: tuple[Setup, ...] = ((), ("certificate",)) if compiled else _SETUPS
-    provable = task.scene.pendulum is None
-    setups = tuple(each for each in setups if provable or "certificate" not in each or len(each) > 1)
-    copies = 1 + _FEW // len(impacts) if compiled else 1
+    setups = _OF_MANY if compiled else _SETUPS
+    copies = (_MANY if name == "taylor" else 1 + _FEW // len(impacts)) if compiled else 1
     runs = {
-        on: _compiled(task.scene, impacts * copies) if compiled else _chained(task.scene, impacts, engine, on)
+        on: _in_bulk(task.scene, impacts * copies, name, on) if compiled else _chained(task.scene, impacts, name, on)
         for on in setups
     }
     best = dict.fromkeys(setups, float("inf"))
@@ -113,7 +119,7 @@ def _of_engine(task: Task, engine: str, outcome: str, impacts: list[Impact], rep
             changed[on] = sum((each == "stick") != (outcome == "stick") for each in outcomes) // copies
     count = len(impacts)
     return [
-        Cost(task.preset, engine, outcome, count, on, best[on] / (count * copies), best[on] / best[()], changed[on])
+        Cost(task.preset, name, outcome, count, on, best[on] / (count * copies), best[on] / best[()], changed[on])
         for on in setups
     ]
 
@@ -136,12 +142,12 @@ def _chained(scene: Scene, impacts: list[Impact], plugin: str, on: Setup) -> Cal
     return run
 
 
-def _compiled(scene: Scene, impacts: list[Impact]) -> Callable[[], list[str]]:
-    engine = next(each for each in engines() if each.name == "rosenbrock, compiled")
-    assert engine.many is not None
-    every = engine.many(scene, impacts, RTOL)
+def _in_bulk(scene: Scene, impacts: list[Impact], name: str, on: Setup) -> Callable[[], list[str]]:
+    stokes, angle = (np.array([getattr(each, what) for each in impacts]) for what in ("stokes", "angle"))
+    of = ("outcome", "restitution", *(["rotation"] if "rotation" in on else []))
 
     def run() -> list[str]:
-        return ["" if isinstance(each, str) else each.outcome for each in every()]
+        found = collide_many(scene, stokes=stokes, angle=angle, engine=IN_BULK[name], of=of)["outcome"].values
+        return [OUTCOMES[each] if each >= 0 else "" for each in found.tolist()]
 
     return run

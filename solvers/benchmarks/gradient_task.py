@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from ..errors import ComputationError
 from ..many import collide_many
 from ..model import choose, load
 from ..numbers import Numbers
@@ -78,18 +80,25 @@ class Gradients:
         return np.array([units for _, units in self._ways()])
 
     def by_casadi(self, method: str, engine: str, rtol: float, names: Sequence[str] | None = None) -> np.ndarray:
-        """`sensitivities` of one collision after the other: derivatives in theta, (collisions, parameters)."""
+        """`sensitivities` of one collision after the other: derivatives in theta, (collisions, parameters).
+
+        NaN where they are refused: at a loose tolerance a boundary is too near.
+        """
         wrt = list(self.names if names is None else names)
-        found = []
+        found: list[list[float | None]] = []
         for each in self.impacts:
-            one = sensitivities(
-                self.scene, ["restitution"], wrt, stokes=each.stokes, angle=each.angle,
-                method=method, engine=engine, rtol=rtol,
-            )  # fmt: skip
+            try:
+                one = sensitivities(
+                    self.scene, ["restitution"], wrt, stokes=each.stokes, angle=each.angle,
+                    method=method, engine=engine, rtol=rtol,
+                )  # fmt: skip
+            except ComputationError:
+                found.append([math.nan] * len(wrt))
+                continue
             row = one.gradient["restitution"]
             assert row is not None  # it separates
             found.append([row[name] for name in wrt])
-        rows: np.ndarray = np.array(found) * self.units[:, [self.names.index(name) for name in wrt]]
+        rows: np.ndarray = np.array(found, dtype=float) * self.units[:, [self.names.index(name) for name in wrt]]
         return rows
 
     @cached_property

@@ -15,7 +15,7 @@ from .engines import in_bulk
 Record = dict[str, Any]
 
 SIZES = (1, 10, 100, 1_000, 10_000, 100_000, 1_000_000)
-PATIENCE = 25.0  # s: a size that would take longer, by the one before, is left out
+PATIENCE = 10.0  # s: a size that would take longer, by the one before, is left out
 PROGRAM = """
 import json, os, resource, sys, time
 engine, count, cores = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])

@@ -15,7 +15,7 @@ from ..errors import ComputationError
 from ..locate import Locate
 from ..model import choose, load
 from ..scene import Scene
-from .engines import Answer, dimensionless
+from .engines import Answer, Bulk, dimensionless
 from .peer_heyoka import starts
 from .tasks import Impact
 from .translated import translated
@@ -24,7 +24,7 @@ _HORIZON, _STEPS, _PHASES = 1e10, 20_000, 12
 _RUNNING, _SEPARATED, _STUCK, _FAILED = range(4)
 
 
-def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Callable[[], list[Answer | str]]:
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """All impacts in one call; compiled at the first. ComputationError for what it does not do."""
     import jax
 
@@ -40,8 +40,11 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Callable
     reversed_ = np.array([each.reversed for each in begun])
     run = jax.jit(jax.vmap(_flight(choice, names, flights[0].watch.certificate, rtol)))
 
-    def every() -> list[Answer | str]:
-        ended, e_n, met = (np.asarray(each) for each in run(states, parameters, reversed_))
+    def every() -> list[np.ndarray]:
+        return [np.asarray(each) for each in run(states, parameters, reversed_)]
+
+    def read(found: list[np.ndarray]) -> list[Answer | str]:
+        ended, e_n, met = found
         outcomes = np.where(ended == _STUCK, "stick", np.where(met, "bounce", "stick-rotate-separate"))
         return [
             Answer(str(outcome), float(value) if code == _SEPARATED else 0.0)
@@ -50,7 +53,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Callable
             for code, outcome, value in zip(ended, outcomes, e_n)
         ]
 
-    return every
+    return Bulk(every, read)
 
 
 def _flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:

@@ -19,12 +19,13 @@ from ..errors import ComputationError
 from ..locate import CRITERIA, Locate
 from ..model import Choice, choose, load
 from ..numbers import Numbers
+from ..proofs.choice import energy_proof
 from ..scene import Scene
 from .tasks import Impact
 from .translated import translated
 
-_HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
-_STEPS = 2000  # of a collision, on average, after which all are given up
+HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
+STEPS = 2000
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
 
@@ -63,8 +64,12 @@ class System:
     varying: tuple[str, ...]
 
 
-def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | None) -> System:
-    """The equations of these collisions; what is the same for all of them is written in."""
+def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | None, inside: bool = False) -> System:
+    """The equations of these collisions; what is the same for all of them is written in.
+
+    Arguments:
+        inside: coming below a gap, the last parameter, is an event.
+    """
     import heyoka
 
     structure, laws = translated(choice, elementary)
@@ -81,6 +86,8 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | 
         events["elastic"] = found["elastic"]
     events["rough"] = found["rough"]
     events["rupture"] = found["rupture"]
+    if inside:
+        events["inside"] = y["gap"] - heyoka.par[len(varying) + 3]
     if bridge:
         events["film_edge"] = found["film_edge"]
     if proved == "energy":
@@ -122,6 +129,7 @@ class Batch:
 
     Arguments:
         dry: restitution of the dry contact.
+        steps: of a collision, on average, after which all are given up.
     """
 
     integrator: Any = None
@@ -131,6 +139,7 @@ class Batch:
     lanes: list[Lane] = field(default_factory=list)
     queue: Any = None
     left: int = 0
+    steps: int = STEPS
     outcomes: list[str] = field(default_factory=list)
     restitutions: list[float] = field(default_factory=list)
 
@@ -145,7 +154,7 @@ class Batch:
             ta.reset_cooldowns(lane)
             ta.state[:, lane], ta.pars[:, lane] = self.starts[0].state, self.starts[0].parameters
             self._next(lane)
-        ta.propagate_until(np.full(size, _HORIZON), max_steps=_STEPS * (1 + count // size))
+        ta.propagate_until(np.full(size, HORIZON), max_steps=self.steps * (1 + count // size))
 
     def _next(self, lane: int) -> bool:
         """Give a lane its next collision; freeze it if there is none. True while any lane is at work."""
@@ -190,16 +199,31 @@ class Batch:
             ta.pars[self.film, lane] = 1.0 if ta.state[1, lane] < 0 else 0.0
             return True
 
+        def inside(ta: Any, _: int, lane: int) -> bool:
+            """A barrier inside the film is ahead from here on."""
+            flight = self.starts[self.lanes[lane].collision].flight
+            level = flight.proof.level(ta.state[:, lane].copy(), flight.phase)
+            ta.pars[self.film + 2, lane] = _NEVER if level is None else level
+            return self.ended(lane, False) if self._proved(lane) else True
+
         if event in ("glass", "elastic", "rough"):
             return reverses
+        if event == "inside":
+            return inside
         if event == "film_edge":
             return edge
         separated = event == "rupture"
         return lambda _ta, _sign, lane: self.ended(lane, separated)
 
 
-def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = BATCH, **options: Any) -> Batch:
+def prepare(
+    scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = BATCH, inside: bool = False, **options: Any
+) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
+
+    Arguments:
+        inside: watch for barriers inside the film, which are not ahead at first touch; only beside a separatrix a stick
+            is not proved without.
 
     ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
     """
@@ -213,9 +237,12 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
     if any(flight.watch.tangential_edge for flight in flights):
         raise ComputationError("the tangential edge lies within reach")
     proved = flights[0].proof.watches
-    equations = system(choice, [each.groups for each in numbers], proved)
+    equations = system(choice, [each.groups for each in numbers], proved, inside)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
     batch.starts = starts(flights, numbers, equations.varying)
+    if inside:
+        for start in batch.starts:
+            start.parameters = np.append(start.parameters, _below(start))
     if not proved:  # heyoka wants no parameter that is not used
         for start in batch.starts:
             start.parameters = start.parameters[:-1]
@@ -239,6 +266,13 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = B
     return batch
 
 
+def _below(start: Start) -> float:
+    """The gap just below the outermost barrier."""
+    proof = energy_proof(start.flight.proof)
+    barriers = () if proof is None else proof.barriers(start.flight.y)
+    return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
+
+
 def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Sequence[str]) -> list[Start]:
     """State and parameters at first touch; a criterion that is met there reverses there.
 
@@ -257,8 +291,8 @@ def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Seque
     return found
 
 
-def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Batch:
-    """The batch of a scene's impacts."""
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False) -> Batch:
+    """The batch of a scene's impacts; as `prepare`."""
     from .engines import dimensionless
 
-    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol)
+    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside)

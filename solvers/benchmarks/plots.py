@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from .features import FEATURES
+from .plots_more import gradient_curves, near_curves
 
 Record = dict[str, Any]
 
@@ -21,13 +22,19 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "rosenbrock": ("#D55E00", "s", "-"),
     "rosenbrock, compiled": ("#009E73", "D", "-"),
     "taylor": ("#E69F00", "*", "-"),
+    "taylor, kernel alone": ("#E69F00", "1", ":"),
     "heyoka, batch of 8": ("#56B4E9", "P", "--"),
     "sundae CVODE, numba": ("#8C6D31", "X", "--"),
     "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
 }
-_FILLS = {"certificate": ("#0072B2", ""), "ledger": ("#E69F00", "//"), "trajectory": ("#56B4E9", "..")}
+_FILLS = {
+    "certificate": ("#0072B2", ""),
+    "ledger": ("#E69F00", "//"),
+    "trajectory": ("#56B4E9", ".."),
+    "rotation": ("#009E73", "xx"),
+}
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
 
 
@@ -38,6 +45,10 @@ def draw(record: Record, folder: Path) -> list[Path]:
         pictures = [("work.png", work_error), ("cost.png", cost_bars)]
         if record["growth"]:
             pictures.append(("growth.png", growth_curves))
+        if record["near"]:
+            pictures.append(("near.png", near_curves))
+        if record["gradient_work"]:
+            pictures.append(("gradients.png", gradient_curves))
         for name, make in pictures:
             files.append(folder / name)
             make(record).savefig(files[-1], dpi=200)
@@ -117,10 +128,10 @@ def cost_bars(record: Record) -> Figure:
     rows = _rows(record)
     figure = Figure(figsize=(7.2, 1.4 + 0.46 * len(rows)), layout="constrained")
     axes = figure.add_subplot()
-    height = 0.26
+    height = 0.2
     for position, feature in enumerate(FEATURES):
         there = [(k, ratios[feature]) for k, (_, ratios) in enumerate(rows) if feature in ratios]
-        places = [k + (position - 1) * height for k, _ in there]
+        places = [k + (position - 1.5) * height for k, _ in there]
         colour, hatch = _FILLS[feature]
         style: Any = {"color": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
         axes.barh(places, [ratio - 1 for _, ratio in there], height, left=1.0, label=feature, **style)
@@ -143,11 +154,11 @@ def cost_bars(record: Record) -> Figure:
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
     ratios = [ratio for _, each in rows for ratio in each.values()] or [1.0]
-    axes.set_xlim(min(0.8, 0.65 * min(ratios)), max(1.5, 1.3 * max(ratios)))
+    axes.set_xlim(min(0.8, 0.65 * min(ratios)), max(1.5, 1.6 * max(ratios)))
     axes.grid(True, axis="x", which="major", linewidth=0.4, color="#CCCCCC")
     axes.set_axisbelow(True)
     axes.set_xlabel("CPU time with one feature on, over that of the bare collision (= 1)")
-    figure.legend(loc="outside upper center", ncols=3, frameon=False)
+    figure.legend(loc="outside upper center", ncols=4, frameon=False)
     return figure
 
 

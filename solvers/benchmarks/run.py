@@ -8,19 +8,22 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from .cold import cold_start
+from .cold import cold_start, first_use
 from .engines import Engine, engines
 from .environment import environment, one_core
 from .features import HORIZON, Cost, costs
+from .gradient_work import gradient_work
 from .growth import growth
 from .lines import lines
+from .near import near
 from .needs import gradients, structures
 from .reference import Reference, references
+from .sharp import sharp
 from .tasks import SEED, TASKS, Task
-from .work import REPEATS, SETS, TOLERANCES, Point, Tell, work
+from .work import FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work
 
 Record = dict[str, Any]
-MORE = ("structures", "gradients", "lines", "growth")
+MORE = ("structures", "gradients", "gradient_work", "sharp", "near", "lines", "growth", "first_use")
 
 
 def bench(
@@ -31,6 +34,7 @@ def bench(
     which: Sequence[Engine] | None = None,
     more: Sequence[str] = MORE,
     tell: Tell = lambda _: None,
+    fine: Sequence[float] = FINE,
 ) -> Record:
     """Run the benchmark.
 
@@ -39,6 +43,7 @@ def bench(
         which: engines; by default all that are there.
         more: what else is measured, of MORE.
         tell: is told what goes on.
+        fine: tolerances of engines that are fast.
 
     Returns:
         A record that JSON can hold: environment, settings, engines, tasks (references, points, costs), cold start.
@@ -48,19 +53,33 @@ def bench(
     all_engines = engines() if which is None else which
     tell("cold start")
     started = cold()
+    others: dict[str, Any] = {name: [] for name in MORE}
+    alone: dict[str, Callable[[], Any]] = {
+        "structures": structures,
+        "gradients": gradients,
+        "gradient_work": lambda: gradient_work(tasks, repeats, tell),
+        "sharp": lambda: sharp(tell),
+        "near": lambda: near(tell),
+        "lines": lines,
+    }
     with one_core():
-        found = [_task(task, all_engines, tolerances, repeats, tell) for task in tasks]
-        others = {}
-        for name, measure in (("structures", structures), ("gradients", gradients), ("lines", lines)):
+        found = [_task(task, all_engines, tolerances, repeats, tell, fine) for task in tasks]
+        for name, measure in alone.items():
+            if name in more:
+                tell(name)
+                others[name] = measure()
+    for name, measure in (("growth", lambda: growth(tell)), ("first_use", first_use)):
+        if name in more:
             tell(name)
-            others[name] = measure() if name in more else []
-    others["growth"] = growth(tell) if "growth" in more else []
+            others[name] = measure()
     return {
         "environment": where,
         "settings": {
             "seed": SEED,
             "tolerances": list(tolerances),
             "repeats": repeats,
+            "fine": list(fine),
+            "often": OFTEN,
             "sets": SETS,
             "horizon": HORIZON,
         },
@@ -72,10 +91,17 @@ def bench(
     }
 
 
-def _task(task: Task, all_engines: Sequence[Engine], tolerances: Sequence[float], repeats: int, tell: Tell) -> Record:
+def _task(
+    task: Task,
+    all_engines: Sequence[Engine],
+    tolerances: Sequence[float],
+    repeats: int,
+    tell: Tell,
+    fine: Sequence[float],
+) -> Record:
     tell(f"{task.preset}: reference values")
     truths = references(task.scene, task.impacts())
-    points = work(task, truths, all_engines, tolerances, repeats, tell)
+    points = work(task, truths, all_engines, tolerances, repeats, tell, fine)
     tell(f"{task.preset}: certificate, ledger, trajectory")
     return {
         "preset": task.preset,

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from ..changes import GRAZE
+from .markdown import ms, table
 from .stress import DISAGREEMENTS, WORST, Stress, record
 from .stress_check import Issue, Verdict
-from .tables import ms, table
 
 
 def write(found: Stress, folder: Path) -> list[Path]:

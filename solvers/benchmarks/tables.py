@@ -3,38 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from statistics import median
 from typing import Any
 
-from .features import FEATURES
+from .cold import cold_table, first_table
+from .features import FEATURES, TOGETHER
+from .gradient_work import gradient_work_text
+from .lines import line_table
+from .markdown import ms, table, us
+from .near import near_text
+from .sharp import sharp_text
 
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
 
 Record = dict[str, Any]
-
-
-def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table whose columns also line up as text; the first is left-aligned."""
-    widths = [max(len(row[k]) for row in (head, *rows)) for k in range(len(head))]
-
-    def line(cells: Sequence[str]) -> str:
-        padded = [
-            cell.ljust(width) if k == 0 else cell.rjust(width) for k, (cell, width) in enumerate(zip(cells, widths))
-        ]
-        return "| " + " | ".join(padded) + " |"
-
-    rule = [("-" * width if k == 0 else "-" * (width - 1) + ":") for k, width in enumerate(widths)]
-    return "\n".join([line(head), line(rule), *(line(row) for row in rows)])
-
-
-def ms(seconds: float) -> str:
-    """Milliseconds with three digits."""
-    return f"{seconds * 1e3:#.3g}".removesuffix(".")
-
-
-def us(seconds: float) -> str:
-    """Microseconds with three digits."""
-    return f"{seconds * 1e6:.3g}" if seconds < 1e-3 else f"{seconds * 1e6:.0f}"
 
 
 def _error(value: float | None) -> str:
@@ -50,7 +31,7 @@ def report(record: Record) -> str:
             parts += [work_table(task), equal_error(task), failures(task)]
     parts += ["## What a feature costs", cost_table(record), cost_note(record)]
     parts += others(record)
-    parts += ["## Cold start", cold_table(record)]
+    parts += ["## Cold start", cold_table(record["cold_start"])]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -99,7 +80,7 @@ def work_table(task: Record) -> str:
         s = point["summary"]
         times = [us(s[name]) for name in ("cpu_median", "cpu_mean", "wall_mean")]
         errors = [_error(s["error_largest"]), _error(s["error_median"])]
-        rows.append([point["engine"], f"{point['rtol']:.0e}", *times, *errors, str(s["wrong"]), str(s["failed"])])
+        rows.append([point["engine"], f"{point['rtol']:.1e}", *times, *errors, str(s["wrong"]), str(s["failed"])])
     rows.sort(key=lambda row: [each["engine"] for each in task["points"]].index(row[0]))
     head = ["engine", "rtol", "CPU us: median", "mean", "wall us: mean"]
     return table([*head, "error in e_n: largest", "median", "wrong", "failed"], rows)
@@ -139,7 +120,7 @@ def failures(task: Record) -> str:
             if what := run["failure"] or wrong:
                 where = f"St {truth['stokes']:.4g} at {truth['angle']:.4g} deg"
                 said.setdefault((point["engine"], point["rtol"], what), []).append(where)
-    lines = [f"* {engine}, rtol {rtol:.0e}, {_some(places)}: {what}" for (engine, rtol, what), places in said.items()]
+    lines = [f"* {engine}, rtol {rtol:.1e}, {_some(places)}: {what}" for (engine, rtol, what), places in said.items()]
     return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else "No failures, no wrong outcomes."
 
 
@@ -160,10 +141,10 @@ def cost_table(record: Record) -> str:
             if len(found) == 1:
                 continue  # nothing that could be switched on
             ratios = [
-                f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), FEATURES)
+                f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), TOGETHER)
             ]
             rows.append([f"{task['preset']}, {count} {outcome}", engine, ms(found[()]["cpu"]), *ratios])
-    return table(["collisions", "engine", "bare ms", *FEATURES, "all three"], rows)
+    return table(["collisions", "engine", "bare ms", *FEATURES, "the first three"], rows)
 
 
 def cost_note(record: Record) -> str:
@@ -171,8 +152,8 @@ def cost_note(record: Record) -> str:
     changed = max((cost["changed"] for task in record["tasks"] for cost in task["costs"]), default=0)
     return (
         "Mean CPU time at rtol 1e-9; ratios to the bare collision. Without a certificate a stick ends when nothing has "
-        f"happened for {record['settings']['horizon']:g} x0/v0, unproved; a longer wait would cost more. Strings have "
-        "no certificate; compiled integrators keep neither ledger nor trajectory. "
+        f"happened for {record['settings']['horizon']:g} x0/v0, unproved; a longer wait would cost more. Engines of "
+        "many collisions keep neither ledger nor trajectory; the others always know the rotation. "
         + (f"Up to {changed} outcomes of a group changed." if changed else "No outcome changed.")
     )
 
@@ -183,11 +164,19 @@ def others(record: Record) -> list[str]:
     if record["structures"]:
         parts += ["## What a scene does not need, it does not pay for", structure_table(record["structures"])]
     if record["gradients"]:
-        parts += ["## Gradients", gradient_table(record["gradients"])]
+        parts += ["## What a gradient adds to a collision", gradient_table(record["gradients"])]
+    if record["gradient_work"]:
+        parts += ["## Gradients to twelve parameters, beside peers", gradient_work_text(record["gradient_work"])]
+    if record["sharp"]:
+        parts += ["## How exact an answer can be asked for", sharp_text(record["sharp"])]
+    if record["near"]:
+        parts += ["## Near the separatrix", near_text(record["near"])]
     if record["lines"]:
-        parts += ["## Boundaries, traced and bisected", line_table(record["lines"])]
+        parts += ["## Boundaries, traced and searched for", line_table(record["lines"])]
     if record["growth"]:
         parts += ["## From one collision to many", growth_table(record["growth"])]
+    if record["first_use"]:
+        parts += ["## First use", first_table(record["first_use"])]
     return parts
 
 
@@ -206,24 +195,6 @@ def gradient_table(found: Sequence[Record]) -> str:
     return table(["method", "parameters", "CPU ms", "times the collision"], rows)
 
 
-def line_table(found: Sequence[Record]) -> str:
-    """Collisions and time a point, both ways."""
-    rows = [
-        [
-            f"{each['preset']}, {each['angles']} angles",
-            str(each["points"]),
-            *(f"{each[way]['collisions'] / each['points']:.1f}" for way in ("traced", "bisected")),
-            *(ms(each[way]["wall"] / each["points"]) for way in ("traced", "bisected")),
-            f"{each['bisected']['wall'] / each['traced']['wall']:.1f}",
-            f"{each['apart']:.0e}",
-            str(each["lines_apart"]),
-        ]
-        for each in found
-    ]
-    head = ["boundary", "points", "collisions a point: traced", "bisected", "ms a point: traced", "bisected", "ratio"]
-    return table([*head, "largest difference in ln St", "angles where the scan missed a change"], rows)
-
-
 def growth_table(found: Sequence[Record]) -> str:
     """Wall and CPU time a collision, and memory, by size."""
     rows = []
@@ -234,15 +205,3 @@ def growth_table(found: Sequence[Record]) -> str:
         rows.append([each["engine"], str(each["cores"]), str(per), *times, memory])
     head = ["engine", "cores", "collisions", "wall us each", "CPU us each", "wall s", "peak memory MB (grown)"]
     return table(head, rows)
-
-
-def cold_table(record: Record) -> str:
-    """Wall times of fresh processes."""
-    taken = record["cold_start"]
-    least = {name: min(times) for name, times in taken.items()}
-    base = least.get("import casadi")
-    rows = [
-        [name, f"{least[name]:.3f}", f"{median(times):.3f}", f"{least[name] / base:.2f}" if base else "-"]
-        for name, times in taken.items()
-    ]
-    return table(["process", "best s", "median s", "times import casadi"], rows)

@@ -11,15 +11,19 @@ import numpy as np
 
 from ..errors import ComputationError
 from ..scene import Scene
-from .engines import Answer, Answers, Engine
+from .engines import Answer, Bulk, Engine
 from .reference import Reference
 from .tasks import Impact, Task
 
 TOLERANCES = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
+FINE = tuple(
+    10 ** (-0.5 * k) for k in range(12, 27)
+)  # of fast engines: a coarse step would cost them more than it tells
 REPEATS = 3  # the best of so many counts
+OFTEN = 7  # times as many of fast engines
 SETS = 20  # times the collisions are repeated within one call of an engine that takes many
 _LONG = 0.05  # s: a collision that takes longer is not repeated
-_DEAR = 5.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
+_DEAR = 2.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
 
 Tell = Callable[[str], None]
 
@@ -102,33 +106,39 @@ def work(
     tolerances: Sequence[float] = TOLERANCES,
     repeats: int = REPEATS,
     tell: Tell = lambda _: None,
+    fine: Sequence[float] = FINE,
 ) -> list[Point]:
-    """Measure all engines that are there; they take turns, so that a busy machine slows all alike."""
+    """Measure all engines that are there; they take turns, so that a busy machine slows all alike.
+
+    Arguments:
+        fine: tolerances of engines that are fast.
+    """
     counted = [each for each in references if each.counts]
     impacts = [each.impact for each in counted]
     if not impacts:
         return []
     ready: list[tuple[Engine, Point, Work]] = []
     dear: set[str] = set()
-    for rtol in sorted(tolerances, reverse=True):
-        for engine in engines:
-            if engine.missing or engine.name in dear:
-                continue
-            tell(f"{task.preset}: {engine.name} {rtol:.0e}")
-            point = Point(task.preset, engine.name, rtol, [Timed() for _ in impacts], counted)
-            one = _prepared(engine, task.scene, impacts, rtol, point)
-            if engine.builds:
-                one()  # builds and caches whatever is needed; what it takes does not count
-                point.timed[:] = [Timed() for _ in impacts]
-            start = time.process_time()
-            one()
-            if time.process_time() - start > _DEAR:
-                dear.add(engine.name)
-            ready.append((engine, point, one))
+    asked = [(each, rtol) for each in engines for rtol in sorted(fine if each.fast else tolerances, reverse=True)]
+    for engine, rtol in asked:
+        if engine.missing or engine.name in dear:
+            continue
+        tell(f"{task.preset}: {engine.name} {rtol:.1e}")
+        point = Point(task.preset, engine.name, rtol, [Timed() for _ in impacts], counted)
+        one = _prepared(engine, task.scene, impacts, rtol, point)
+        if engine.builds:
+            one()  # builds and caches whatever is needed; what it takes does not count
+            point.timed[:] = [Timed() for _ in impacts]
+        start = time.process_time()
+        one()
+        if time.process_time() - start > _DEAR:
+            dear.add(engine.name)
+        ready.append((engine, point, one))
     for turn in range(1, repeats):
-        for _, point, one in ready:
+        for engine, point, one in ready:
             tell(f"{task.preset}: {turn + 1}/{repeats} {point.engine} {point.rtol:.0e}")
-            one()
+            for _ in range(OFTEN if engine.fast else 1):
+                one()
     return [point for _, point, _ in ready]
 
 
@@ -139,11 +149,11 @@ def _prepared(engine: Engine, scene: Scene, impacts: list[Impact], rtol: float, 
     """A pass over all collisions that leaves what it found in the point; a long collision is not repeated."""
     if engine.many is not None:
         try:
-            every = engine.many(scene, impacts * SETS, rtol)
+            bulk = engine.many(scene, impacts * SETS, rtol)
         except ComputationError as error:
             said = str(error)
-            every = lambda: [said] * (SETS * len(impacts))  # noqa: E731 # stands for the engine
-        return lambda: _shared(every, point)
+            bulk = Bulk(lambda: None, lambda _: [said] * (SETS * len(impacts)))
+        return lambda: _shared(bulk, point)
     assert engine.one is not None
     one = engine.one(scene, impacts, rtol)
 
@@ -155,12 +165,13 @@ def _prepared(engine: Engine, scene: Scene, impacts: list[Impact], rtol: float, 
     return work
 
 
-def _shared(every: Answers, point: Point) -> None:
+def _shared(bulk: Bulk, point: Point) -> None:
     """One call for SETS times all collisions; each has its part of the time, and is wrong if it ever was."""
     cpu, wall = time.process_time(), time.perf_counter()
-    found = every()
-    cpu, wall = ((now - then) / len(found) for now, then in ((time.process_time(), cpu), (time.perf_counter(), wall)))
-    count = len(point.timed)
+    result = bulk.run()
+    cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
+    found, count = bulk.read(result), len(point.timed)
+    cpu, wall = cpu / len(found), wall / len(found)
     for k, timed in enumerate(point.timed):
         answers, truth = found[k::count], point.references[k]
         worst = max(answers, key=lambda each: math.inf if isinstance(each, str) else _off(each, truth))

@@ -72,6 +72,7 @@ class Variant:
         gradients: derivatives by the groups are carried along.
         ledger: what the forces take is integrated along; the structure must keep the spin.
         trajectory: every step is written as it was taken.
+        certificate: sticks are proved; without, flights are given up after a time (for what a proof is worth).
     """
 
     choice: Choice
@@ -81,6 +82,7 @@ class Variant:
     gradients: bool = False
     ledger: bool = False
     trajectory: bool = False
+    certificate: bool = True
 
 
 @cache
@@ -117,6 +119,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
+        "CERTIFICATE": int(variant.certificate),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
         "LIBRARY_LAWS": int(variant.choice.package is None),

@@ -2,7 +2,8 @@
 
     python tests/benchmarks/page.py [FOLDER]
 
-FOLDER (docs/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if it was run, stress.json.
+FOLDER (docs/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if it was run, stress.json. With
+the usual folder also the figures on the front page, README.md, between its marks.
 """
 
 from __future__ import annotations
@@ -13,9 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from wetdoublet.solvers.benchmarks import tables
-from wetdoublet.solvers.benchmarks.tables import ms, table
+from wetdoublet.solvers.benchmarks.cold import cold_table
+from wetdoublet.solvers.benchmarks.markdown import ms, table
+from wetdoublet.solvers.benchmarks.targets import headline, target_table
 
 Record = dict[str, Any]
+
+README = Path(__file__).resolve().parents[2] / "README.md"
+BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 
 
 def page(bench: Record, flags: Record, share: Record, stress: Record | None, folder: str) -> str:
@@ -24,6 +30,8 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
         "# Performance",
         INTRODUCTION.format(folder=folder),
         tables.surroundings(bench),
+        "## What was aimed at",
+        target_table(bench),
         "## Run time against achieved error",
         f"![Work against error]({folder}/work.png)",
         WORK,
@@ -31,17 +39,23 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
     for task in bench["tasks"]:
         parts += [f"### {task['preset']}", tables.sample(task), tables.equal_error(task), tables.work_table(task)]
         parts += [tables.failures(task)]
-    parts += ["## What a certificate, a ledger and a trajectory cost", f"![Cost of features]({folder}/cost.png)"]
+    parts += [
+        "## What a certificate, a ledger, a trajectory and the rotation cost",
+        f"![Cost of features]({folder}/cost.png)",
+    ]
     parts += [tables.cost_table(bench), tables.cost_note(bench)]
-    parts += tables.others(bench)
-    if bench["growth"]:
-        parts.append(f"![Growth]({folder}/growth.png)")
-    parts += ["## Cold start", tables.cold_table(bench)]
+    pictures = {"Near": "near.png", "Gradients to": "gradients.png", "From one": "growth.png"}
+    for part in tables.others(bench):
+        parts.append(part)
+        parts += [
+            f"![{part[3:]}]({folder}/{name})" for start, name in pictures.items() if part.startswith(f"## {start}")
+        ]
+    parts += ["## Cold start", cold_table(bench["cold_start"])]
     if stress is not None:
         parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
         parts += [stress["tables"]["disagreements"], stress["tables"]["failures"], stress["tables"]["engines"]]
         parts += [stress["tables"]["ledgers"], f"![Error and cost]({folder}/stress-map.png)"]
-        parts += ["### Near the separatrix", f"![Near the separatrix]({folder}/stress-near.png)"]
+        parts += ["### Points beside boundaries", f"![Points beside boundaries]({folder}/stress-near.png)"]
         parts += [stress["tables"]["near"]]
     parts += ["## Why integrators are compiled with -O1", flags_table(flags), flags_text(flags)]
     parts += ["## Why CVODES is told rtol/30", SHARE, share_table(share), share_text(share)]
@@ -54,15 +68,17 @@ It is made anew by `python tests/benchmarks/measure.py` (see [tests/benchmarks](
 The cores were shared: read the ratios."""
 
 WORK = """\
-A point is one engine at one tolerance (1e-5 to 1e-13 in steps of 100): mean CPU time of a collision that is not decided
+A point is one engine at one tolerance (1e-5 to 1e-13 in steps of 100; taylor and heyoka 1e-6 to 1e-13 at every half
+decade, and run more often): mean CPU time of a collision that is not decided
 at first touch, against the largest absolute error in e_n among those that separate. Everything runs on one core.
 
 * **The same for all**: equations from the emitted modules, stop rule, stick certificate with its margin.
 * **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the impact is checked, the path located
   (by the interpreted Rosenbrock), then flown again by the engine, and a result made with its SI quantities. Locating is
   never looser than 1e-6.
-* **Engines of many collisions** (`rosenbrock, compiled` and others by `collide_many`, heyoka, diffrax) get the whole
-  set twenty times in one call; what they compile is not counted.
+* **Engines of many collisions** (`rosenbrock, compiled` and `taylor` by `collide_many` of outcome and restitution, the
+  kernel without what that adds, heyoka, diffrax) get the whole set twenty times in one call; what they compile is not
+  counted.
 * **heyoka**: `taylor_adaptive_batch` with terminal events whose callbacks reverse, and refill a lane from the queue;
   8 lanes of AVX-512, groups that do not vary written in as numbers, not in compact mode (which is 1.5 times slower).
   Never looser than 1e-6 either: looser, the energy misses the level that proves a stick. Deciding at first touch and
@@ -72,8 +88,9 @@ at first touch, against the largest absolute error in e_n among those that separ
   functions with parameters bound once. Both stop at terminal events, with the rules of our own flights between them.
   scipy's look for grazing minima afterwards, CVODE does not.
 * **diffrax**: Tsit5, jitted and vectorised over the set, its own events with a Newton root finder.
-* An engine whose collisions take more than five seconds at one tolerance is not asked for the next.
-* A peer that is not installed is named at the top, and so is a compiler that is missing.
+* An engine whose collisions take more than two seconds at one tolerance is not asked for the next.
+* A peer that is not installed is named at the top, and so is a compiler that is missing. AMICI is not among the peers:
+  there is no model of a collision for it here.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Where an error is below the difference to
   the next best computation (grey in the plot), it cannot be told from the reference's own."""
 
@@ -161,6 +178,15 @@ def main() -> None:
     stress = folder / "stress.json"
     found = json.loads(stress.read_text()) if stress.is_file() else None
     folder.with_suffix(".md").write_text(page(*records, found, folder.name), encoding="utf-8")
+    if folder.resolve() == README.parent / "docs" / "performance":
+        README.write_text(fronted(README.read_text(encoding="utf-8"), records[0]), encoding="utf-8")
+
+
+def fronted(text: str, bench: Record) -> str:
+    """The front page with the figures of a record between its marks."""
+    before, _, rest = text.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    return f"{before}{BEGIN}\n{headline(bench)}\n{END}{after}" if after else text
 
 
 if __name__ == "__main__":

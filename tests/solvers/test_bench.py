@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers import ComputationError, Scene, collide, collide_many
 from wetdoublet.solvers import locate as locating
 from wetdoublet.solvers.benchmarks import features, lines, needs
 from wetdoublet.solvers.benchmarks import growth as growing
@@ -20,15 +20,16 @@ from wetdoublet.solvers.benchmarks import work as working
 from wetdoublet.solvers.benchmarks.cold import COMMANDS
 from wetdoublet.solvers.benchmarks.engines import Answer, Engine, answer, engines
 from wetdoublet.solvers.benchmarks.features import HORIZON, certificate
+from wetdoublet.solvers.benchmarks.markdown import table
 from wetdoublet.solvers.benchmarks.record import write
 from wetdoublet.solvers.benchmarks.reference import Reference, reference
-from wetdoublet.solvers.benchmarks.tables import equal_error, failures, report, table
+from wetdoublet.solvers.benchmarks.tables import equal_error, failures, report
 from wetdoublet.solvers.benchmarks.tasks import TASKS, Impact, Task
 from wetdoublet.solvers.benchmarks.work import work
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 
-OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor")
+OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor", "taylor, kernel alone")
 TINY = (Task("granulation", 3, (0.02, 0.5), 85.0), Task("pendulum", 2, (1.0, 3.0), 80.0))
 
 
@@ -40,10 +41,9 @@ def record() -> dict[str, Any]:
     absent = Engine("gone", missing="gone is not installed")
     with pytest.MonkeyPatch.context() as patch:  # fewer copies: nothing is timed, and nothing compiled
         patch.setattr(working, "SETS", 2)
-        patch.setattr(features, "_FEW", 2)
-        return running.bench(
-            TINY, (1e-5, 1e-7), 1, lambda: {name: [0.2, 0.1] for name in COMMANDS}, [*which, absent], ()
-        )
+        patch.setattr(features, "IN_BULK", {})
+        cold = {name: [0.2, 0.1] for name in COMMANDS}
+        return running.bench(TINY, (1e-5, 1e-7), 1, lambda: cold, [*which, absent], (), fine=(1e-7, 1e-9))
 
 
 def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
@@ -118,7 +118,9 @@ def test_record_is_complete(record: dict[str, Any]) -> None:
     for task in record["tasks"]:
         counted = [each for each in task["collisions"] if not each["decided_at_first_touch"]]
         assert counted
-        assert [(p["engine"], p["rtol"]) for p in task["points"]] == [(n, r) for r in (1e-5, 1e-7) for n in there]
+        fast = ("taylor", "taylor, kernel alone")
+        asked = [(name, rtol) for name in there for rtol in ((1e-7, 1e-9) if name in fast else (1e-5, 1e-7))]
+        assert [(p["engine"], p["rtol"]) for p in task["points"]] == asked
         for point in task["points"]:
             assert len(point["runs"]) == len(counted)
             assert point["summary"]["wrong"] == point["summary"]["failed"] == 0
@@ -187,6 +189,10 @@ def test_certificate_can_be_taken_away() -> None:
     proved = collide(scene, **impact, ledger=False)
     assert (bare.outcome, bare.certified) == ("stick", False)
     assert (proved.outcome, proved.certified) == ("stick", True)
+    with certificate(False):
+        by_kernel = collide_many(scene, **impact, rtol=1e-9, engine="taylor")
+    assert (int(by_kernel.outcome[0]), bool(by_kernel.certified[0])) == (0, False)
+    assert bool(collide_many(scene, **impact, rtol=1e-9, engine="taylor").certified[0])
     scale = scene.liquid.film_thickness / bare.speed
     assert bare.until is not None
     assert proved.until is not None
@@ -244,10 +250,14 @@ def test_bisection_finds_the_traced_boundaries() -> None:
     from wetdoublet.solvers import boundary
 
     scene, angle = Scene.load("granulation"), float(np.radians(60.0))
-    found, taken = lines.bisected(scene, angle)
-    traced = boundary(scene, angle=angle, stokes=lines.STOKES).changes[0]
-    assert found == pytest.approx([each.stokes for each in traced], rel=1e-7)
-    assert taken > 20 * len(found)
+    traced = [each.stokes for each in boundary(scene, angle=angle, stokes=lines.STOKES).changes[0]]
+    outcomes = lines.in_bulk(scene, 1e-9)
+    for parts, least in ((2, 20), (9, 40)):
+        (found,), taken = lines.searched(outcomes, np.array([angle]), parts, 1e-8)
+        assert found == pytest.approx(traced, rel=1e-7)
+        assert taken > least * len(found)
+    (again,), _ = lines.searched(outcomes, np.array([angle]), 9, 1e-8, [traced])
+    assert again == pytest.approx(traced, rel=1e-7)
 
 
 @pytest.mark.parametrize("preset", ["granulation", "pendulum"])
