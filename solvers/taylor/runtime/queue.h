@@ -3,12 +3,8 @@
 enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
-<<<<<<< HEAD
 enum { MOST_PHASES = 400, SHOWN = 8 };
-=======
-enum { MOST_PHASES = 400, MOST_EVENTS = 64, SHOWN = 8 };
 static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
->>>>>>> 22c55857b92c8c45a2357139a855ff0a5aa45ddf
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
@@ -181,13 +177,10 @@ static void fill_queue(queue *q)
         mask all = splat_mask(-1), none = splat_mask(0);
         unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
                           bits(held_sticks(&f.c, y, all, q->rtol));
-<<<<<<< HEAD
 #if WITH_TRAJECTORY
         proved &= bits(provable(q, splat_mask(-1)));
 #endif
-=======
         proved *= CERTIFICATE;
->>>>>>> 22c55857b92c8c45a2357139a855ff0a5aa45ddf
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);
