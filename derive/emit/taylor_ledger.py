@@ -124,7 +124,7 @@ class Ledger:
         loss = model["reversal_loss"]
         head = "static inline vec reversal_loss(const constants *c, const vec *y)"
         lines += valued(list(loss.outputs), head, {"dry_contact": "return"}, loss.doc, self.constants)
-        head = "static inline vec momentum_in_ledger(const constants *c, const vec *y)"
+        head = "static inline vec booked_momentum(const constants *c, const vec *y)"
         if any(each.name == "angular_momentum" for each in model.functions):
             momentum = model["angular_momentum"]
             lines += valued(list(momentum.outputs), head, {"angular_momentum": "return"}, momentum.doc, self.constants)

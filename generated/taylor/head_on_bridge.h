@@ -296,7 +296,7 @@ static inline vec reversal_loss(const constants *c, const vec *y)
 }
 
 /* There is no angular momentum that would be conserved. */
-static inline vec momentum_in_ledger(const constants *c, const vec *y)
+static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     return splat(1.0);

@@ -525,7 +525,7 @@ static inline vec reversal_loss(const constants *c, const vec *y)
 }
 
 /* Angular momentum over its start value. */
-static inline vec momentum_in_ledger(const constants *c, const vec *y)
+static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec momentum = y[ORBIT] + 6.4*y[SPIN];

@@ -170,5 +170,5 @@ def test_who_does_not_ask_does_not_pay(reduced: bool):
         command, input=library.source(variant, paths), capture_output=True, text=True, check=True
     ).stdout
     assert "static void fly(" in seen
-    for name in ("loss", "ledger", "book_", "step_row", "keep_steps", "energies"):
+    for name in ("loss", "ledger", "book_", "booked", "step_row", "keep_steps", "energies"):
         assert name not in seen, name

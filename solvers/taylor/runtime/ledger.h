@@ -41,5 +41,5 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
 #if CAPILLARY_STATE
     book->capillary = y[CAPILLARY_WORK][lane] - book->attraction; /* the state is the work against all that attracts */
 #endif
-    book->momentum = momentum_in_ledger(c, y)[lane];
+    book->momentum = booked_momentum(c, y)[lane];
 }
