@@ -39,6 +39,7 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
     parts += ["## Cold start", tables.cold_table(bench)]
     if stress is not None:
         parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
+        parts += [stress["tables"]["rate"]] if "rate" in stress["tables"] else []
         parts += [stress["tables"]["disagreements"], stress["tables"]["failures"], stress["tables"]["engines"]]
         parts += [stress["tables"]["ledgers"], f"![Error and cost]({folder}/stress-map.png)"]
         parts += ["### Near the separatrix", f"![Near the separatrix]({folder}/stress-near.png)"]
