@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.gradients import sensitivities
+    from .sensitivity.many import gradients_many
     from .sensitivity.result import Sensitivities
     from .sensitivity.trajectory import trajectory_sensitivities
     from .sensitivity.uncertainty import band
@@ -39,6 +40,7 @@ _HOMES = {
     "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "simulate",
     "collide_many": "many",
+    "gradients_many": "sensitivity.many",
     "regime_map": "regimes",
     "sensitivities": "sensitivity.gradients",
     "sobol_indices": "sensitivity.variance",
@@ -61,6 +63,7 @@ __all__ = [
     "boundary_sensitivities",
     "collide",
     "collide_many",
+    "gradients_many",
     "regime_map",
     "sensitivities",
     "sobol_indices",

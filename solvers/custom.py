@@ -17,12 +17,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .emitted import cached, cached_folder, derivation, executed, library_digest
+from .emitted import cached, executed
 from .errors import InputError, did_you_mean
 from .schema import FIELDS, TABLES, Field, Range, Raw
 
 TABLE = "custom"
-_ACCEPTED = "a folder made by `wetdoublet generate MODEL.py --out DIR`, or a model file MODEL.py"
+ACCEPTED = "a folder made by `wetdoublet generate MODEL.py --out DIR`, or a model file MODEL.py"
 ENTRIES = {
     "bridge": "bridge.law",
     "strings": "pendulum.law",
@@ -207,7 +207,7 @@ class Package:
     def _verified(self, path: str) -> bytes:
         """Content of one of its files; InputError if it is not the one that was emitted."""
         if self.folder is None:
-            raise InputError("--model", self.name, _ACCEPTED, "is only described here, its files are not at hand")
+            raise InputError("--model", self.name, ACCEPTED, "is only described here, its files are not at hand")
         file = self.folder / path
         try:
             content = file.read_bytes()
@@ -281,60 +281,3 @@ def unknown(name: str, value: object, package: Package | None) -> InputError | N
     known = tables(package)[TABLE]
     accepted = ", ".join(known) or f"nothing: the model {package.name} declares no quantity"
     return InputError(name, value, accepted, "has an unknown name" + did_you_mean(name, known))
-
-
-def open_package(source: str | Path | Package, label: str = "--model") -> Package:
-    """The model of a folder that `generate` made, or of a model file (derived on first use, then cached).
-
-    Raises:
-        InputError: no such model, or one that is stale: says what to run.
-    """
-    if isinstance(source, Package):
-        return source
-    path = Path(source)
-    if path.is_dir():
-        return _of_folder(path, label)
-    if path.suffix == ".py" and path.is_file():
-        return _of_file(path)
-    raise InputError(label, str(source), _ACCEPTED, "is neither a folder nor a model file")
-
-
-def _of_folder(folder: Path, label: str) -> Package:
-    try:
-        text = (folder / "manifest.json").read_text(encoding="utf-8")
-        package = Package(text, folder)
-        known = package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1
-    except (OSError, ValueError, KeyError, TypeError):
-        known = False
-    if not known:
-        raise InputError(label, str(folder), _ACCEPTED, "holds no emitted model")
-    if package.manifest["library"] != library_digest():
-        problem = "was emitted for other equations of the library than these"
-        raise InputError(label, str(folder), package.remedy.removeprefix("run "), problem)
-    source = package.original
-    if source is not None and source.is_file() and _sha256(source) != package.manifest["files"]["model.py"]:
-        problem = f"is stale: {source} has changed since"
-        raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
-    for path in package.manifest["files"]:
-        package.text_of(path)
-    return package
-
-
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def _of_file(path: Path) -> Package:
-    key = hashlib.sha256(b"\0".join([path.read_bytes(), derivation().encode(), library_digest().encode()])).hexdigest()
-
-    def derived() -> Mapping[str, str]:
-        from .derived import derived_package  # imports sympy when it is called
-
-        made = derived_package(path, None)
-        if not made.files:
-            from .errors import CheckFailed
-
-            raise CheckFailed(f"{path}: {made.failed}")
-        return made.files
-
-    return _of_folder(cached_folder(key, derived), "--model")

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .bounds import boundary
-from .custom import Package, open_package
+from .custom import Package
 from .emitted import text
 from .errors import ComputationError, InputError, did_you_mean
 from .model import Choice, choose
+from .packages import open_package
 from .scene import Scene
 from .scenefile import PRESETS
 from .simulate import collide

@@ -198,7 +198,8 @@ def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarra
 
     The angle of the doublet is integrated exactly; only the slip xi - omega, soon gone, is left to the trapezoids.
     """
-    return rotation + _integral(time, spin - rotation_rate)
+    turned: np.ndarray = rotation + _integral(time, spin - rotation_rate)
+    return turned
 
 
 def _integral(time: np.ndarray, rate: np.ndarray) -> np.ndarray:

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import rules, scenefile
-from .custom import Package, fields, open_package
+from .custom import Package, fields
 from .errors import InputError
+from .packages import open_package
 from .schema import FIELDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 

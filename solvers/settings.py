@@ -31,10 +31,10 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
 
 
 def check_plugin(engine: object, label: str = "engine") -> str | None:
-    """As `check_engine`, for what needs an integrator that CasADi can differentiate: the kernel has no derivatives."""
+    """As `check_engine`, for what needs an integrator that CasADi can differentiate as a whole."""
     found = check_engine(engine, label)
     if found == "taylor":
-        raise InputError(label, found, ", ".join(ENGINES[:2]), "has no derivatives")
+        raise InputError(label, found, ", ".join(ENGINES[:2]), "has no derivatives of this kind")
     return found
 
 

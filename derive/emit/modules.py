@@ -16,6 +16,8 @@ from ..scaling import group_definitions, scale_definitions
 from .printer import Printer
 from .taylor import Beside, structure_header
 from .taylor_laws import law_header
+from .taylor_slopes import slopes_header
+from .taylor_tangent import tangent_header
 from .text import INDENT, assignment, docstring, module, needed, operations
 
 _PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
@@ -185,6 +187,16 @@ def structure_kernel(
     meanings = {name: meaning for name, (_, meaning) in (own or {}).items()}
     beside = Beside(definitions or {}, meanings)
     return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
+
+
+def law_slopes(law: Law) -> str:
+    """The C header with the slopes of a law, for the kernel's derivatives."""
+    return slopes_header(law, law_digest(law), _PROVENANCE)
+
+
+def structure_tangent(model: Model) -> str:
+    """The C header of a structure's tangent, for the kernel's derivatives."""
+    return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, {}))
 
 
 def scaling_digest() -> str:

@@ -63,11 +63,25 @@ class Program:
         self._moving: dict[sp.Basic, str] = {symbol: symbol.name for symbol in moving}
         self.named: dict[sp.Symbol, sp.Expr] = {}  # constants with a name of their own, in order
         self._names: set[str] = set(self.inputs)
+        self._before: tuple[Operation, ...] = ()
 
     @property
     def cost(self) -> float:
         """Products of series."""
         return sum(COST[operation.kind] for operation in self.operations)
+
+    def give(self, symbol: sp.Symbol) -> None:
+        """Let `symbol` be a series that is made elsewhere."""
+        self._moving[symbol] = self._free(symbol.name)
+
+    def continued(self) -> Program:
+        """A program that knows these series and goes on from them; its own operations are those that follow."""
+        later = Program(())
+        later.inputs = (*self.inputs, *(operation.name for operation in self.operations))
+        later._moving = dict(self._moving)
+        later._names = set(self._names)
+        later._before = (*self._before, *self.operations)
+        return later
 
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
         """Let `symbol` stand for an expression, as a series of its name or as a constant."""
@@ -97,9 +111,12 @@ class Program:
         factors: tuple[sp.Expr, ...] = (),
         call: tuple[str, str, tuple[str | sp.Expr, ...]] | None = None,
     ) -> str:
-        for known in self.operations:
+        for known in (*self._before, *self.operations):
             if (known.kind, known.series, known.factors, known.call) == (kind, series, factors, call):
                 return known.name
+            if kind == "product" and self._before and (known.kind, known.series) == (kind, series):
+                ratio = factors[0] / known.factors[0]  # the same but for its factor
+                return self._add("linear", (known.name,), name, hint, (ratio, sp.Integer(0)))
         chosen = self._free(name or hint)
         self.operations.append(Operation(chosen, kind, series, factors, call))
         return chosen
@@ -188,6 +205,9 @@ class Program:
         base, exponent = node.args
         if self.moves(exponent):
             return self.series(sp.exp(exponent * sp.log(base), evaluate=False), name)
+        if exponent == -2 and 1 / base in self._moving:
+            inverse = self._moving[1 / base]
+            return self._add("square", (inverse,), name, f"{inverse}_squared")
         if exponent.is_number and exponent.is_negative:
             below = self.series(sp.Pow(base, -exponent))
             return self._add("reciprocal", (below,), name, f"inverse_{below}")

@@ -5,7 +5,10 @@ from __future__ import annotations
 import difflib
 import hashlib
 import json
+from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 
 from ..laws import LAWS
 from ..model import derive
@@ -16,11 +19,13 @@ from .modules import (
     law_digest,
     law_kernel,
     law_module,
+    law_slopes,
     model_digest,
     scaling_digest,
     scaling_module,
     structure_kernel,
     structure_module,
+    structure_tangent,
 )
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -36,7 +41,8 @@ def sha256(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def emitted() -> dict[str, str]:
+@cache
+def emitted() -> Mapping[str, str]:
     """Relative path -> text of every file of `generated/`, manifest included."""
     files = {
         "__init__.py": _package("Emitted CasADi modules: a structure a module, laws in `laws`, groups in `scaling`."),
@@ -50,16 +56,18 @@ def emitted() -> dict[str, str]:
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)
             files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
+            files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     for structure in committed():
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
         if structure in structures():
             files[f"taylor/{structure.name}.h"] = structure_kernel(model)
+            files[f"taylor/tangent/{structure.name}.h"] = structure_tangent(model)
         manifest["structures"][structure.name] = model_digest(model)
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
-    return dict(sorted(files.items()))
+    return MappingProxyType(dict(sorted(files.items())))
 
 
 def generate(out: Path = GENERATED) -> list[Path]:

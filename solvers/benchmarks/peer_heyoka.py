@@ -29,18 +29,19 @@ _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
 
 
-def _function(name: str) -> Callable[..., Any]:
+def elementary(name: str) -> Callable[..., Any]:
     """An elementary function of numbers and of heyoka's expressions."""
     import heyoka
 
     if name in ("fmax", "fmin"):  # of expressions by selection, which heyoka expands as a series too
         first = heyoka.gt if name == "fmax" else heyoka.lt
-        return lambda x, y: heyoka.select(first(_expression(x), _expression(y)), _expression(x), _expression(y))
+        return lambda x, y: heyoka.select(first(as_expression(x), as_expression(y)), as_expression(x), as_expression(y))
     of_expression, of_number = getattr(heyoka, name), getattr(math, name)
     return lambda x: of_expression(x) if isinstance(x, heyoka.expression) else of_number(x)
 
 
-def _expression(value: Any) -> Any:
+def as_expression(value: Any) -> Any:
+    """A number, or what is an expression already."""
     import heyoka
 
     return value if isinstance(value, heyoka.expression) else heyoka.expression(float(value))
@@ -66,7 +67,7 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | 
     """The equations of these collisions; what is the same for all of them is written in."""
     import heyoka
 
-    structure, laws = translated(choice, _function)
+    structure, laws = translated(choice, elementary)
     varying = tuple(name for name in structure.GROUPS if len({each[name] for each in groups}) > 1)
     known = {name: float(groups[0][name]) for name in structure.GROUPS if name not in varying}
     p = known | {name: heyoka.par[k] for k, name in enumerate(varying)}
@@ -91,7 +92,7 @@ def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | 
             energy = energy + work
         events["certified"] = energy - level
     elif proved == "tethered":
-        held, larger = structure.tethered(y, p, laws), _function("fmax")
+        held, larger = structure.tethered(y, p, laws), elementary("fmax")
         inward = held["outward"] - held["pull"]
         events["certified"] = larger(inward, larger(held["film"], held["recoil"])) + level
     return System(rates, events, varying)

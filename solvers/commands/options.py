@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from .. import units
-from ..custom import Package, fields, open_package, unknown
+from ..custom import Package, fields, unknown
 from ..errors import InputError, shown
+from ..packages import open_package
 from ..ranges import parse_range
 from ..schema import FIELDS, unknown_entry
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import click
 
 from ..errors import InputError
-from ..settings import RTOL, check_plugin, check_rtol
+from ..settings import RTOL, check_engine, check_rtol
 from . import options
 
 
@@ -68,12 +68,14 @@ def command(
     from ..sensitivity.uncertainty import deviations, first_order, spoken
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
-    chosen = check_plugin(engine, "--engine")
+    chosen = check_engine(engine, "--engine")
     how = "forward" if method is None else check_method(method, "--method")
     held = "speed" if hold is None else check_hold(hold, "--hold")
     asked = ("restitution",) if of is None else check_of(_names(of), "--of")
-    if hessian and chosen == "cvodes":
+    if hessian and chosen in ("cvodes", "taylor"):
         raise InputError("--engine", chosen, "rosenbrock with --hessian", "has no second derivatives")
+    if chosen == "taylor" and how != "forward":
+        raise InputError("--method", how, "forward with --engine taylor", "is not the kernel's")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")

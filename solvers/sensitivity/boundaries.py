@@ -78,8 +78,8 @@ class BoundarySensitivities:
                 rows = []
                 for name in self.parameters:
                     elasticity, slope_ = one.elasticity[what][name], one.gradient[what][name]
-                    shown = f"{elasticity:10.5g}" if elasticity is not None else f"{'* ' + f'{slope_:.4g}':>10}"
-                    rows.append(f"  {name.ljust(width)}  {shown}")
+                    shown = f"* {slope_:.4g}" if elasticity is None else f"{elasticity:.5g}" if elasticity else "none"
+                    rows.append(f"  {name.ljust(width)}  {shown:>10}")
                 tables.append("\n".join([f"{title}: d ln {symbol}/d ln p (* d{symbol}/dp where p is zero)", *rows]))
         return tables
 

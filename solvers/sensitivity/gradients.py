@@ -10,7 +10,8 @@ import numpy as np
 from ..buffered import LOCK
 from ..errors import InputError, did_you_mean
 from ..scene import Scene
-from ..settings import check_plugin, check_rtol
+from ..settings import check_engine, check_rtol
+from . import kernel
 from .parameters import check_hold, check_wrt
 from .problem import Along, Problem, Slopes
 from .quantities import SPENT, check_of, computed
@@ -50,7 +51,8 @@ def sensitivities(
         stokes, speed, angle: the impact, as for `collide`.
         method: "forward" costs with the parameters asked, "adjoint" with the results.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "cvodes" or "rosenbrock"; None: rosenbrock, the more accurate one.
+        engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is rosenbrock's); None:
+            rosenbrock, which needs no compiler and is more accurate than cvodes.
         hold: what of the impact stays when another parameter varies, its "speed" or its "stokes" number.
         hessian: second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) asks only for
             the Hessian times that vector, at the price of one direction.
@@ -69,7 +71,9 @@ def sensitivities(
         True
     """
     of, method, hold = check_of(of), check_method(method), check_hold(hold)
-    rtol, plugin = check_rtol(rtol), check_plugin(engine) or _BEST
+    rtol, plugin = check_rtol(rtol), check_engine(engine) or _BEST
+    if plugin == "taylor" and method != "forward":
+        raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
     if hessian is not False and plugin != "rosenbrock":
         raise InputError("engine", plugin, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
@@ -80,7 +84,10 @@ def sensitivities(
         problem = Problem.of(loaded, v0, angle_, names, hold)
         path, near = problem.located(of, rtol)
         todo = tuple(name for name in computed(of) if problem.defined(name, path))
-        slopes = problem.slopes(path, todo, method, plugin, rtol, along, near) if todo else None
+        slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
+        if slopes is None:
+            plugin = _BEST if plugin == "taylor" else plugin
+            slopes = problem.slopes(path, todo, method, plugin, rtol, along, near) if todo else None
         turning: dict[str, float] = {}
         if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
             if along is not None:

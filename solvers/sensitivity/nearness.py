@@ -27,7 +27,7 @@ from ..scene import Scene
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
-_LOOK = 30.0  # times the limit: nearer than this by the flight's own measure, the distance is measured
+LOOK = 30.0  # times the limit: nearer than this by the flight's own measure, the distance is measured
 _WORTH_SAYING = 0.5  # as a logarithm: what is further away is not mentioned
 _HINT = "v0 squared"  # a suspicion, not a distance: measured or dropped
 _COARSE, _FINE = 1e-6, 1e-11
@@ -75,7 +75,7 @@ def _nearest(scene: Scene, n: Numbers, suspects: list[Near], least: float) -> Ne
     found = []
     for boundary in dict.fromkeys(one.boundary for one in suspects):
         near = min((one for one in suspects if one.boundary == boundary), key=lambda one: one.distance)
-        if near.distance < _LOOK * least:
+        if near.distance < LOOK * least:
             measured = _measured(scene, n, near)
             found += [measured] if measured.of != _HINT else []
         elif near.of != _HINT and near.distance < _WORTH_SAYING:

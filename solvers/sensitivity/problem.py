@@ -22,8 +22,8 @@ from .quantities import QUANTITIES
 from .result import Near
 
 _LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
-_NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
-_SHARPEST = 1e-13
+NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
+SHARPEST = 1e-13
 _ASIDE = 1e-5  # rad
 _SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some flights
 
@@ -107,8 +107,8 @@ class Problem:
         course = course_of(path, choose(self.scene, path.model.oblique, full=full))
         if plugin == "cvodes":
             rtol = max(rtol, _SHARPEST_CVODES)
-        elif near is not None and _amplifies(near):
-            rtol = min(rtol, max(rtol * near.distance / _NEAR, _SHARPEST))
+        else:
+            rtol = sharpened(rtol, near)
         whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
         via = way(self.kind, self.wrt, whole.groups)
         size = len(whole.groups)
@@ -151,8 +151,13 @@ class Problem:
         return float(self.reference[self.kind.entries.index(name)])
 
 
+def sharpened(rtol: float, near: Near | None) -> float:
+    """The tolerance of a flight that amplifies its errors by one over its distance from a boundary."""
+    return min(rtol, max(rtol * near.distance / NEAR, SHARPEST)) if near is not None and _amplifies(near) else rtol
+
+
 def _amplifies(near: Near | None) -> bool:
-    return near is not None and near.distance < _NEAR
+    return near is not None and near.distance < NEAR
 
 
 class _Units:

@@ -23,7 +23,7 @@ BUDGET = 100_000  # steps: nearer than 1e-8 or so to a separatrix a lane creeps,
 PATIENT = 1_000_000  # steps, where that method has failed
 _CHUNK = 4096  # collisions a thread takes at a time
 _LOOSEST = 1e-6  # as solvers/locate.py has it
-_RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
+RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
 
 
 @dataclass(frozen=True)
@@ -106,8 +106,9 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
 
 
 def _call(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
-    """The kernel of these impacts as a function of impacts, answers and a log to be filled (zeros of ANSWER; of HAPPENING,
-    MOST_EVENTS a collision, or None).
+    """The kernel of these impacts as a function of impacts, answers and a log to be filled.
+
+    The answers are zeros of ANSWER; the log zeros of HAPPENING, MOST_EVENTS a collision, or None.
     """
     rtol, scene = min(rtol, _LOOSEST), those.scene
     own = scene.bridge is not None and scene.bridge.rupture == "own"
@@ -118,7 +119,7 @@ def _call(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: in
     wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()
 
     def fly(impacts: Impacts, made: np.ndarray, log: np.ndarray | None) -> None:
-        given: dict[str, np.ndarray | float] = {"youngs_modulus": _RIGID, "poisson_ratio": 0.0}
+        given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
         given |= si_values(impacts.scene, None, None)
         given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
         columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]

@@ -23,6 +23,14 @@ def headers(choice: Choice) -> tuple[str, ...] | None:
     return tuple(texts)
 
 
+def tangents(choice: Choice) -> tuple[str, ...] | None:
+    """Texts of the headers with the derivatives of a choice, laws first; None where they are not emitted."""
+    paths = [f"taylor/tangent/laws/{slot}_{name.replace('-', '_')}.h" for slot, name in choice.laws]
+    paths.append(f"taylor/tangent/{choice.structure}.h")
+    known = choice.package is None and all(map(emitted.committed, paths))
+    return tuple(map(emitted.header, paths)) if known else None
+
+
 def _law(choice: Choice, slot: str, name: str) -> str:
     package = choice.package
     if package is not None and (name in package.laws(slot) or package.changes((slot,))):

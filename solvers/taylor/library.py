@@ -16,7 +16,7 @@ import numpy as np
 
 from ..compiled import build, cache_folder, compiler
 from ..model import Choice, choose
-from .headers import headers
+from .headers import headers, tangents
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -68,12 +68,14 @@ class Variant:
         order: of the series, 8 to LARGEST_ORDER.
         rotation: the angle turned is integrated along where it is no state.
         own_rupture: the bridge ruptures where its own law says.
+        gradients: derivatives by the groups are carried along.
     """
 
     choice: Choice
     order: int
     rotation: bool = False
     own_rupture: bool = False
+    gradients: bool = False
 
 
 @cache
@@ -111,13 +113,19 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
         "OWN_RUPTURE": int(variant.own_rupture),
+        "GRADIENTS": int(variant.gradients),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
     parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
     parts += emitted
-    parts += [(_RUNTIME / name).read_text() for name in _DRIVER]
+    runtime = list(_DRIVER)
+    if variant.gradients:
+        runtime.insert(runtime.index("queue.h"), "along.h")
+        at = runtime.index("crawl.h")
+        runtime[at:at] = ["carry.h", "near.h"]
+    parts += [(_RUNTIME / name).read_text() for name in runtime]
     return "\n".join(parts)
 
 
@@ -127,6 +135,11 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     found, emitted = compiler(), headers(variant.choice)
     if found is None or emitted is None:
         return None
+    if variant.gradients:
+        tangent = tangents(variant.choice)
+        if tangent is None:
+            return None
+        emitted += tangent
     path, version = found
     text = source(variant, emitted)
     machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
@@ -139,6 +152,10 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     loaded.collide.restype = ctypes.c_int
     pointer, number = ctypes.c_void_p, ctypes.c_int
     loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, pointer]
+    if variant.gradients:
+        loaded.collide_along.restype = ctypes.c_int
+        given = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer]
+        loaded.collide_along.argtypes = [*given, ctypes.c_uint, pointer, pointer, pointer]
     return loaded
 
 

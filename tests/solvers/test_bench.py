@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -267,3 +268,20 @@ def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
         found = [one(k) for k in range(len(impacts))]
     assert [each.outcome for each in found] == [each.outcome for each in ours]
     assert [each.restitution for each in found] == pytest.approx([each.restitution for each in ours], abs=1e-6)
+
+
+@pytest.mark.parametrize("task", TASKS, ids=lambda task: task.preset)
+def test_variational_equations_of_heyoka_are_our_derivatives(task: Task) -> None:
+    """With a saltation of its own at each event it agrees with forward derivatives at 1e-12, through events."""
+    pytest.importorskip("heyoka")
+    from wetdoublet.solvers.benchmarks.gradient_task import Gradients
+    from wetdoublet.solvers.benchmarks.peer_heyoka_variational import prepare
+
+    every = Gradients.of(task)
+    asked = replace(every, impacts=every.impacts[:9])
+    batch = prepare(asked.scene, asked.numbers, asked.slopes, 1e-9)
+    batch.run()
+    assert len(asked.names) == 12
+    assert {met for met in batch.criteria if met} == {"glass"}
+    assert None in batch.criteria  # an escape by rotation alone
+    assert asked.errors(batch.gradient).max() < 1e-8

@@ -31,3 +31,11 @@ static inline double damping(int k)
 {
     return DAMPING[ORDER - 8][k - EXACT - 1];
 }
+
+/* The series of creeping lanes as the damped sum has them, so that events see what the states become. */
+static inline void damp(vec (*a)[TERMS], mask creeps)
+{
+    for (int state = 0; state < STATES; state++)
+        for (int k = EXACT + 1; k <= ORDER; k++)
+            a[state][k] = choose(creeps, damping(k)*a[state][k], a[state][k]);
+}

@@ -13,17 +13,33 @@ static inline vec power_of(vec logarithm)
 }
 
 /* What a share of coefficient k may still grow by in the state that allows least, as a logarithm. */
-static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share)
+static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
-    mask least_room = splat_mask(INT64_MAX);
     for (int state = 0; state < STATES; state++)
         least_room = least(scale[state] - (mask)vec_abs(share*a[state][k]), least_room);
-    return __builtin_convertvector(least_room, vec);
+    return least_room;
 }
+
+#if GRADIENTS
+#define ALONG , const tangents *along
+static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share ALONG)
+{
+    mask found = room_of(scale, a, k, share, splat_mask(INT64_MAX));
+    for (unsigned left = along->asked; left; left &= left - 1) {
+        int group = __builtin_ctz(left);
+        found = room_of(along->scale[group], (const void *)along->t[group], k, share, found);
+    }
+    return __builtin_convertvector(found, vec);
+}
+#define ROOM(k, share) room(scale, a, k, share, along)
+#else
+#define ALONG
+#define ROOM(k, share) __builtin_convertvector(room_of(scale, a, k, share, splat_mask(INT64_MAX)), vec)
+#endif
 
 /* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2); lanes that a decaying
  * mode holds to it are in `creeps`, and take the step of the damped sum. */
-static inline vec step_size(const series *s, const fixed *f, mask *creeps)
+static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 {
     const vec(*a)[TERMS] = (const void *)s;
     mask scale[STATES];
@@ -32,14 +48,14 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
         scale[state] = (mask)(state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
     vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
-    vec last = room(scale, a, ORDER, 1.0), before = room(scale, a, ORDER - 1, 1.0);
+    vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);
     vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
     /* of a mode exp(-z), z is the order times the last term over the one before */
     *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
     if (bits(*creeps)) {
         vec damped = splat(INFINITY);
         for (int k = EXACT + 1; k <= ORDER; k++) {
-            vec own = room(scale, a, k, STRICTER*(1.0 - damping(k)));
+            vec own = ROOM(k, STRICTER*(1.0 - damping(k)));
             damped = vec_min(damped, (allowed + own)*(1.0/k));
         }
         step = choose(*creeps, damped, step);
@@ -47,20 +63,8 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
     return power_of(step);
 }
 
-/* The series of creeping lanes as the damped sum has them, so that events see what the states become. */
-static inline void damp(vec (*a)[TERMS], mask creeps)
-{
-    for (int state = 0; state < STATES; state++)
-        for (int k = EXACT + 1; k <= ORDER; k++)
-            a[state][k] = choose(creeps, damping(k)*a[state][k], a[state][k]);
-}
-
-/* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
 #define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
 #define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
-#define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
-    term(11) term(12) term(13) term(14) term(15) term(16)
-_Static_assert(ORDER <= 16, "EVERY names all orders");
 
 static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
 {
@@ -78,6 +82,12 @@ static void fly(queue *q)
     flights l;
     fixed f;
     series s;
+#if GRADIENTS
+    slopes d;
+    tangents t;
+    memset(&d, 0, sizeof d);
+    memset(&t, 0, sizeof t);
+#endif
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
     memset(&f, 0, sizeof f);
@@ -113,7 +123,16 @@ static void fly(queue *q)
             a[state][0] = l.y[state];
         expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
+#if GRADIENTS
+        if (q->asked)
+            expand_slopes(&d, &f.slopes, &s, &f.c, acting(&l), l.shear, q->asked);
+        expand_along(&t, &l, &f, &s, &d, q->asked);
+        vec h = only(l.alive, step_size(&s, &f, &creeps, &t));
+        for (int group = 0; group < GROUPS && bits(creeps); group++)
+            damp(t.t[group], creeps);
+#else
         vec h = only(l.alive, step_size(&s, &f, &creeps));
+#endif
         if (bits(creeps))
             damp(a, creeps);
         if (bits(l.alive & l.closing))
@@ -122,6 +141,11 @@ static void fly(queue *q)
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
+#if GRADIENTS
+        measure(&l, &f, &s, h, falls, found.event);
+        if (q->asked)
+            carry(&l, &f, &s, &t, h, falls, found.event, q->asked);
+#endif
         if (bits(falls))
             found.gap = sum_at(a[GAP], h);
         l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
@@ -137,7 +161,11 @@ static void fly(queue *q)
         l.steps += 1;
         l.crept = (l.crept + 1) & creeps;
         l.stride = h;
-        for (unsigned slow_ones = bits(l.alive & ~falls & (l.crept > PATIENCE)); slow_ones; slow_ones &= slow_ones - 1)
+        mask slow = l.alive & ~falls & (l.crept > PATIENCE);
+#if GRADIENTS
+        slow &= splat_mask(-(q->asked == 0)); /* crawl.h knows nothing of derivatives */
+#endif
+        for (unsigned slow_ones = bits(slow); slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));
         mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
@@ -167,3 +195,37 @@ int collide(long count, const double *const *quantities, const unsigned char *va
     fly(&q);
     return (int)sizeof(answer);
 }
+
+#if GRADIENTS
+#if PROOF_BY_ENERGY
+const int proved_by_energy = 1;
+#else
+const int proved_by_energy = 0;
+#endif
+
+/* The same with derivatives by the quantities; both buffers come zeroed.
+ *
+ * by_group: RESULTS for each of `group_names` a collision; gradients: RESULTS for each of `quantity_names`.
+ * asked: the groups whose derivatives are carried, as bits.
+ * near: for each that separated, the least measure of nearness to a boundary, and its kind (along.h).
+ */
+int collide_along(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget,
+    answer *answers, unsigned asked, double *by_group, double *gradients, double *near)
+{
+    queue q;
+    memset(&q, 0, sizeof q);
+    q.quantities = quantities;
+    q.varies = varies;
+    q.rtol = rtol;
+    q.answers = answers;
+    q.count = count;
+    q.budget = budget;
+    q.asked = asked;
+    q.by_group = by_group;
+    q.gradients = gradients;
+    q.near = near;
+    fly(&q);
+    in_quantities(&q);
+    return (int)sizeof(answer);
+}
+#endif

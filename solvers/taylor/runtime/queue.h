@@ -26,6 +26,9 @@ typedef struct {
     barrier b;
     vec tolerance, rest; /* relative error of a step, and the opening velocity that counts as none */
     vec contact, end, edge;
+#if GRADIENTS
+    slope_constants slopes;
+#endif
 } fixed;
 
 typedef struct {
@@ -34,6 +37,9 @@ typedef struct {
     vec stride; /* the last step */
     mask alive, closing, resting, fresh;
     mask index, steps, phases, reversal, crept; /* crept: steps in a row that only a damped sum could take */
+#if GRADIENTS
+    carried along;
+#endif
 } flights;
 
 enum { FIXED = sizeof(fixed)/sizeof(vec), FLIGHT = sizeof(flights)/sizeof(vec) };
@@ -52,6 +58,11 @@ typedef struct {
     double starts[LANES][STATES];
     int parks, resumes; /* flights that wait for crawl.h, and that come from there */
     double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
+#if GRADIENTS
+    double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
+    double *near;                 /* least measure of nearness, and its boundary */
+    unsigned asked;               /* groups, as bits */
+#endif
 } queue;
 
 static void put(queue *q, long index, int status, int outcome, int certified)
@@ -114,6 +125,9 @@ static void fill_queue(queue *q)
             EACH_LANE(lane) given[k][lane] = q->quantities[k][q->varies[k] ? first + (lane < many ? lane : 0) : 0];
         scale(&f.c, given);
         prepare(&f.c);
+#if GRADIENTS
+        prepare_slopes(&f.slopes, &f.c);
+#endif
         unsigned beyond = set_tolerance(q, &f);
         memset(y, 0, sizeof y);
         start(&f.c, y);
@@ -214,6 +228,9 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
     l->resting[lane] = 0;
     l->steps[lane] = l->phases[lane] = l->crept[lane] = 0;
     l->reversal[lane] = -1;
+#if GRADIENTS
+    along_start(&l->along, &f->c, lane);
+#endif
 }
 
 /* What came of a flight. */
@@ -236,6 +253,11 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
         outputs(&f->c, l->y, shown);
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
+#if GRADIENTS
+        q->near[2*l->index[lane]] = l->along.near[lane];
+        q->near[2*l->index[lane] + 1] = l->along.boundary[lane];
+        along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
+#endif
     }
 }
 

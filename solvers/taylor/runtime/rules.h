@@ -24,6 +24,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
     vec after[STATES];
     memcpy(after, l->y, sizeof after);
     reversal(&f->c, l->y, after);
+#if GRADIENTS
+    along_reversed(&l->along, &f->c, l->y, lane);
+#endif
     l->y[OPENING][lane] = after[OPENING][lane];
     if (l->reversal[lane] < 0)
         l->reversal[lane] = kind;
@@ -38,6 +41,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
     double allowed = q->rtol*l->y[GAP][lane];
     if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
         note(q, l->index[lane], RESTS, l->time[lane]);
+#if GRADIENTS
+        along_near(&l->along, lane, 0.0, CHATTERS);
+#endif
         l->y[OPENING][lane] = 0.0;
         l->resting[lane] = -1;
         l->closing[lane] = 0;
@@ -58,6 +64,13 @@ static void criteria_met(queue *q, flights *l, fixed *f)
     unsigned elastic = bits(asked & (l->y[GAP] <= f->c.elastic_gap));
     unsigned rough = bits(asked & (l->y[GAP] <= f->c.rough_gap));
     unsigned any = glass | elastic | rough;
+#if GRADIENTS
+    if (glass) {
+        vec met = vec_abs(vec_log(1.0 - spare(&f->c, l->y)));
+        for (unsigned left = glass; left; left &= left - 1)
+            along_near(&l->along, __builtin_ctz(left), met[__builtin_ctz(left)], TOUCH);
+    }
+#endif
     EACH_LANE(lane)
         if (any >> lane & 1)
             reverse(q, l, f, lane, glass >> lane & 1 ? GLASS : elastic >> lane & 1 ? ELASTIC : ROUGH);

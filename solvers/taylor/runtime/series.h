@@ -137,3 +137,8 @@ INLINE vec power(const vec *a, const vec *q, vec r, vec *over, int k)
         sum += (r*(double)j - (double)(k - j))*(a[j]*q[k - j]);
     return sum*(1.0/k)**over;
 }
+
+/* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
+#define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
+    term(11) term(12) term(13) term(14) term(15) term(16)
+_Static_assert(ORDER <= 16, "EVERY names all orders");

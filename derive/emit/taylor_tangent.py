@@ -1,0 +1,342 @@
+"""The C header of a structure's tangent: how its rates, start, jumps and outputs change with the states and the groups.
+
+A derivative of the states obeys a linear equation, v' = A v + b, whose matrix and sources are series made once a step
+out of the flow's own; a direction then costs as many products as the matrix has entries that move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..forces import FILM, SHEAR
+from ..laws.base import is_slot_call
+from ..model import Model
+from ..quantities import VOCABULARY
+from ..scaling import group_definitions
+from .taylor import Beside, Header
+from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_chain import Chain
+from .taylor_slopes import arguments, shortest
+
+_IN = "    "
+Entry = str | sp.Expr  # a series' name, or a constant
+
+
+class Tangent:
+    """Text of one structure's tangent header."""
+
+    def __init__(self, model: Model, digest: str, provenance: str, doc: str) -> None:
+        self.model = model
+        self.header = Header(model, Beside())
+        self.header.text(digest, provenance, doc)  # fills in its constants and calls
+        self.states = [state.name for state in model.states]
+        flow = self.header.flow
+        self._flow = {operation.name for operation in flow.operations}
+        self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
+        self.program = flow.continued()
+        self._slopes: dict[str, str] = {}  # name of a law's slope -> its array
+        self.chain = Chain(model.definitions, self._slope, model.groups)
+        self.matrix: dict[tuple[str, str], Entry] = {}
+        self.sources: dict[tuple[str, str], Entry] = {}
+        self._differentiate()
+        given = {group: f"v->{group.name}" for group in model.groups}
+        given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
+        self.constants = Constants(given, (FILM, SHEAR))
+        self.made = Recurrences(self.program, self.constants, self._where)
+
+    # ---- derivatives
+
+    def _slope(self, node: AppliedUndef, position: int) -> sp.Symbol:
+        slot, name = node.func.__name__.split(".")
+        call = self.header.flow.series(node) if self.header.flow.moves(node) else None
+        assert call in self._calls, f"{node} is no series of the flow"
+        argument = arguments(slot, name, len(node.args))[position]
+        symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
+        if symbol.name not in self._slopes:
+            self._slopes[symbol.name] = f"s->{call}.by_{argument}"
+            self.program.give(symbol)
+        return symbol
+
+    def _where(self, series: str) -> str:
+        if series in self._slopes:
+            return self._slopes[series]
+        return f"of->{series}.result" if series in self._calls else f"of->{series}"
+
+    def _rates(self) -> list[tuple[str, sp.Expr]]:
+        rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
+        shape = self.model.structure
+        if shape.oblique and not shape.strings:
+            rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
+        return rows
+
+    def _differentiate(self) -> None:
+        found: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
+        for row, rate in self._rates():
+            for into, variables in ((self.matrix, self.model.states), (self.sources, self.model.groups)):
+                for variable in variables:
+                    slope = self.chain.by(rate, variable)
+                    if slope != 0:
+                        found.append((into, (row, variable.name), slope))
+        for symbol, expression in self.chain.named:
+            self.program.define(symbol, expression)
+        for into, (row, by), slope in found:
+            into[row, by] = shortest(self.program, (slope, sp.factor(slope)), f"{row}_by_{by}")
+
+    @property
+    def flowing(self) -> list[str]:
+        """Groups that the rates depend on."""
+        return [group.name for group in self.model.groups if any(by == group.name for _, by in self.sources)]
+
+    # ---- text
+
+    def text(self, digest: str, provenance: str, doc: str) -> str:
+        """The header."""
+        coefficients, row, source = self._coefficients(), self._row(), self._sources()
+        per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
+        cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction."
+        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines += ["", *comment(f"{doc}\n\nIts tangent: derivatives of the states by the groups. {cost}"), ""]
+        lines += self._enumerations()
+        lines += [*self._constants(), *self._structs(), *coefficients, *row, *source, *self._values(), *self._scale()]
+        return "\n".join(lines).rstrip() + "\n"
+
+    def _enumerations(self) -> list[str]:
+        groups = self._groups
+        flags = ", ".join(str(int(name in self.flowing)) for name in groups)
+        return [
+            f"enum {{ {', '.join(f'BY_{name.upper()}' for name in groups)} }};",
+            "const char group_names[] =",
+            *(f'    "{name} "' for name in groups[:-1]),
+            f'    "{groups[-1]}";',
+            *comment("Groups that the rates depend on; the others enter at an event."),
+            f"static const unsigned char FLOWS[GROUPS] = {{ {flags} }};",
+            "",
+        ]
+
+    def _laws(self) -> dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]]:
+        return {name: call for name, call in self.header.calls.items() if name in self._calls}
+
+    def _constants(self) -> list[str]:
+        laws = self._laws()
+        lines = ["typedef struct {"]
+        lines += [f"    vec {name};" for name in self.constants.prepared]
+        lines += [f"    {slot}_{call}_slope_constants {name};" for name, (slot, call, _) in laws.items()]
+        lines += ["} slope_constants;", ""]
+        body = [f"c->{name} = {self.constants.text.vector(value)};" for name, value in self.constants.prepared.items()]
+        body += [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, (slot, call, _) in laws.items()]
+        head = "static inline void prepare_slopes(slope_constants *c, const constants *v)"
+        return [*lines, *comment("What the slopes need once a collision."), *function(head, body), ""]
+
+    def _structs(self) -> list[str]:
+        lines = ["typedef struct {"]
+        lines += [f"    {slot}_{call}_slopes {name};" for name, (slot, call, _) in self._laws().items()]
+        lines += [f"    {field}" for field in self.made.fields()]
+        lines += [f"    vec {field}[TERMS];" for field in self._level_fields()]
+        return [*lines, "} slopes;", ""]
+
+    def _level_fields(self) -> list[str]:
+        return [f"{row}_by_{by}" for (row, by), entry in self.sources.items() if not isinstance(entry, str)]
+
+    def _coefficients(self) -> list[str]:
+        body = ["(void)film; (void)shear; (void)c; (void)asked;"]
+        for name, (slot, call, given) in self._laws().items():
+            passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+            body.append(f"{slot}_{call}_slopes_next(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed}, k);")
+        body += self._guarded()
+        for (row, by), entry in self.sources.items():
+            if not isinstance(entry, str):
+                body.append(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);")
+        head = (
+            "INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, "
+            "vec film, vec shear, unsigned asked, int k)"
+        )
+        doc = "Coefficient k of what the rates change by with the states, and with the groups that are asked for."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _guarded(self) -> list[str]:
+        """Lines of the operations, those that only some groups need under a test of these."""
+        always = {entry for entry in self.matrix.values() if isinstance(entry, str)}
+        needs = {entry: {by} for (_, by), entry in self.sources.items() if isinstance(entry, str)}
+        for (_, by), entry in self.sources.items():
+            if isinstance(entry, str):
+                needs[entry].add(by)
+        for operation in reversed(self.program.operations):
+            for part in operation.series:
+                if operation.name in always:
+                    always.add(part)
+                needs.setdefault(part, set()).update(needs.get(operation.name, ()))
+        lines: list[str] = []
+        before: tuple[str, ...] = ()
+        for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
+            own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
+            if own != before:
+                lines += (["}"] if before else []) + (
+                    [f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"] if own else []
+                )
+                before = own
+            lines.append(_IN + line if own else line)
+        return lines + (["}"] if before else [])
+
+    @property
+    def _groups(self) -> list[str]:
+        return [group.name for group in self.model.groups]
+
+    def _array(self, name: str) -> str:
+        return self.made.array(name)
+
+    def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
+        text = self.constants.factor(entry, hint)
+        return text if entry.free_symbols else f"splat({text})"
+
+    def _row(self) -> list[str]:
+        body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
+        for row, _ in self._rates():
+            terms = []
+            for state in self.states:
+                entry = self.matrix.get((row, state), sp.Integer(0))
+                column = f"t[{state.upper()}]"
+                if isinstance(entry, str):
+                    terms.append(f"product({self._array(entry)}, {column}, k)")
+                elif entry == 1:
+                    terms.append(f"{column}[k]")
+                elif entry != 0:
+                    terms.append(f"{self.constants.factor(entry, f'{row}_by_{state}')}*{column}[k]")
+            if any(of == row for of, _ in self.sources):
+                terms.append(f"source[{row.upper()}][k]")
+            line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
+            body += ["#if TURNING_STATE", line, "#endif"] if row == "turned" else [line]
+        head = (
+            "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
+        )
+        doc = "Coefficient k + 1 of a derivative of the states, with what drives it beside the states."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _sources(self) -> list[str]:
+        body = ["(void)s; (void)of;", "switch (group) {"]
+        for group in self.flowing:
+            body.append(f"case BY_{group.upper()}:")
+            lines = []
+            for (row, by), entry in self.sources.items():
+                if by == group:
+                    array = self._array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
+                    line = f"source[{row.upper()}] = {array};"
+                    lines += ["#if TURNING_STATE", _IN + line, "#endif"] if row == "turned" else [_IN + line]
+            body += [*lines, _IN + "break;"]
+        body.append("}")
+        head = "static inline void sources(const slopes *s, const series *of, int group, const vec **source)"
+        doc = "What drives the derivatives by a group, where it is not zero."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _values(self) -> list[str]:
+        """The start, the jump and the outputs in a direction: of the states `t`, of one group by one."""
+        states = {name: f"after[{name.upper()}]" for name in self.states}
+        lines = self._directed(
+            "start", "static inline void start_along(const constants *v, int group, vec *after)", states, False,
+            "The start's derivative by a group.",
+        )  # fmt: skip
+        lines += self._directed(
+            "reversal",
+            "static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
+            states, True, "The derivative just after a reversal.",
+        )  # fmt: skip
+        shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
+        lines += self._directed(
+            "outputs",
+            "static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)",
+            shown, True, "The derivative of what a separated doublet shows.",
+        )  # fmt: skip
+        if self.model.structure.oblique:
+            lines += self._edge()
+        return lines
+
+    def _directed(self, name: str, head: str, targets: dict[str, str], moves: bool, doc: str) -> list[str]:
+        outputs = {key: self.model.expanded(sp.sympify(value)) for key, value in self.model[name].outputs}
+        text = Text(self._plain_name)
+        body = ["(void)v;"] + (["(void)y;"] if moves else [])
+        for key, target in targets.items():
+            terms = [
+                f"{text(slope)}*t[{state.name.upper()}]" if (slope := sp.factor(outputs[key].diff(state))) != 1
+                else f"t[{state.name.upper()}]"
+                for state in self.model.states if moves and outputs[key].diff(state) != 0
+            ]  # fmt: skip
+            body.append(f"{target} = {' + '.join(terms) or 'splat(0.0)'};")
+        body += _switch(
+            (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)
+            for group in self.model.groups
+        )
+        return [*comment(doc), *function(head, body), ""]
+
+    def _plain_name(self, symbol: sp.Symbol) -> str:
+        return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
+
+    def _edge(self) -> list[str]:
+        edge = dict(self.model["events"].outputs)["tangential_edge"]
+        call = next(node for node in edge.atoms(AppliedUndef) if is_slot_call(node))
+        slot, name = call.func.__name__.split(".")
+        passed = ", ".join(f"v->{argument}" for argument in call.args)
+        body = ["(void)v;", "switch (group) {"]
+        for argument, own in zip(arguments(slot, name, len(call.args)), call.args, strict=True):
+            body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
+        body += ["default:", f"{_IN}return splat(0.0);", "}"]
+        head = "static inline vec tangential_edge_along(const constants *v, int group)"
+        return [*comment("How the gap beyond which there is no tangential force changes."), *function(head, body), ""]
+
+    def _scale(self) -> list[str]:
+        """How the groups change with the quantities in SI."""
+        definitions = group_definitions()
+        wanted = {group: definitions.get(group, group) for group in self.model.groups}
+        used = set().union(*(expression.free_symbols for expression in wanted.values()))
+        names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
+        text = Text(lambda symbol: self._quantity_name(symbol))
+        bits = dict.fromkeys(names, 0)
+        body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
+        for name in names:
+            symbol = VOCABULARY[name].symbol
+            body.append(f"case SI_{symbol.name.upper()}:")
+            for place, (group, expression) in enumerate(wanted.items()):
+                slope = _power_slope(expression, symbol, group)
+                if slope != 0:
+                    bits[name] |= 1 << place
+                    body.append(f"{_IN}slope[BY_{group.name.upper()}] = {text.vector(slope)};")
+            body.append(_IN + "break;")
+        body.append("}")
+        head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
+        moved = [
+            *comment("The groups that each quantity in SI moves, as bits."),
+            f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};",
+            "",
+        ]
+        return [*moved, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
+
+    def _quantity_name(self, symbol: sp.Symbol) -> str:
+        return f"v->{symbol.name}" if symbol in self.model.groups and symbol in group_definitions() else (
+            f"q[SI_{symbol.name.upper()}]"
+        )  # fmt: skip
+
+
+def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
+    body = []
+    for group, slopes, text in rows:
+        told = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes if slope != 0]
+        if told:
+            body += [f"case BY_{group.upper()}:", *told, _IN + "break;"]
+    return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
+
+
+def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
+    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
+    if expression == symbol:
+        return sp.Integer(1)
+    power = expression.as_powers_dict().get(symbol, 0)
+    if symbol.is_positive and power != 0 and not (expression / symbol**power).has(symbol):
+        return power * group / symbol
+    return sp.diff(expression, symbol)
+
+
+def tangent_header(model: Model, digest: str, provenance: str, doc: str) -> str:
+    """The C header of a structure's tangent."""
+    return Tangent(model, digest, provenance, doc).text(digest, provenance, doc)

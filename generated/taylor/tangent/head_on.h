@@ -1,0 +1,173 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5 */
+
+/* Head-on doublet with a film only.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass.
+ *
+ * Its tangent: derivatives of the states by the groups. Products of series: 1 and those of the laws, then 2 a
+ * direction. */
+
+enum { BY_STOKES, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
+const char group_names[] =
+    "stokes "
+    "glass_number "
+    "elastic_gap "
+    "rough_gap "
+    "dry_restitution";
+/* Groups that the rates depend on; the others enter at an event. */
+static const unsigned char FLOWS[GROUPS] = { 1, 0, 0, 0, 0 };
+
+typedef struct {
+    vec opening_by_gap_factor;
+    vec opening_by_stokes_per_film_force;
+    film_resistance_slope_constants film_resistance_law;
+} slope_constants;
+
+/* What the slopes need once a collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    c->opening_by_gap_factor = -1.0/v->stokes;
+    c->opening_by_stokes_per_film_force = 1.0/v->stokes;
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+}
+
+typedef struct {
+    film_resistance_slopes film_resistance_law;
+    vec opening_by_gap[TERMS];
+    vec opening_by_opening[TERMS];
+    vec opening_by_stokes[TERMS];
+} slopes;
+
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
+INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
+    film, vec shear, unsigned asked, int k)
+{
+    (void)film; (void)shear; (void)c; (void)asked;
+    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap, k);
+    s->opening_by_gap[k] = film*c->opening_by_gap_factor*product(s->film_resistance_law.by_gap, of->opening,
+        k);
+    s->opening_by_opening[k] = film*c->opening_by_gap_factor*of->film_resistance_law.result[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    }
+}
+
+/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
+    const constants *v, vec film, vec shear, const vec *const *source, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    t[GAP][k + 1] = (t[OPENING][k])*next;
+    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
+        + source[OPENING][k])*next;
+}
+
+/* What drives the derivatives by a group, where it is not zero. */
+static inline void sources(const slopes *s, const series *of, int group, const vec **source)
+{
+    (void)s; (void)of;
+    switch (group) {
+    case BY_STOKES:
+        source[OPENING] = s->opening_by_stokes;
+        break;
+    }
+}
+
+/* The start's derivative by a group. */
+static inline void start_along(const constants *v, int group, vec *after)
+{
+    (void)v;
+    after[GAP] = splat(0.0);
+    after[OPENING] = splat(0.0);
+    (void)group;
+}
+
+/* The derivative just after a reversal. */
+static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+{
+    (void)v;
+    (void)y;
+    after[GAP] = t[GAP];
+    after[OPENING] = -v->dry_restitution*t[OPENING];
+    switch (group) {
+    case BY_DRY_RESTITUTION:
+        after[OPENING] += -y[OPENING];
+        break;
+    }
+}
+
+/* The derivative of what a separated doublet shows. */
+static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
+{
+    (void)v;
+    (void)y;
+    shown[0] = t[OPENING];
+    (void)group;
+}
+
+/* The groups that each quantity in SI moves, as bits. */
+const unsigned moved_groups[QUANTITIES] = { 7, 1, 8, 16, 4, 4, 7, 14, 2, 7 };
+
+/* How the groups change with a quantity in SI. */
+static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
+{
+    (void)v; (void)q;
+    memset(slope, 0, sizeof(vec)*GROUPS);
+    switch (quantity) {
+    case SI_REDUCED_RADIUS:
+        slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
+        slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
+        break;
+    case SI_REDUCED_MASS:
+        slope[BY_STOKES] = v->stokes/q[SI_REDUCED_MASS];
+        break;
+    case SI_ROUGHNESS:
+        slope[BY_ROUGH_GAP] = v->rough_gap/q[SI_ROUGHNESS];
+        break;
+    case SI_DRY_RESTITUTION:
+        slope[BY_DRY_RESTITUTION] = splat(1.0);
+        break;
+    case SI_YOUNGS_MODULUS:
+        slope[BY_ELASTIC_GAP] = -0.4*v->elastic_gap/q[SI_YOUNGS_MODULUS];
+        break;
+    case SI_POISSON_RATIO:
+        slope[BY_ELASTIC_GAP] =
+        -0.8*1.148698354997035*1.5518455739153596*q[SI_POISSON_RATIO]*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]/(1.0
+        -
+        (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+        break;
+    case SI_VISCOSITY:
+        slope[BY_STOKES] = -v->stokes/q[SI_VISCOSITY];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_VISCOSITY];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_VISCOSITY];
+        break;
+    case SI_FILM_THICKNESS:
+        slope[BY_GLASS_NUMBER] = 2.0*v->glass_number/q[SI_FILM_THICKNESS];
+        slope[BY_ELASTIC_GAP] = -v->elastic_gap/q[SI_FILM_THICKNESS];
+        slope[BY_ROUGH_GAP] = -v->rough_gap/q[SI_FILM_THICKNESS];
+        break;
+    case SI_GLASS_TRANSITION_PRESSURE:
+        slope[BY_GLASS_NUMBER] = v->glass_number/q[SI_GLASS_TRANSITION_PRESSURE];
+        break;
+    case SI_SPEED:
+        slope[BY_STOKES] = v->stokes/q[SI_SPEED];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
+        break;
+    }
+}

@@ -1,0 +1,252 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 2cd559f275449aa65a42d0a4a5652682b7b959677bd8b8f2fe4054367edc6465 */
+
+/* Head-on doublet with a liquid bridge.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - aspect [1]: film thickness over reduced radius, x0/a
+ * - capillary [1]: capillary number 3 mu a v0/(sigma x0)
+ * - volume [1]: bridge volume over R^3 (constant)
+ * - contact_angle [rad]: contact angle of the liquid on the sphere
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - rupture_gap [x0]: rupture distance over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass, bridge.
+ *
+ * Its tangent: derivatives of the states by the groups. Products of series: 2 and those of the laws, then 2 a
+ * direction. */
+
+enum { BY_STOKES, BY_ASPECT, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
+const char group_names[] =
+    "stokes "
+    "aspect "
+    "capillary "
+    "volume "
+    "contact_angle "
+    "glass_number "
+    "elastic_gap "
+    "rough_gap "
+    "rupture_gap "
+    "dry_restitution";
+/* Groups that the rates depend on; the others enter at an event. */
+static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 };
+
+typedef struct {
+    vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
+    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
+    vec opening_by_stokes_per_bridge_force;
+    vec opening_by_aspect_factor;
+    vec opening_by_capillary_per_bridge_force;
+    vec opening_by_volume_per_bridge_force_law_by_volume;
+    film_resistance_slope_constants film_resistance_law;
+    bridge_force_slope_constants bridge_force_law;
+} slope_constants;
+
+/* What the slopes need once a collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
+    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
+    c->opening_by_stokes_per_bridge_force = 1.0/v->stokes;
+    c->opening_by_aspect_factor = -0.5/(v->capillary*v->stokes);
+    c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
+    c->opening_by_volume_per_bridge_force_law_by_volume = -1.0/(v->capillary*v->stokes);
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+    bridge_force_slope_prepare(&c->bridge_force_law, &v->bridge_force_law);
+}
+
+typedef struct {
+    film_resistance_slopes film_resistance_law;
+    bridge_force_slopes bridge_force_law;
+    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec opening_by_gap[TERMS];
+    vec opening_by_opening[TERMS];
+    vec opening_by_stokes[TERMS];
+    vec opening_by_aspect[TERMS];
+    vec opening_by_capillary[TERMS];
+    vec opening_by_volume[TERMS];
+    vec opening_by_contact_angle[TERMS];
+} slopes;
+
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
+INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
+    film, vec shear, unsigned asked, int k)
+{
+    (void)film; (void)shear; (void)c; (void)asked;
+    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap, k);
+    bridge_force_slopes_next(&s->bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
+        &v->bridge_force_law, of->scaled_gap, k);
+    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
+    s->opening_by_gap[k] =
+        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*s->bridge_force_law.by_gap_over_radius[k] +
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
+    s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+        c->opening_by_stokes_per_bridge_force*of->film_force[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->opening_by_aspect[k] = c->opening_by_aspect_factor*product(s->bridge_force_law.by_gap_over_radius,
+        of->gap, k);
+    }
+    if (asked & (1u << BY_CAPILLARY)) {
+        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        s->opening_by_volume[k] =
+        c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
+    }
+    if (asked & (1u << BY_CONTACT_ANGLE)) {
+        s->opening_by_contact_angle[k] =
+        c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
+    }
+}
+
+/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
+    const constants *v, vec film, vec shear, const vec *const *source, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    t[GAP][k + 1] = (t[OPENING][k])*next;
+    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
+        + source[OPENING][k])*next;
+}
+
+/* What drives the derivatives by a group, where it is not zero. */
+static inline void sources(const slopes *s, const series *of, int group, const vec **source)
+{
+    (void)s; (void)of;
+    switch (group) {
+    case BY_STOKES:
+        source[OPENING] = s->opening_by_stokes;
+        break;
+    case BY_ASPECT:
+        source[OPENING] = s->opening_by_aspect;
+        break;
+    case BY_CAPILLARY:
+        source[OPENING] = s->opening_by_capillary;
+        break;
+    case BY_VOLUME:
+        source[OPENING] = s->opening_by_volume;
+        break;
+    case BY_CONTACT_ANGLE:
+        source[OPENING] = s->opening_by_contact_angle;
+        break;
+    }
+}
+
+/* The start's derivative by a group. */
+static inline void start_along(const constants *v, int group, vec *after)
+{
+    (void)v;
+    after[GAP] = splat(0.0);
+    after[OPENING] = splat(0.0);
+    (void)group;
+}
+
+/* The derivative just after a reversal. */
+static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+{
+    (void)v;
+    (void)y;
+    after[GAP] = t[GAP];
+    after[OPENING] = -v->dry_restitution*t[OPENING];
+    switch (group) {
+    case BY_DRY_RESTITUTION:
+        after[OPENING] += -y[OPENING];
+        break;
+    }
+}
+
+/* The derivative of what a separated doublet shows. */
+static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
+{
+    (void)v;
+    (void)y;
+    shown[0] = t[OPENING];
+    (void)group;
+}
+
+/* The groups that each quantity in SI moves, as bits. */
+const unsigned moved_groups[QUANTITIES] = { 359, 1, 128, 512, 64, 64, 101, 486, 32, 4, 101, 264, 272 };
+
+/* How the groups change with a quantity in SI. */
+static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
+{
+    (void)v; (void)q;
+    memset(slope, 0, sizeof(vec)*GROUPS);
+    switch (quantity) {
+    case SI_REDUCED_RADIUS:
+        slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
+        slope[BY_ASPECT] = -v->aspect/q[SI_REDUCED_RADIUS];
+        slope[BY_CAPILLARY] = v->capillary/q[SI_REDUCED_RADIUS];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
+        slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
+        slope[BY_RUPTURE_GAP] = v->rupture_gap/q[SI_REDUCED_RADIUS];
+        break;
+    case SI_REDUCED_MASS:
+        slope[BY_STOKES] = v->stokes/q[SI_REDUCED_MASS];
+        break;
+    case SI_ROUGHNESS:
+        slope[BY_ROUGH_GAP] = v->rough_gap/q[SI_ROUGHNESS];
+        break;
+    case SI_DRY_RESTITUTION:
+        slope[BY_DRY_RESTITUTION] = splat(1.0);
+        break;
+    case SI_YOUNGS_MODULUS:
+        slope[BY_ELASTIC_GAP] = -0.4*v->elastic_gap/q[SI_YOUNGS_MODULUS];
+        break;
+    case SI_POISSON_RATIO:
+        slope[BY_ELASTIC_GAP] =
+        -0.8*1.148698354997035*1.5518455739153596*q[SI_POISSON_RATIO]*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]/(1.0
+        -
+        (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+        break;
+    case SI_VISCOSITY:
+        slope[BY_STOKES] = -v->stokes/q[SI_VISCOSITY];
+        slope[BY_CAPILLARY] = v->capillary/q[SI_VISCOSITY];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_VISCOSITY];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_VISCOSITY];
+        break;
+    case SI_FILM_THICKNESS:
+        slope[BY_ASPECT] = v->aspect/q[SI_FILM_THICKNESS];
+        slope[BY_CAPILLARY] = -v->capillary/q[SI_FILM_THICKNESS];
+        slope[BY_GLASS_NUMBER] = 2.0*v->glass_number/q[SI_FILM_THICKNESS];
+        slope[BY_ELASTIC_GAP] = -v->elastic_gap/q[SI_FILM_THICKNESS];
+        slope[BY_ROUGH_GAP] = -v->rough_gap/q[SI_FILM_THICKNESS];
+        slope[BY_RUPTURE_GAP] = -v->rupture_gap/q[SI_FILM_THICKNESS];
+        break;
+    case SI_GLASS_TRANSITION_PRESSURE:
+        slope[BY_GLASS_NUMBER] = v->glass_number/q[SI_GLASS_TRANSITION_PRESSURE];
+        break;
+    case SI_SURFACE_TENSION:
+        slope[BY_CAPILLARY] = -v->capillary/q[SI_SURFACE_TENSION];
+        break;
+    case SI_SPEED:
+        slope[BY_STOKES] = v->stokes/q[SI_SPEED];
+        slope[BY_CAPILLARY] = v->capillary/q[SI_SPEED];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
+        break;
+    case SI_VOLUME:
+        slope[BY_VOLUME] = splat(1.0);
+        slope[BY_RUPTURE_GAP] = 0.3333333333333333*v->rupture_gap/q[SI_VOLUME];
+        break;
+    case SI_CONTACT_ANGLE:
+        slope[BY_CONTACT_ANGLE] = splat(1.0);
+        slope[BY_RUPTURE_GAP] =
+        q[SI_REDUCED_RADIUS]*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
+        break;
+    }
+}

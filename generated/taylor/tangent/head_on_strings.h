@@ -1,0 +1,253 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 b7c94a140dd36ed70087e6549825a78bf9242eb24c5c1d36b8b4f4814ef7ee42 */
+
+/* Head-on doublet with pendulum strings.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - aspect [1]: film thickness over reduced radius, x0/a
+ * - weight [1]: gravity over impact deceleration, g x0/v0^2
+ * - string_ratio [1]: string length over reduced radius
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass, strings.
+ *
+ * Its tangent: derivatives of the states by the groups. Products of series: 5 and those of the laws, then 2 a
+ * direction. */
+
+enum { BY_STOKES, BY_ASPECT, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
+const char group_names[] =
+    "stokes "
+    "aspect "
+    "weight "
+    "string_ratio "
+    "glass_number "
+    "elastic_gap "
+    "rough_gap "
+    "dry_restitution";
+/* Groups that the rates depend on; the others enter at an event. */
+static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 0, 0, 0, 0 };
+
+typedef struct {
+    vec string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
+    vec string_pull_by_gap_per_strings_stiffness_law;
+    vec string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared;
+    vec string_pull_by_aspect_per_string_pull;
+    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
+    vec opening_by_stokes_per_film_force;
+    vec opening_by_weight_per_string_pull;
+    vec opening_by_string_ratio_factor;
+    film_resistance_slope_constants film_resistance_law;
+    strings_stiffness_slope_constants strings_stiffness_law;
+} slope_constants;
+
+/* What the slopes need once a collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared =
+        2.0*v->aspect*v->weight;
+    c->string_pull_by_gap_per_strings_stiffness_law = v->aspect*v->weight;
+    c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared =
+        2.0*v->weight;
+    c->string_pull_by_aspect_per_string_pull = 1.0/v->aspect;
+    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
+    c->opening_by_stokes_per_film_force = 1.0/v->stokes;
+    c->opening_by_weight_per_string_pull = -1.0/v->weight;
+    c->opening_by_string_ratio_factor = -v->aspect*v->weight;
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+    strings_stiffness_slope_prepare(&c->strings_stiffness_law, &v->strings_stiffness_law);
+}
+
+typedef struct {
+    film_resistance_slopes film_resistance_law;
+    strings_stiffness_slopes strings_stiffness_law;
+    vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
+    vec string_pull_by_gap[TERMS];
+    vec gap_by_offset_squared[TERMS];
+    vec gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
+    vec string_pull_by_aspect[TERMS];
+    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec opening_by_gap[TERMS];
+    vec opening_by_opening[TERMS];
+    vec opening_by_stokes[TERMS];
+    vec opening_by_aspect[TERMS];
+    vec opening_by_weight[TERMS];
+    vec opening_by_string_ratio[TERMS];
+} slopes;
+
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
+INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
+    film, vec shear, unsigned asked, int k)
+{
+    (void)film; (void)shear; (void)c; (void)asked;
+    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap, k);
+    strings_stiffness_slopes_next(&s->strings_stiffness_law, &c->strings_stiffness_law,
+        &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared, k);
+    s->offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
+        s->strings_stiffness_law.by_offset_squared, k);
+    s->string_pull_by_gap[k] =
+        c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*s->offset_squared_by_strings_stiffness_law_by_offset_squared[k]
+        + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
+        s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
+        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared, k);
+        s->string_pull_by_aspect[k] =
+        c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
+        + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];
+    }
+    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
+    s->opening_by_gap[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k]
+        - s->string_pull_by_gap[k];
+    s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->opening_by_aspect[k] = -s->string_pull_by_aspect[k];
+    }
+    if (asked & (1u << BY_WEIGHT)) {
+        s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
+    }
+    if (asked & (1u << BY_STRING_RATIO)) {
+        s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
+        s->strings_stiffness_law.by_string_ratio, k);
+    }
+}
+
+/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
+    const constants *v, vec film, vec shear, const vec *const *source, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    t[GAP][k + 1] = (t[OPENING][k])*next;
+    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
+        + source[OPENING][k])*next;
+}
+
+/* What drives the derivatives by a group, where it is not zero. */
+static inline void sources(const slopes *s, const series *of, int group, const vec **source)
+{
+    (void)s; (void)of;
+    switch (group) {
+    case BY_STOKES:
+        source[OPENING] = s->opening_by_stokes;
+        break;
+    case BY_ASPECT:
+        source[OPENING] = s->opening_by_aspect;
+        break;
+    case BY_WEIGHT:
+        source[OPENING] = s->opening_by_weight;
+        break;
+    case BY_STRING_RATIO:
+        source[OPENING] = s->opening_by_string_ratio;
+        break;
+    }
+}
+
+/* The start's derivative by a group. */
+static inline void start_along(const constants *v, int group, vec *after)
+{
+    (void)v;
+    after[GAP] = splat(0.0);
+    after[OPENING] = splat(0.0);
+    (void)group;
+}
+
+/* The derivative just after a reversal. */
+static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+{
+    (void)v;
+    (void)y;
+    after[GAP] = t[GAP];
+    after[OPENING] = -v->dry_restitution*t[OPENING];
+    switch (group) {
+    case BY_DRY_RESTITUTION:
+        after[OPENING] += -y[OPENING];
+        break;
+    }
+}
+
+/* The derivative of what a separated doublet shows. */
+static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
+{
+    (void)v;
+    (void)y;
+    shown[0] = t[OPENING];
+    (void)group;
+}
+
+/* The groups that each quantity in SI moves, as bits. */
+const unsigned moved_groups[QUANTITIES] = { 59, 1, 64, 128, 32, 32, 49, 118, 16, 8, 4, 53 };
+
+/* How the groups change with a quantity in SI. */
+static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
+{
+    (void)v; (void)q;
+    memset(slope, 0, sizeof(vec)*GROUPS);
+    switch (quantity) {
+    case SI_REDUCED_RADIUS:
+        slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
+        slope[BY_ASPECT] = -v->aspect/q[SI_REDUCED_RADIUS];
+        slope[BY_STRING_RATIO] = -v->string_ratio/q[SI_REDUCED_RADIUS];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
+        slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
+        break;
+    case SI_REDUCED_MASS:
+        slope[BY_STOKES] = v->stokes/q[SI_REDUCED_MASS];
+        break;
+    case SI_ROUGHNESS:
+        slope[BY_ROUGH_GAP] = v->rough_gap/q[SI_ROUGHNESS];
+        break;
+    case SI_DRY_RESTITUTION:
+        slope[BY_DRY_RESTITUTION] = splat(1.0);
+        break;
+    case SI_YOUNGS_MODULUS:
+        slope[BY_ELASTIC_GAP] = -0.4*v->elastic_gap/q[SI_YOUNGS_MODULUS];
+        break;
+    case SI_POISSON_RATIO:
+        slope[BY_ELASTIC_GAP] =
+        -0.8*1.148698354997035*1.5518455739153596*q[SI_POISSON_RATIO]*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]/(1.0
+        -
+        (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+        break;
+    case SI_VISCOSITY:
+        slope[BY_STOKES] = -v->stokes/q[SI_VISCOSITY];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_VISCOSITY];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_VISCOSITY];
+        break;
+    case SI_FILM_THICKNESS:
+        slope[BY_ASPECT] = v->aspect/q[SI_FILM_THICKNESS];
+        slope[BY_WEIGHT] = v->weight/q[SI_FILM_THICKNESS];
+        slope[BY_GLASS_NUMBER] = 2.0*v->glass_number/q[SI_FILM_THICKNESS];
+        slope[BY_ELASTIC_GAP] = -v->elastic_gap/q[SI_FILM_THICKNESS];
+        slope[BY_ROUGH_GAP] = -v->rough_gap/q[SI_FILM_THICKNESS];
+        break;
+    case SI_GLASS_TRANSITION_PRESSURE:
+        slope[BY_GLASS_NUMBER] = v->glass_number/q[SI_GLASS_TRANSITION_PRESSURE];
+        break;
+    case SI_STRING_LENGTH:
+        slope[BY_STRING_RATIO] = v->string_ratio/q[SI_STRING_LENGTH];
+        break;
+    case SI_GRAVITY:
+        slope[BY_WEIGHT] = v->weight/q[SI_GRAVITY];
+        break;
+    case SI_SPEED:
+        slope[BY_STOKES] = v->stokes/q[SI_SPEED];
+        slope[BY_WEIGHT] = -2.0*v->weight/q[SI_SPEED];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
+        break;
+    }
+}

@@ -1,0 +1,26 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 3d470e90fe424e3706551e89983e88be0b06f2174c18d9d7b2a4581c0acff8ac */
+
+/* Slopes of the film law `finite`. */
+
+typedef struct { char none[0]; } film_resistance_slope_constants;
+
+static inline void film_resistance_slope_prepare(film_resistance_slope_constants *c, const
+    film_resistance_constants *v)
+{
+    (void)c; (void)v;
+}
+
+typedef struct {
+    vec inverse_gap_squared[TERMS];
+    vec by_gap[TERMS];
+} film_resistance_slopes;
+
+/* Derivatives of film_resistance by its arguments: coefficient k; products of series: 0.5. */
+INLINE void film_resistance_slopes_next(film_resistance_slopes *s, const film_resistance_slope_constants *c,
+    const film_resistance_series *of, const film_resistance_constants *v, const vec *gap, int k)
+{
+    (void)gap; (void)of; (void)c; (void)v;
+    s->inverse_gap_squared[k] = square(of->inverse_gap, k);
+    s->by_gap[k] = k == 0 ? -s->inverse_gap_squared[k] + 1.0 : -s->inverse_gap_squared[k];
+}

@@ -1,0 +1,26 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 227e6ade3425ff1861e6455dd08fa217010a43e744e49f5687440666f0d08122 */
+
+/* Slopes of the film law `infinite`. */
+
+typedef struct { char none[0]; } film_resistance_slope_constants;
+
+static inline void film_resistance_slope_prepare(film_resistance_slope_constants *c, const
+    film_resistance_constants *v)
+{
+    (void)c; (void)v;
+}
+
+typedef struct {
+    vec result_squared[TERMS];
+    vec by_gap[TERMS];
+} film_resistance_slopes;
+
+/* Derivatives of film_resistance by its arguments: coefficient k; products of series: 0.5. */
+INLINE void film_resistance_slopes_next(film_resistance_slopes *s, const film_resistance_slope_constants *c,
+    const film_resistance_series *of, const film_resistance_constants *v, const vec *gap, int k)
+{
+    (void)gap; (void)of; (void)c; (void)v;
+    s->result_squared[k] = square(of->result, k);
+    s->by_gap[k] = -s->result_squared[k];
+}

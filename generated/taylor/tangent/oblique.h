@@ -1,0 +1,441 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Equations sha256 27ecfd1ceeed8c533d9a794742af99c3644bf01969384e854d6edc0d2e02fa3f */
+
+/* Oblique doublet with a film only.
+ *
+ * Time in x0/v0. States (per unit):
+ * - gap [x0]: gap over film thickness
+ * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - spin [omega0]: spin of each sphere over omega0
+ *
+ * Groups:
+ * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
+ * - aspect [1]: film thickness over reduced radius, x0/a
+ * - obliquity [1]: tangent of the impact angle
+ * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
+ * - elastic_gap [x0]: elastic length over film thickness
+ * - rough_gap [x0]: roughness over film thickness
+ * - dry_restitution [1]: restitution of the dry contact
+ *
+ * Law slots: film, glass, shear, arm.
+ *
+ * Its tangent: derivatives of the states by the groups. Products of series: 24 and those of the laws, then 9
+ * a direction. */
+
+enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
+const char group_names[] =
+    "stokes "
+    "aspect "
+    "obliquity "
+    "glass_number "
+    "elastic_gap "
+    "rough_gap "
+    "dry_restitution";
+/* Groups that the rates depend on; the others enter at an event. */
+static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 0, 0, 0, 0 };
+
+typedef struct {
+    vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
+    vec centrifugal_force_by_aspect_per_centrifugal_force;
+    vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
+    vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec opening_by_gap_per_orbital_rate_squared;
+    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
+    vec opening_by_orbit_per_orbital_rate_over_distance;
+    vec opening_by_stokes_per_film_force;
+    vec opening_by_obliquity_per_centrifugal_force;
+    vec orbit_by_gap_per_shear_force;
+    vec orbit_by_orbit_per_shear_log_factor_law_over_distance;
+    vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
+    vec spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
+    vec spin_by_spin_per_arm_lever_law_by_shear_log_factor_law;
+    vec turned_by_gap_per_orbital_rate_over_distance;
+    vec turned_by_orbit_per_inverse_distance_squared;
+    vec turned_by_aspect_per_gap_by_orbital_rate_over_distance;
+    vec turned_by_aspect_per_orbital_rate;
+    vec turned_by_obliquity_per_orbital_rate;
+    shear_log_factor_slope_constants shear_log_factor_law;
+    film_resistance_slope_constants film_resistance_law;
+    arm_lever_slope_constants arm_lever_law;
+} slope_constants;
+
+/* What the slopes need once a collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
+        -0.1875*v->aspect*(v->obliquity*v->obliquity);
+    c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
+    c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance =
+        -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
+    c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
+    c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
+        -2.6666666666666665*v->aspect/v->stokes;
+    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
+    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
+    c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
+    c->opening_by_stokes_per_film_force = 1.0/v->stokes;
+    c->opening_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
+    c->orbit_by_gap_per_shear_force = -v->aspect;
+    c->orbit_by_orbit_per_shear_log_factor_law_over_distance = -1.3333333333333333*v->aspect/v->stokes;
+    c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
+    c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
+        0.4166666666666667*v->aspect/v->stokes;
+    c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law = -0.4166666666666667*v->aspect/v->stokes;
+    c->turned_by_gap_per_orbital_rate_over_distance = -0.5*(v->aspect*v->aspect)*v->obliquity;
+    c->turned_by_orbit_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
+    c->turned_by_aspect_per_gap_by_orbital_rate_over_distance = -0.5*v->aspect*v->obliquity;
+    c->turned_by_aspect_per_orbital_rate = 0.25*v->obliquity;
+    c->turned_by_obliquity_per_orbital_rate = 0.25*v->aspect;
+    shear_log_factor_slope_prepare(&c->shear_log_factor_law, &v->shear_log_factor_law);
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+    arm_lever_slope_prepare(&c->arm_lever_law, &v->arm_lever_law);
+}
+
+typedef struct {
+    shear_log_factor_slopes shear_log_factor_law;
+    film_resistance_slopes film_resistance_law;
+    arm_lever_slopes arm_lever_law;
+    vec gap_by_orbital_rate_squared[TERMS];
+    vec centrifugal_force_by_aspect[TERMS];
+    vec orbital_rate_by_shear_log_factor_law[TERMS];
+    vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
+    vec over_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec shear_log_factor_law_by_gap_by_slip[TERMS];
+    vec shear_force_by_gap[TERMS];
+    vec shear_log_factor_law_by_aspect_by_slip[TERMS];
+    vec gap_by_orbital_rate[TERMS];
+    vec gap_by_orbital_rate_by_shear_log_factor_law[TERMS];
+    vec gap_by_orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
+    vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec shear_force_by_aspect[TERMS];
+    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec opening_by_gap[TERMS];
+    vec opening_by_opening[TERMS];
+    vec orbital_rate_over_distance[TERMS];
+    vec over_orbital_rate_over_distance;
+    vec opening_by_orbit[TERMS];
+    vec opening_by_stokes[TERMS];
+    vec opening_by_obliquity[TERMS];
+    vec distance_by_shear_force_by_gap[TERMS];
+    vec orbit_by_gap[TERMS];
+    vec shear_log_factor_law_over_distance[TERMS];
+    vec over_shear_log_factor_law_over_distance;
+    vec orbit_by_orbit[TERMS];
+    vec orbit_by_spin[TERMS];
+    vec orbit_by_stokes[TERMS];
+    vec distance_by_shear_force_by_aspect[TERMS];
+    vec gap_by_shear_force[TERMS];
+    vec orbit_by_aspect[TERMS];
+    vec arm_lever_law_by_distance_by_shear_force[TERMS];
+    vec arm_lever_law_by_shear_force_by_gap[TERMS];
+    vec spin_by_gap[TERMS];
+    vec arm_lever_law_by_shear_log_factor_law[TERMS];
+    vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
+    vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
+    vec spin_by_orbit[TERMS];
+    vec spin_by_spin[TERMS];
+    vec spin_by_stokes[TERMS];
+    vec arm_lever_law_by_distance_by_gap[TERMS];
+    vec arm_lever_law_by_distance_by_gap_by_shear_force[TERMS];
+    vec arm_lever_law_by_shear_force_by_aspect[TERMS];
+    vec spin_by_aspect[TERMS];
+    vec turned_by_gap[TERMS];
+    vec inverse_distance_squared[TERMS];
+    vec turned_by_orbit[TERMS];
+    vec gap_by_orbital_rate_over_distance[TERMS];
+    vec over_gap_by_orbital_rate_over_distance;
+    vec turned_by_aspect[TERMS];
+    vec turned_by_obliquity[TERMS];
+} slopes;
+
+/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
+INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
+    film, vec shear, unsigned asked, int k)
+{
+    (void)film; (void)shear; (void)c; (void)asked;
+    shear_log_factor_slopes_next(&s->shear_log_factor_law, &c->shear_log_factor_law,
+        &of->shear_log_factor_law, &v->shear_log_factor_law, of->gap, k);
+    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap, k);
+    arm_lever_slopes_next(&s->arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
+        of->distance, k);
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
+        s->centrifugal_force_by_aspect[k] =
+        c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*s->gap_by_orbital_rate_squared[k] +
+        c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];
+    }
+    s->orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate, of->shear_log_factor_law.result,
+        k);
+    s->orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        quotient(s->orbital_rate_by_shear_log_factor_law, of->distance,
+        s->orbital_rate_by_shear_log_factor_law_over_distance,
+        &s->over_orbital_rate_by_shear_log_factor_law_over_distance, k);
+    s->shear_log_factor_law_by_gap_by_slip[k] = product(s->shear_log_factor_law.by_gap, of->slip, k);
+    s->shear_force_by_gap[k] =
+        shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*s->orbital_rate_by_shear_log_factor_law_over_distance[k]
+        +
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_gap_by_slip[k];
+    if (asked & (1u << BY_ASPECT)) {
+        s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
+        k);
+        s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
+        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        s->gap_by_orbital_rate, k);
+        s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        quotient(s->gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
+        s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
+        &s->over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);
+        s->shear_force_by_aspect[k] =
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
+        +
+        shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
+        + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];
+    }
+    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
+    s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
+    s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
+    s->orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance, s->orbital_rate_over_distance,
+        &s->over_orbital_rate_over_distance, k);
+    s->opening_by_orbit[k] =
+        c->opening_by_orbit_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->opening_by_obliquity[k] = c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];
+    }
+    s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
+    s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
+        s->distance_by_shear_force_by_gap[k];
+    s->shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
+        s->shear_log_factor_law_over_distance, &s->over_shear_log_factor_law_over_distance, k);
+    s->orbit_by_orbit[k] =
+        shear*c->orbit_by_orbit_per_shear_log_factor_law_over_distance*s->shear_log_factor_law_over_distance[k];
+    s->orbit_by_spin[k] =
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
+        of->shear_log_factor_law.result, k);
+    if (asked & (1u << BY_STOKES)) {
+        s->orbit_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
+        s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
+        s->orbit_by_aspect[k] = -s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k];
+    }
+    s->arm_lever_law_by_distance_by_shear_force[k] = product(s->arm_lever_law.by_distance, of->shear_force,
+        k);
+    s->arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, s->shear_force_by_gap, k);
+    s->spin_by_gap[k] =
+        c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force*s->arm_lever_law_by_distance_by_shear_force[k]
+        + 0.3125*s->arm_lever_law_by_shear_force_by_gap[k];
+    s->arm_lever_law_by_shear_log_factor_law[k] = product(of->arm_lever_law.result,
+        of->shear_log_factor_law.result, k);
+    s->arm_lever_law_by_shear_log_factor_law_over_distance_squared[k] =
+        quotient(s->arm_lever_law_by_shear_log_factor_law, of->distance_squared,
+        s->arm_lever_law_by_shear_log_factor_law_over_distance_squared,
+        &s->over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);
+    s->spin_by_orbit[k] =
+        shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*s->arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];
+    s->spin_by_spin[k] =
+        shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*s->arm_lever_law_by_shear_log_factor_law[k];
+    if (asked & (1u << BY_STOKES)) {
+        s->spin_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];
+    }
+    if (asked & (1u << BY_ASPECT)) {
+        s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
+        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
+        s->arm_lever_law_by_distance_by_gap, k);
+        s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
+        s->shear_force_by_aspect, k);
+        s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +
+        0.3125*s->arm_lever_law_by_shear_force_by_aspect[k];
+    }
+    s->turned_by_gap[k] = c->turned_by_gap_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
+    s->inverse_distance_squared[k] = reciprocal(of->distance_squared, s->inverse_distance_squared, k);
+    s->turned_by_orbit[k] = c->turned_by_orbit_per_inverse_distance_squared*s->inverse_distance_squared[k];
+    if (asked & (1u << BY_ASPECT)) {
+        s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
+        s->gap_by_orbital_rate_over_distance, &s->over_gap_by_orbital_rate_over_distance, k);
+        s->turned_by_aspect[k] =
+        c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*s->gap_by_orbital_rate_over_distance[k] +
+        c->turned_by_aspect_per_orbital_rate*of->orbital_rate[k];
+    }
+    if (asked & (1u << BY_OBLIQUITY)) {
+        s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    }
+}
+
+/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
+    const constants *v, vec film, vec shear, const vec *const *source, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    t[GAP][k + 1] = (t[OPENING][k])*next;
+    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
+        + product(s->opening_by_orbit, t[ORBIT], k) + source[OPENING][k])*next;
+    t[ORBIT][k + 1] = (product(s->orbit_by_gap, t[GAP], k) + product(s->orbit_by_orbit, t[ORBIT], k) +
+        product(s->orbit_by_spin, t[SPIN], k) + source[ORBIT][k])*next;
+    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbit, t[ORBIT], k) +
+        product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
+#if TURNING_STATE
+    t[TURNED][k + 1] = (product(s->turned_by_gap, t[GAP], k) + product(s->turned_by_orbit, t[ORBIT], k) +
+        source[TURNED][k])*next;
+#endif
+}
+
+/* What drives the derivatives by a group, where it is not zero. */
+static inline void sources(const slopes *s, const series *of, int group, const vec **source)
+{
+    (void)s; (void)of;
+    switch (group) {
+    case BY_STOKES:
+        source[OPENING] = s->opening_by_stokes;
+        source[ORBIT] = s->orbit_by_stokes;
+        source[SPIN] = s->spin_by_stokes;
+        break;
+    case BY_ASPECT:
+        source[OPENING] = s->centrifugal_force_by_aspect;
+        source[ORBIT] = s->orbit_by_aspect;
+        source[SPIN] = s->spin_by_aspect;
+#if TURNING_STATE
+        source[TURNED] = s->turned_by_aspect;
+#endif
+        break;
+    case BY_OBLIQUITY:
+        source[OPENING] = s->opening_by_obliquity;
+#if TURNING_STATE
+        source[TURNED] = s->turned_by_obliquity;
+#endif
+        break;
+    }
+}
+
+/* The start's derivative by a group. */
+static inline void start_along(const constants *v, int group, vec *after)
+{
+    (void)v;
+    after[GAP] = splat(0.0);
+    after[OPENING] = splat(0.0);
+    after[ORBIT] = splat(0.0);
+    after[SPIN] = splat(0.0);
+    switch (group) {
+    case BY_ASPECT:
+        after[ORBIT] += 2.0*(v->aspect + 4.0);
+        break;
+    }
+}
+
+/* The derivative just after a reversal. */
+static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+{
+    (void)v;
+    (void)y;
+    after[GAP] = t[GAP];
+    after[OPENING] = -v->dry_restitution*t[OPENING];
+    after[ORBIT] = t[ORBIT];
+    after[SPIN] = t[SPIN];
+    switch (group) {
+    case BY_DRY_RESTITUTION:
+        after[OPENING] += -y[OPENING];
+        break;
+    }
+}
+
+/* The derivative of what a separated doublet shows. */
+static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
+{
+    (void)v;
+    (void)y;
+    shown[0] = t[OPENING];
+    shown[1] = -v->aspect*y[ORBIT]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
+    shown[2] = -2.0*v->aspect*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
+    shown[3] = t[SPIN];
+    switch (group) {
+    case BY_ASPECT:
+        shown[1] += -2.0*y[ORBIT]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect + 4.0)*(v->aspect +
+        4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
+        shown[2] += -2.0*y[GAP]*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP]
+        + 4.0));
+        break;
+    }
+}
+
+/* How the gap beyond which there is no tangential force changes. */
+static inline vec tangential_edge_along(const constants *v, int group)
+{
+    (void)v;
+    switch (group) {
+    case BY_ASPECT:
+        return shear_edge_by_aspect(v->aspect);
+    default:
+        return splat(0.0);
+    }
+}
+
+/* The groups that each quantity in SI moves, as bits. */
+const unsigned moved_groups[QUANTITIES] = { 27, 1, 32, 64, 16, 16, 25, 58, 8, 25, 4 };
+
+/* How the groups change with a quantity in SI. */
+static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
+{
+    (void)v; (void)q;
+    memset(slope, 0, sizeof(vec)*GROUPS);
+    switch (quantity) {
+    case SI_REDUCED_RADIUS:
+        slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
+        slope[BY_ASPECT] = -v->aspect/q[SI_REDUCED_RADIUS];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
+        slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
+        break;
+    case SI_REDUCED_MASS:
+        slope[BY_STOKES] = v->stokes/q[SI_REDUCED_MASS];
+        break;
+    case SI_ROUGHNESS:
+        slope[BY_ROUGH_GAP] = v->rough_gap/q[SI_ROUGHNESS];
+        break;
+    case SI_DRY_RESTITUTION:
+        slope[BY_DRY_RESTITUTION] = splat(1.0);
+        break;
+    case SI_YOUNGS_MODULUS:
+        slope[BY_ELASTIC_GAP] = -0.4*v->elastic_gap/q[SI_YOUNGS_MODULUS];
+        break;
+    case SI_POISSON_RATIO:
+        slope[BY_ELASTIC_GAP] =
+        -0.8*1.148698354997035*1.5518455739153596*q[SI_POISSON_RATIO]*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]/(1.0
+        -
+        (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
+        break;
+    case SI_VISCOSITY:
+        slope[BY_STOKES] = -v->stokes/q[SI_VISCOSITY];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_VISCOSITY];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_VISCOSITY];
+        break;
+    case SI_FILM_THICKNESS:
+        slope[BY_ASPECT] = v->aspect/q[SI_FILM_THICKNESS];
+        slope[BY_GLASS_NUMBER] = 2.0*v->glass_number/q[SI_FILM_THICKNESS];
+        slope[BY_ELASTIC_GAP] = -v->elastic_gap/q[SI_FILM_THICKNESS];
+        slope[BY_ROUGH_GAP] = -v->rough_gap/q[SI_FILM_THICKNESS];
+        break;
+    case SI_GLASS_TRANSITION_PRESSURE:
+        slope[BY_GLASS_NUMBER] = v->glass_number/q[SI_GLASS_TRANSITION_PRESSURE];
+        break;
+    case SI_SPEED:
+        slope[BY_STOKES] = v->stokes/q[SI_SPEED];
+        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
+        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
+        break;
+    case SI_ANGLE:
+        slope[BY_OBLIQUITY] = (vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) + 1.0;
+        break;
+    }
+}

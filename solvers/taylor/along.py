@@ -1,0 +1,108 @@
+"""Many collisions by the kernel with their derivatives: a direction for each group that the asked quantities move."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model import choose
+from ..numbers import si_values
+from ..scene import Scene
+from .engine import BUDGET, RIGID, Impacts, order_for
+from .headers import tangents
+from .library import ANSWER, Variant, kernel, knows
+
+RESULTS = 8  # as runtime/along.h has them
+COLUMNS = {"time": 4, "smallest_gap": 5, "turned": 6}  # after the outputs
+CHATTERS = 5  # the boundary of a flight that rested on the solids
+_CHUNK = 1024  # collisions whose derivatives are in work at a time
+_LOOSEST = 1e-6
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Answers, and derivatives of their dimensionless results by quantities in SI.
+
+    Arguments:
+        answers: of ANSWER, a collision each.
+        slopes: (collisions, quantities, RESULTS); zero where nothing separated.
+        near: (collisions, 2); of what separated, the least measure of its nearness to a boundary, and which (along.h).
+        quantities: names in the vocabulary, in the order of `slopes`.
+        by_energy: sticks are proved by their energy, a level below a barrier.
+    """
+
+    answers: np.ndarray
+    slopes: np.ndarray
+    near: np.ndarray
+    quantities: tuple[str, ...]
+    by_energy: bool
+
+
+def carried(
+    impacts: Impacts,
+    oblique: bool,
+    rtol: float,
+    rotation: bool,
+    moved: Sequence[str] | None = None,
+    order: int | None = None,
+    budget: int = BUDGET,
+) -> Carried | None:
+    """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
+
+    Arguments:
+        moved: quantities that are differentiated by; None: all.
+        order: of the series; None: the cheapest for the tolerance.
+    """
+    library = _library(impacts.scene, oblique, order or order_for(min(rtol, _LOOSEST)), rotation)
+    if library is None:
+        return None
+    names = _names(library, "quantity_names")
+    given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
+    given |= si_values(impacts.scene, None, None)
+    given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in names]
+    varies = [bool(np.ndim(given[name])) for name in names]
+    groups = _names(library, "group_names")
+    asked = _asked(library, names, moved)
+    count = impacts.angle.size
+    answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(names), RESULTS))
+    near = np.full((count, 2), np.inf)
+    for first in range(0, count, _CHUNK):
+        size = min(_CHUNK, count - first)
+        parts = [column[first : first + size] if own else column for column, own in zip(columns, varies, strict=True)]
+        pointers = (ctypes.c_void_p * len(parts))(*(part.ctypes.data for part in parts))
+        by_group = np.zeros((size, len(groups), RESULTS))
+        into, out, least = (all_[first : first + size] for all_ in (answers, slopes, near))
+        done = library.collide_along(
+            size, pointers, bytes(varies), min(rtol, _LOOSEST), budget, into.ctypes.data, asked,
+            by_group.ctypes.data, out.ctypes.data, least.ctypes.data,
+        )  # fmt: skip
+        assert done == ANSWER.itemsize
+    return Carried(answers, slopes, near, names, bool(ctypes.c_int.in_dll(library, "proved_by_energy").value))
+
+
+def _library(scene: Scene, oblique: bool, order: int, rotation: bool) -> ctypes.CDLL | None:
+    return kernel(Variant(choose(scene, oblique), order, rotation, gradients=True)) if differentiates(scene) else None
+
+
+def differentiates(scene: Scene) -> bool:
+    """Whether the kernel has the derivatives of a scene's collisions: its tangent is emitted, and there is a compiler."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return knows(scene) and not own and all(tangents(choose(scene, oblique)) for oblique in (True, False))
+
+
+def _names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:
+    return tuple(ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, symbol))).decode().split())
+
+
+def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None) -> int:
+    """The groups that these quantities move, as bits."""
+    bits = (ctypes.c_uint * len(quantities)).in_dll(library, "moved_groups")
+    found = 0
+    for name, own in zip(quantities, bits, strict=True):
+        if moved is None or name in moved:
+            found |= own
+    return found

@@ -1,0 +1,79 @@
+"""Derivatives by the chain rule with names kept: those of the expressions written out, for every structure and law."""
+
+from __future__ import annotations
+
+import math
+import random
+
+import pytest
+import sympy as sp
+from wetdoublet.derive.emit.taylor_chain import Chain
+from wetdoublet.derive.forces import FILM, SHEAR
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.laws.base import Law, fill
+from wetdoublet.derive.model import derive
+from wetdoublet.derive.structure import structures
+
+DRAW = random.Random(3)
+CHOSEN = {
+    "film": "finite", "shear": "immersed", "arm": "midgap", "glass": "literal", "bridge": "mikami", "strings": "exact",
+}  # fmt: skip
+LIBRARY = [law for laws in LAWS.values() for law in laws.values()]
+
+
+def _slope(expression: sp.Expr, by: sp.Symbol, at: dict[sp.Symbol, float]) -> float:
+    """Of an expression, by a central difference."""
+    function = sp.lambdify(list(at), expression, "math")
+    low, high = (function(*(at | {by: at[by] + step}).values()) for step in (-1e-5, 1e-5))
+    return (high - low) / 2e-5
+
+
+def _somewhere(symbols: set[sp.Symbol]) -> dict[sp.Symbol, float]:
+    at = {symbol: DRAW.uniform(0.3, 0.6) for symbol in sorted(symbols, key=str)}
+    return at | {symbol: 5.0 for symbol in at if symbol.name == "string_ratio"}  # strings longer than the spheres
+
+
+def _value(expression: sp.Expr, at: dict[sp.Symbol, float]) -> float:
+    return float(sp.lambdify(list(at), expression, "math")(*at.values()))
+
+
+@pytest.mark.parametrize("name", ["oblique_bridge_strings"])
+def test_rates_of_a_structure(name: str) -> None:
+    """Each rate by each state and group, laws' slopes put in, is the slope of the rate written out."""
+    model = derive(next(structure for structure in structures() if structure.name == name))
+    laws = {slot: LAWS[slot][law] for slot, law in CHOSEN.items()}
+    slopes: dict[sp.Symbol, sp.Expr] = {}
+
+    def slope(node: sp.Expr, position: int) -> sp.Symbol:
+        slot, function = node.func.__name__.split(".")
+        places = [sp.Dummy() for _ in node.args]
+        symbol = sp.Symbol(f"{slot}_{function}_by_{position}")
+        slopes[symbol] = laws[slot][function](*places).diff(places[position]).subs(dict(zip(places, node.args)))
+        return symbol
+
+    chain = Chain(model.definitions, slope, model.groups)
+    at = _somewhere({*model.states, *model.groups, FILM, SHEAR})
+    for output, rate in model["right_hand_side"].outputs:
+        plain = fill(model.expanded(sp.sympify(rate)), laws)
+        for variable in (*model.states, *model.groups):
+            found = chain.by(sp.sympify(rate), variable)
+            for symbol, value in reversed(chain.named):
+                found = found.subs(symbol, value)
+            found = fill(model.expanded(found.subs(slopes)), laws)
+            assert math.isclose(_value(found, at), _slope(plain, variable, at), rel_tol=1e-6, abs_tol=1e-8), (
+                output,
+                variable,
+            )
+
+
+@pytest.mark.parametrize("law", LIBRARY, ids=lambda law: law.module)
+def test_functions_of_a_law(law: Law) -> None:
+    """Each function of a law by each argument is the slope of the function written out."""
+    for each in law.functions:
+        chain, at = Chain(each.definitions), _somewhere(set(each.arguments))
+        for argument in each.arguments:
+            found = chain.by(each.result, argument)
+            for symbol, value in (*reversed(chain.named), *reversed(each.definitions)):
+                found = found.subs(symbol, value)
+            expected = _slope(each(*each.arguments), argument, at)
+            assert math.isclose(_value(found, at), expected, rel_tol=1e-6, abs_tol=1e-8), (each.name, argument)
