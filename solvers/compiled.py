@@ -84,7 +84,7 @@ def compiled(function: Function) -> Function:
 
 
 def build(path: str, flags: tuple[str, ...], source: Path, library: Path) -> str:
-    """Compile a C file beside which there is room; the error if it fails, else "".
+    """Compile a C file beside which there is room; the first error that the compiler names if it fails, else "".
 
     The library is built under a name of its own and then moved into place: several processes may do so at once.
     """

@@ -279,13 +279,22 @@ class Header:
                     {key: "return"},
                 )
         if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
-            lines += ["#define BY_ORBIT 1", "enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };"]
+            lines += ["#define BY_ORBIT LIBRARY_LAWS", "enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };"]
             lines += self._value(
                 "orbital",
                 "static inline void orbital(const constants *c, const vec *y, vec *found)",
                 {"slip": "found[SLIP_RATE]", "orbit_energy": "found[ORBIT_ENERGY]", "surface": "found[SLIP_ENERGY]"},
                 "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
                 "(surface arm), over m v0^2 (derive/orbital.py).",
+            )
+        if "arm" in model.slots and not shape.strings:
+            lines += self._value(
+                "rigid_rotation", "static inline vec rigid_orbit(const constants *c, const vec *y)", {"orbit": "return"}
+            )
+            lines += self._value(
+                "angular_momentum",
+                "static inline vec angular_momentum(const constants *c, const vec *y)",
+                {"angular_momentum": "return"},
             )
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
         if any(each.name == "tethered" for each in model.functions):

@@ -54,6 +54,7 @@ typedef struct {
     vec energy_per_spin_squared;
     vec tangential_restitution_factor;
     vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
+    vec angular_momentum_per_momentum;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -104,6 +105,7 @@ static inline void prepare(constants *c)
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
     c->slope_per_distance_by_momentum_squared_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->obliquity*c->obliquity);
+    c->angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -285,6 +287,28 @@ static inline vec potential_slope(const constants *c, const vec *y)
     vec slope =
         c->slope_per_distance_by_momentum_squared_over_inertia_ratio_squared*distance_by_momentum_squared_over_inertia_ratio_squared;
     return slope;
+}
+
+/* The state that has this least energy: at rest in the gap, turning as one body. */
+static inline vec rigid_orbit(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec distance_squared = distance*distance;
+    vec inertia_ratio = distance_squared + 6.4;
+    vec distance_squared_by_momentum = distance_squared*momentum;
+    vec orbit_2 = distance_squared_by_momentum/inertia_ratio;
+    return orbit_2;
+}
+
+/* Angular momentum over its start value. */
+static inline vec angular_momentum(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec angular_momentum = c->angular_momentum_per_momentum*momentum;
+    return angular_momentum;
 }
 
 /* Gap beyond which there is no tangential force. */

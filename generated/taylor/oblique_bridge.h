@@ -70,6 +70,7 @@ typedef struct {
     vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
     vec rotation_energy_unit;
     vec orbit_energy_per_orbit_squared_over_distance_squared;
+    vec angular_momentum_per_momentum;
     vec contact;
     vec nearest;
     vec farthest;
@@ -142,6 +143,7 @@ static inline void prepare(constants *c)
         -0.0625*c->aspect*(c->obliquity*c->obliquity);
     c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
     c->orbit_energy_per_orbit_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
+    c->angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
@@ -350,7 +352,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
-#define BY_ORBIT 1
+#define BY_ORBIT LIBRARY_LAWS
 enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/orbital.py). */
@@ -391,6 +393,28 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
     found[SLIP_RATE] = slip;
     found[ORBIT_ENERGY] = orbit_energy;
     found[SLIP_ENERGY] = surface;
+}
+
+/* The state that has this least energy: at rest in the gap, turning as one body. */
+static inline vec rigid_orbit(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec distance_squared = distance*distance;
+    vec inertia_ratio = distance_squared + 6.4;
+    vec distance_squared_by_momentum = distance_squared*momentum;
+    vec orbit_2 = distance_squared_by_momentum/inertia_ratio;
+    return orbit_2;
+}
+
+/* Angular momentum over its start value. */
+static inline vec angular_momentum(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec angular_momentum = c->angular_momentum_per_momentum*momentum;
+    return angular_momentum;
 }
 
 #if defined(BRIDGE_FORCE_FALLS)

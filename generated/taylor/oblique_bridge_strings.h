@@ -381,7 +381,7 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     shown[3] = y[SPIN];
 }
 
-#define BY_ORBIT 1
+#define BY_ORBIT LIBRARY_LAWS
 enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/orbital.py). */

@@ -114,6 +114,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "WITH_ROTATION": int(variant.rotation),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
+        "LIBRARY_LAWS": int(variant.choice.package is None),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }

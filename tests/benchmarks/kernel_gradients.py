@@ -57,7 +57,9 @@ def of_parameters(asked: Gradients, many: engine.Impacts) -> list[dict[str, Any]
     for rtol in (1e-8, 1e-9, 1e-10, 1e-12):
         runs: dict[str, Callable[[], Any]] = {"value": lambda rtol=rtol: engine.answers(many, rtol)}
         for names in (SOME[:1], SOME, asked.names):
-            runs[f"{len(names)}"] = lambda names=names, rtol=rtol: along(many, asked.kind, names, ("restitution",), rtol)
+            runs[f"{len(names)}"] = lambda names=names, rtol=rtol: along(
+                many, asked.kind, names, ("restitution",), rtol
+            )
         found = along(many, asked.kind, asked.names, ("restitution",), rtol)
         assert found is not None
         error = float(asked.errors(found.first[0, :size]).max())

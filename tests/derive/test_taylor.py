@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 from wetdoublet.derive.emit.printer import EmissionError
 from wetdoublet.derive.emit.taylor import structure_header
-from wetdoublet.derive.emit.taylor_laws import fits, law_header, signatures
+from wetdoublet.derive.emit.taylor_laws import law_header, moves
 from wetdoublet.derive.emit.taylor_program import Program, cheapest
 from wetdoublet.derive.emit.taylor_work import antiderivative
 from wetdoublet.derive.laws import LAWS
@@ -38,6 +38,7 @@ EXPRESSIONS = [
     (sp.log(x), ["log"]),
     (sp.sin(x) * sp.cos(x), ["sine", "cosine", "product"]),
     (x ** sp.Rational(2, 3), ["power"]),
+    (sp.cosh(x), ["exp", "linear", "exp", "linear"]),
     (sp.exp(x) + sp.exp(x) ** 2 / c, ["exp", "linear", "exp", "linear"]),  # sympy makes exp(2x) of the square
 ]
 
@@ -90,25 +91,35 @@ def test_no_work_where_there_is_no_rule():
 
 
 def test_every_law_has_its_header():
-    """Every law that the kernel can call becomes recurrences; which bridge laws close their work is known."""
+    """Every law of the library becomes recurrences; which forces close their work is known."""
     closed = set()
-    left_out = {law.name for laws in LAWS.values() for law in laws.values() if not fits(law)}
-    assert left_out == {"cavitating", "constant-volume", "van-der-waals"}
     for slot, laws in LAWS.items():
-        for law in filter(fits, laws.values()):
+        for law in laws.values():
             text = law_header(law, "0", "by a test")
             assert f"{slot}_" in text
-            if "BRIDGE_FORCE_WORK" in text:
+            if "_WORK 1" in text:
                 closed.add(law.name)
-    assert {"mikami", "mikami-log10", "soulie", "lambert", "constant"} <= closed
+    assert {"mikami", "mikami-log10", "soulie", "lambert", "constant", "van-der-waals", "finite"} <= closed
     assert "willett" not in closed
 
 
 def test_arguments_that_move():
-    """A slot's arguments are series or constants, the same wherever it is called."""
-    assert signatures()["bridge", "force"] == (True, False, False)
-    assert signatures()["shear", "edge"] == (False,)
-    assert signatures()["strings", "stiffness"] == (False, True)
+    """Of a law's arguments those are series that are no groups, a user's groups included."""
+    assert moves(LAWS["bridge"]["mikami"]["force"].arguments) == (True, False, False)
+    assert moves(LAWS["shear"]["immersed"]["edge"].arguments) == (False,)
+    assert moves(LAWS["strings"]["exact"]["stiffness"].arguments) == (False, True)
+    assert moves((x, c), {c}) == (True, False)
+
+
+def test_margins_of_what_attracts():
+    """An attraction on strings, or without, has the margins of its own proof, for laws that fall with the gap alone."""
+    for strings in (False, True):
+        text = structure_header(derive(Structure(oblique=True, strings=strings, bridge=True)), "0", "by a test", "")
+        assert "#if defined(BRIDGE_FORCE_FALLS)\n#define HELD" in text
+        assert "*hold_margin = hold;" in text
+        assert not re.search(r"vec_(max|min)\(", text)
+    assert "BRIDGE_FORCE_FALLS" in law_header(LAWS["bridge"]["mikami"], "0", "by a test")
+    assert "BRIDGE_FORCE_FALLS" not in law_header(LAWS["bridge"]["rabinovich"], "0", "by a test")
 
 
 def test_margins_of_the_stick_proof_hand_nan_on():

@@ -19,7 +19,7 @@ typedef struct {
     vec touch;                 /* capillary work at first touch */
 } barrier;
 
-static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificate.py has it */
+static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/proofs/base.py has it */
 
 static const double NODES[6] = {
     0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
@@ -162,7 +162,7 @@ static inline vec height_ahead(const vec *y, const barrier *b)
 }
 #endif
 
-/* The capillary work done since first touch. */
+/* The work done against attractions since first touch. */
 static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 {
 #if CAPILLARY_STATE
@@ -179,7 +179,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 #endif
 }
 
-#if SURFACE_ARM && BY_ORBIT
+#if SURFACE_ARM && BY_ORBIT && ATTRACTS
 /* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/orbital.py). */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
@@ -194,17 +194,48 @@ static inline mask out_of_reach(const constants *c, const vec *y, const barrier 
     return (gap > y[GAP]) & (y[ORBIT] >= 16.0*y[SPIN]) & (needed < -margin);
 }
 
-static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {
+    (void)rests;
     return out_of_reach(c, y, b, b->near_gap, b->near_work, tolerance)
            | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
 }
+#elif SURFACE_ARM && ATTRACTS
+/* The orbit's momentum at a gap if all turns as one body. */
+static inline vec rigid_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return rigid_orbit(c, there);
+}
+
+/* Lanes whose energy is below the height of a gap ahead, lowered by what a drifting angular momentum can still add, as
+ * solvers/proofs/barrier.py `_drift` has it: no theorem. */
+static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
+{
+    vec first[STATES], rigid = rigid_orbit(c, y), reach = choose(rests, y[GAP], gap);
+    start(c, first);
+    vec change = vec_abs(y[ORBIT] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
+    vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBIT]/rigid, splat(1.0))*lost
+                /(angular_momentum(c, y)*first[ORBIT]);
+    vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
+}
+
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    return below(c, y, b, b->near_gap, b->near_work, rests, tolerance)
+           | below(c, y, b, b->far_gap, b->far_work, rests, tolerance);
+}
 #elif !SURFACE_ARM
 /* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
-static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, double tolerance)
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {
     vec height = height_ahead(y, b);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    (void)rests;
     return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
 }
 #endif

@@ -1,7 +1,7 @@
-/* Which proof of a stick a model has, by the rule of solvers/certificate.py `proof_for`, and in which lanes it holds. */
+/* Which proof of a stick a model has, by the rule of solvers/proofs/choice.py `proof_for`, and in which lanes it holds. */
 
 #define TURNS (OBLIQUE && !WALL)
-#define PROOF_BY_ENERGY ((TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS) && (!SURFACE_ARM || BY_ORBIT))
+#define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
 #if !TURNS && !STRINGS && !BRIDGE && !(ATTRACTION && CAPILLARY_STATE)
 #define PROOF_BY_FILM FILM_MOMENTUM
 #else
@@ -62,7 +62,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 }
 #else
 /* A film and an attraction without a bridge, along the line of centres alone: what closes at w under the film closes at
- * most at w + g with the attraction, g^2/2 its work from x0 on (`AttractedProof` in solvers/certificate.py). */
+ * most at w + g with the attraction, g^2/2 its work from x0 on (solvers/proofs/attracted.py). */
 static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
 {
     double margin = SAFETY*tolerance;
@@ -124,7 +124,7 @@ static inline mask proved_sticks(
     mask proved = splat_mask(0);
     (void)c; (void)y; (void)b; (void)contact; (void)closing; (void)resting; (void)tolerance;
 #if PROOF_BY_ENERGY
-    proved |= below_barrier(c, y, b, tolerance);
+    proved |= below_barrier(c, y, b, resting, tolerance);
 #endif
 #if PROOF_BY_FILM
     proved |= ~resting & stopped_by_film(c, y, contact, closing, tolerance);

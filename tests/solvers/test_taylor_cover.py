@@ -1,0 +1,161 @@
+"""What the kernel knows beyond the paper's structures: partners, attractions, films, ruptures, a user's laws."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide, collide_many, emitted, many
+from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.taylor import engine, headers, library
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+EVERYTHING = tuple(many.QUANTITIES)
+STRINGS = {"pendulum.length": 0.01, "bridge.law": "constant", "particles.dry_restitution": 0.9}
+RTOL = 1e-7  # of the lowest order, whose kernel is compiled fastest
+
+# preset, what is changed, Stokes numbers, angles in degrees
+KINDS: dict[str, tuple[str, dict[str, Any], list[float], list[float]]] = {
+    "pair that attracts, cavitating, own rupture": (
+        "granulation",
+        {"partner.radius": "300 um", "partner.density": "1500 kg/m^3", "attraction.hamaker": 1e-14,
+         "model.film": "cavitating", "bridge.law": "willett", "bridge.rupture": "own"},
+        [0.01, 0.03, 0.05, 0.1, 0.3, 0.02], [20, 60, 75, 45, 10, 80],
+    ),
+    "wall that attracts": (
+        "granulation-dry-bridge", {"partner.wall": True, "attraction.hamaker": 1e-13},
+        [0.01, 0.05, 0.1, 0.3, 1.0, 0.11], [20, 60, 75, 45, 10, 80],
+    ),
+    "attraction and a film of constant volume on strings": (
+        "granulation", STRINGS | {"model.film": "constant-volume", "attraction.hamaker": 1e-15},
+        [0.005, 0.02, 0.02, 0.1, 0.2, 0.4], [60, 20, 65, 10, 20, 15],
+    ),
+}  # fmt: skip
+
+
+def _scene(kind: str) -> Scene:
+    preset, changes, _, _ = KINDS[kind]
+    return Scene.load(preset).with_entries(changes)
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Kernels compiled without optimisation, for two lanes: in a third of the time."""
+    kept = (flag for flag in library.FLAGS if flag not in ("-O2", "-funroll-loops"))
+    monkeypatch.setattr(library, "FLAGS", ("-O0", *kept))
+    monkeypatch.setattr(library, "lanes", lambda: 2)
+
+
+def _agrees(scene: Scene, stokes: Any, angle: Any) -> np.ndarray:
+    """Outcome, proof and every quantity as Rosenbrock has them; returns which sticks are proved."""
+    found = collide_many(scene, stokes=stokes, angle=np.radians(angle), rtol=RTOL, engine="taylor", of=EVERYTHING)
+    own = engine.answers(engine.Impacts(scene, scene.speed_of(np.array(stokes)), np.radians(angle), {}), RTOL, True)
+    assert own is not None
+    assert (own["status"] <= 1).all()  # nothing was handed over
+    expected = collide_many(
+        scene, stokes=stokes, angle=np.radians(angle), rtol=1e-10, engine="rosenbrock", of=EVERYTHING
+    )
+    for name in ("outcome", "certified", "reason"):
+        assert (found[name].values == expected[name].values).all(), name
+    for name in EVERYTHING:  # the conditioning of these impacts is at most some tens
+        np.testing.assert_allclose(found[name], expected[name], rtol=30 * RTOL, atol=1e-12, err_msg=name)
+    return found["certified"].values
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.usefixtures("quick")
+def test_equals_rosenbrock(kind: str):
+    """Outcome, proof and every quantity are those of Rosenbrock; some sticks are proved, some flights separate."""
+    _, _, stokes, angle = KINDS[kind]
+    certified = _agrees(_scene(kind), stokes, angle)
+    assert 0 < certified.sum() < certified.size
+
+
+@pytest.mark.usefixtures("quick")
+def test_both_spins_of_a_pair():
+    """`collide` shows the partner's own spin, and what a stick leaves undefined."""
+    scene = _scene("pair that attracts, cavitating, own rupture")
+    found, expected = (
+        collide(scene, stokes=0.1, angle="45 deg", rtol=RTOL, engine=by, ledger=False)
+        for by in ("taylor", "rosenbrock")
+    )
+    assert found.engine == "taylor"
+    for name in ("final_spin", "final_spin_partner", "final_rotation_rate", "generalised_centrifugal"):
+        assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=30 * RTOL), name
+    stick = collide(scene, stokes=0.01, angle="20 deg", rtol=RTOL, engine="taylor", ledger=False)
+    assert (stick.outcome, stick.certified, stick.final_spin_partner) == ("stick", True, None)
+
+
+ALONE: list[tuple[str, dict[str, Any]]] = [
+    *((preset, {}) for preset in ("granulation", "pendulum", "granulation-dry-bridge")),
+    ("granulation", {"bridge.rupture": "own"}),
+    ("pendulum", {"model.film": "cavitating"}),
+    ("granulation-dry-bridge", {"attraction.hamaker": 1e-18}),
+    ("granulation", {"partner.wall": True}),
+]
+
+
+@pytest.mark.parametrize(("preset", "changes"), ALONE, ids=[f"{p} {' '.join(c)}".strip() for p, c in ALONE])
+def test_every_kind_is_known(preset: str, changes: dict[str, Any]):
+    """Every preset and every kind of change has its headers, none of which failed to be emitted."""
+    assert library.knows(Scene.load(preset).with_entries(changes))
+
+
+MODEL = '''"""A liquid that thins, and a bridge that is cut off."""
+from wetdoublet.derive.user import *
+
+k = quantity("thinning", default="0.3", bounds=">= 0", meaning="loss of resistance with the square of the speed")
+law("film", "thinning", resistance=(1 - gap)**2 / gap / (1 + k * opening**2), source="a test")
+law("bridge", "cut", force=2 * Max(1 - h, 0), source="a test")
+'''
+
+
+@pytest.fixture(scope="module")
+def derived(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache into which the model above has been derived, the model beside."""
+    folder = tmp_path_factory.mktemp("thinning")
+    (folder / "thinning.py").write_text(MODEL)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(emitted, "_cache", lambda: folder)
+        Scene.load("granulation", model=folder / "thinning.py")
+    return folder
+
+
+@pytest.fixture
+def thinning(derived: Path, monkeypatch: pytest.MonkeyPatch) -> Scene:
+    """Granulation with that model, and its cache."""
+    monkeypatch.setattr(emitted, "_cache", lambda: derived)
+    return Scene.load("granulation", model=derived / "thinning.py")
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_users_model_has_its_kernel(thinning: Scene, derived: Path):
+    """Laws of one's own, with a group of their own and the velocity, fly in the kernel, derived once into the cache."""
+
+    def kept() -> dict[str, int]:
+        return {path.name.partition("-")[2]: path.stat().st_mtime_ns for path in derived.rglob("emitted/*/*.h")}
+
+    scene = thinning.with_entries({"bridge.law": "mikami"})
+    assert _agrees(scene, [0.01, 0.03, 0.05, 0.1, 0.3], [20, 60, 75, 45, 30]).any()
+    first = kept()
+    assert {"oblique_bridge_reduced.h", "film_thinning.h"} <= first.keys()
+    headers.headers.cache_clear()
+    thick, thin = collide_many(
+        scene, stokes=0.1, angle=0.8, vary={"custom.thinning": [0.0, 0.3]}, rtol=RTOL, engine="taylor", of=EVERYTHING
+    ).restitution.values
+    plain = collide_many("granulation", stokes=0.1, angle=0.8, engine="rosenbrock").restitution.values[0]
+    assert thick == pytest.approx(plain, rel=30 * RTOL)
+    assert thin > thick  # a film that thins takes less
+    assert kept() == first
+
+
+def test_what_has_no_recurrence_is_named(thinning: Scene, capfd: pytest.CaptureFixture[str]):
+    """A law that the kernel cannot expand is named once, and other engines answer."""
+    found = [collide_many(thinning, stokes=0.3, angle=0.8, engine=by) for by in ("taylor", "taylor", "rosenbrock")]
+    (said,) = capfd.readouterr().err.splitlines()
+    why = "law bridge cut: no Taylor recurrence for Max: Max(0, 1 - gap_over_radius)"
+    assert said == f"no Taylor kernel ({why}): other engines answer"
+    assert found[0].attrs["engine"] == "rosenbrock"
+    assert found[0].restitution.values == found[2].restitution.values > 0
