@@ -36,6 +36,7 @@ def tables(found: Stress) -> dict[str, str]:
         "engines": _engines(found),
         "ledgers": _ledgers(found),
         "near": _near(found),
+        "rate": rate(found),
     }
 
 
@@ -72,7 +73,7 @@ def _dearest(one: Verdict) -> str:
 
 def report(found: Stress, scenes: list[Path]) -> str:
     """`stress.md`."""
-    parts = ["# wetdoublet bench --stress", f"**{found.summary()}**", _surroundings(found)]
+    parts = ["# wetdoublet bench --stress", f"**{found.summary()}**", rate(found), _surroundings(found)]
     parts += ["## Disagreements", _listed(found, DISAGREEMENTS)]
     parts += ["## Failures", _failures(found)]
     parts += ["## Engines", _engines(found), _ledgers(found)]
@@ -84,6 +85,15 @@ def report(found: Stress, scenes: list[Path]) -> str:
     if scenes:
         parts += ["## The worst, as scene files", "\n".join(f"* `worst/{file.name}`" for file in scenes)]
     return "\n\n".join(parts) + "\n"
+
+
+def rate(found: Stress) -> str:
+    """How long it took, and what the default would take at that rate."""
+    cores, each = found.where["cores"], found.wall / max(len(found.verdicts), 1)
+    return (
+        f"{1 / each:.1f} scenes a second on {cores} cores, start-up and compilation included: "
+        f"20,000 scenes take some {20_000 * each / 60:.0f} minutes at that rate."
+    )
 
 
 def _surroundings(found: Stress) -> str:

@@ -53,6 +53,7 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
     parts += ["## Cold start", cold_table(bench["cold_start"])]
     if stress is not None:
         parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
+        parts += [stress["tables"]["rate"]] if "rate" in stress["tables"] else []
         parts += [stress["tables"]["disagreements"], stress["tables"]["failures"], stress["tables"]["engines"]]
         parts += [stress["tables"]["ledgers"], f"![Error and cost]({folder}/stress-map.png)"]
         parts += ["### Points beside boundaries", f"![Points beside boundaries]({folder}/stress-near.png)"]
