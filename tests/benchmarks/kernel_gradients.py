@@ -3,8 +3,8 @@
     python tests/benchmarks/kernel_gradients.py            measures, prints, writes the page and its JSON file
     python tests/benchmarks/kernel_gradients.py --print    only prints
 
-The oblique collisions of both tasks that separate, repeated in one call; CPU time a collision, the best of some runs that
-take turns; the error is the largest of all derivatives of e_n in theta, p = p_ref (1 + theta), over the largest
+The oblique collisions of both tasks that separate, repeated in one call; CPU time a collision, the best of some runs
+that take turns; the error is the largest of all derivatives of e_n in theta, p = p_ref (1 + theta), over the largest
 derivative of their collision, against forward derivatives of Rosenbrock at 1e-12.
 """
 
