@@ -7,6 +7,7 @@ out of the flow's own; a direction then costs as many products as the matrix has
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from typing import TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -22,7 +23,8 @@ from .taylor_chain import Chain
 from .taylor_slopes import arguments, shortest
 
 _IN = "    "
-Entry = str | sp.Expr  # a series' name, or a constant
+Entry: TypeAlias = str | sp.Expr
+"""A series' name, or a constant."""
 
 
 class Tangent:

@@ -121,7 +121,7 @@ def gradients_many(
     request = requested(scene, stokes, speed, angle, {}, rtol, "taylor", ())
     loaded = request.scene
     warn(loaded)
-    velocity = request.speed if request.speed is not None else loaded.speed_of(np.asarray(request.stokes))
+    velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
     asked = _Asked(
         loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
     )
@@ -178,7 +178,8 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     if "restitution" in asked.of:
         place = asked.of.index("restitution")
         asked.value[place, stuck], asked.gradient[place, stuck] = 0.0, 0.0
-    return which[asked.outcome[which] == FAILED]
+    left: np.ndarray = which[asked.outcome[which] == FAILED]
+    return left
 
 
 def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
@@ -212,7 +213,8 @@ def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bo
             stays = (aside["outcome"] == 0) & (aside["status"] <= 1)
             stuck[look[~stays]] = False
             look = look[stays]
-    return stuck
+    sticks: np.ndarray = stuck
+    return sticks
 
 
 def _alone(asked: _Asked, k: int, hold: str) -> None:

@@ -89,7 +89,7 @@ def _library(scene: Scene, oblique: bool, order: int, rotation: bool) -> ctypes.
 
 
 def differentiates(scene: Scene) -> bool:
-    """Whether the kernel has the derivatives of a scene's collisions: its tangent is emitted, and there is a compiler."""
+    """Whether the kernel differentiates a scene's collisions: its tangent is emitted, and there is a compiler."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
     return knows(scene) and not own and all(tangents(choose(scene, oblique)) for oblique in (True, False))
 

@@ -165,8 +165,10 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, pointer]
     if variant.gradients:
         loaded.collide_along.restype = ctypes.c_int
-        given = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer]
-        loaded.collide_along.argtypes = [*given, ctypes.c_uint, pointer, pointer, pointer]
+        buffers = pointer, pointer, pointer
+        loaded.collide_along.argtypes = [
+            ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, ctypes.c_uint, *buffers,
+        ]  # fmt: skip
     return loaded
 
 

@@ -1,11 +1,11 @@
-"""What the Taylor kernel's derivatives cost and how exact they are, beside heyoka's; rewrites a table of docs/kernel.md.
+"""What the kernel's derivatives cost and how exact they are, beside heyoka's; rewrites a table of docs/kernel.md.
 
-    python tests/benchmarks/kernel_gradients.py            measures, prints, writes docs/performance/kernel_gradients.json
+    python tests/benchmarks/kernel_gradients.py            measures, prints, writes the page and its JSON file
     python tests/benchmarks/kernel_gradients.py --print    only prints
 
-The oblique collisions of both tasks that separate, repeated in one call; CPU time a collision, the best of some runs that
-take turns; the error is the largest of all derivatives of e_n in theta, p = p_ref (1 + theta), over the largest derivative of
-their collision, against forward derivatives of Rosenbrock at 1e-12.
+The oblique collisions of both tasks that separate, repeated in one call; CPU time a collision, the best of some runs
+that take turns; the error is the largest of all derivatives of e_n in theta, p = p_ref (1 + theta), over the largest
+derivative of their collision, against forward derivatives of Rosenbrock at 1e-12.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def of_parameters(asked: Gradients, many: engine.Impacts) -> list[dict[str, Any]
 
 
 def beside(asked: Gradients, many: engine.Impacts) -> dict[str, Any]:
-    """The cheapest cost of all twelve derivatives to ERROR: kernel, `gradients_many`, heyoka's variational equations."""
+    """The cheapest cost of all twelve derivatives to ERROR: kernel, `gradients_many`, variational heyoka."""
     runs: dict[str, Callable[[], Any]] = {}
     exact: dict[str, float] = {}
     size, wrt = len(asked.impacts), list(asked.names)
