@@ -64,26 +64,35 @@ def order_for(rtol: float) -> int:
 
 
 def variant(
-    scene: Scene, choice: Choice, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
+    scene: Scene,
+    choice: Choice,
+    rtol: float,
+    rotation: bool,
+    ledger: bool = False,
+    trajectory: bool = False,
+    few: bool = False,
 ) -> Variant:
     """What the kernel of a scene is compiled for, at a tolerance."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(choice, order_for(rtol), rotation, own, ledger=ledger, trajectory=trajectory)
+    return Variant(choice, order_for(rtol), rotation, own, few=few, ledger=ledger, trajectory=trajectory)
 
 
 def answers(
-    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = BUDGET
+    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = BUDGET, few: bool = False
 ) -> np.ndarray | None:
     """An array of ANSWER, a collision each; None if there is no kernel here.
 
     Arguments:
         rotation: also the angle turned.
         budget: steps after which a collision is handed over.
+        few: by a kernel that is compiled sooner and flies a little slower.
     """
     found = np.zeros(impacts.angle.size, ANSWER)
     for oblique in (True, False):
         which = np.flatnonzero((impacts.angle > 0) == oblique)
-        if which.size and not _fill(found, impacts, which, _plain(impacts, oblique, rtol, rotation, budget), threads):
+        if which.size and not _fill(
+            found, impacts, which, _plain(impacts, oblique, rtol, rotation, budget, few), threads
+        ):
             return None
     return found
 
@@ -111,13 +120,13 @@ def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | Non
     return True
 
 
-def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int) -> Fly | None:
+def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> Fly | None:
     """The kernel of these impacts; None if there is none here."""
     scene = those.scene
     if not knows(scene):
         return None
     choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
-    library = kernel(variant(scene, choice, rtol, rotation))
+    library = kernel(variant(scene, choice, rtol, rotation, few=few))
     return None if library is None else calling(library, rtol, budget)
 
 

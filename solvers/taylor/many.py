@@ -10,6 +10,7 @@ from ...generated import scaling
 from ..errors import InputError
 from ..numbers import formulas, si_values
 from ..requests import Request
+from ..settings import FEW
 from .engine import PATIENT, Impacts, answers
 
 Block = dict[str, np.ndarray]
@@ -46,7 +47,7 @@ def collided(
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         impacts, sound = _impacts(request.part(part))
-        found = answers(impacts, request.rtol, "rotation" in request.of, threads)
+        found = answers(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
         if found is None:
             return which
         kept = found["status"] <= 1
@@ -65,7 +66,7 @@ def patiently(request: Request) -> Block | None:
     impacts, sound = _impacts(request)
     if not sound.all():
         return None
-    found = answers(impacts, request.rtol, "rotation" in request.of, budget=PATIENT)
+    found = answers(impacts, request.rtol, "rotation" in request.of, budget=PATIENT, few=request.size <= FEW)
     if found is None or (found["status"] > 1).any():
         return None
     return _block(request, found, impacts)

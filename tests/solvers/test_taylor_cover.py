@@ -44,7 +44,9 @@ def _scene(kind: str) -> Scene:
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Kernels compiled without optimisation, for two lanes: in a third of the time."""
     kept = (flag for flag in library.FLAGS if flag not in ("-O2", "-funroll-loops"))
-    monkeypatch.setattr(library, "FLAGS", ("-O0", *kept))
+    fast = ("-O0", *kept)
+    monkeypatch.setattr(library, "FLAGS", fast)
+    monkeypatch.setattr(library, "FEW_FLAGS", fast)
     monkeypatch.setattr(library, "lanes", lambda: 2)
 
 
