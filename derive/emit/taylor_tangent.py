@@ -7,6 +7,7 @@ out of the flow's own; a direction then costs as many products as the matrix has
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from itertools import groupby
 from typing import TypeAlias
 
 import sympy as sp
@@ -18,7 +19,7 @@ from ..model import Model
 from ..quantities import VOCABULARY
 from ..scaling import group_definitions
 from .taylor import Beside, Header
-from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_c import Constants, Recurrences, Text, comment, each_term, function
 from .taylor_chain import Chain
 from .taylor_slopes import arguments, shortest
 
@@ -47,7 +48,8 @@ class Tangent:
         given = {group: f"v->{group.name}" for group in model.groups}
         given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
         self.constants = Constants(given, (FILM, SHEAR))
-        self.made = Recurrences(self.program, self.constants, self._where)
+        self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
+        self.made = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
 
     # ---- derivatives
 
@@ -58,14 +60,19 @@ class Tangent:
         argument = arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
         if symbol.name not in self._slopes:
-            self._slopes[symbol.name] = f"s->{call}.by_{argument}"
+            self._slopes[symbol.name] = f"{call}.by_{argument}"
             self.program.give(symbol)
         return symbol
 
     def _where(self, series: str) -> str:
         if series in self._slopes:
-            return self._slopes[series]
+            return self._law_place(self._slopes[series].split(".")[0]) + self._slopes[series]
         return f"of->{series}.result" if series in self._calls else f"of->{series}"
+
+    def _law_place(self, call: str) -> str:
+        """A law's slopes are local unless one is itself an entry."""
+        entries = {self._slopes[entry].split(".")[0] for entry in self._kept if entry in self._slopes}
+        return "s->" if call in entries else ""
 
     def _rates(self) -> list[tuple[str, sp.Expr]]:
         rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
@@ -133,29 +140,34 @@ class Tangent:
         return [*lines, *comment("What the slopes need once a collision."), *function(head, body), ""]
 
     def _structs(self) -> list[str]:
-        lines = ["typedef struct {"]
-        lines += [f"    {slot}_{call}_slopes {name};" for name, (slot, call, _) in self._laws().items()]
+        lines = comment("What the rates change by: entries of the matrix, and what drives a direction.")
+        lines += ["typedef struct {", *(f"    {field}" for field in self._law_fields("s->"))]
         lines += [f"    {field}" for field in self.made.fields()]
         lines += [f"    vec {field}[TERMS];" for field in self._level_fields()]
         return [*lines, "} slopes;", ""]
+
+    def _law_fields(self, place: str) -> list[str]:
+        laws = self._laws().items()
+        return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
 
     def _level_fields(self) -> list[str]:
         return [f"{row}_by_{by}" for (row, by), entry in self.sources.items() if not isinstance(entry, str)]
 
     def _coefficients(self) -> list[str]:
-        body = ["(void)film; (void)shear; (void)c; (void)asked;"]
+        body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
         for name, (slot, call, given) in self._laws().items():
             passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
-            body.append(f"{slot}_{call}_slopes_next(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed}, k);")
+            into = f"{self._law_place(name)}{name}"
+            body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
         body += self._guarded()
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
-                body.append(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);")
+                body.append(each_term(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);"))
         head = (
-            "INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, "
-            "vec film, vec shear, unsigned asked, int k)"
+            "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
         )
-        doc = "Coefficient k of what the rates change by with the states, and with the groups that are asked for."
+        doc = "What the rates change by with the states, and with the groups that are asked for."
         return [*comment(doc), *function(head, body), ""]
 
     def _guarded(self) -> list[str]:
@@ -170,17 +182,24 @@ class Tangent:
                 if operation.name in always:
                     always.add(part)
                 needs.setdefault(part, set()).update(needs.get(operation.name, ()))
-        lines: list[str] = []
-        before: tuple[str, ...] = ()
+        turning = {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of == "turned"}
+        turning -= {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of != "turned"}
+        rows = []
         for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
             own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
-            if own != before:
-                lines += (["}"] if before else []) + (
-                    [f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"] if own else []
-                )
-                before = own
-            lines.append(_IN + line if own else line)
-        return lines + (["}"] if before else [])
+            rows.append((own, [each_term(line)]))
+            if operation.name in turning:
+                rows[-1] = own, ["#if TURNING_STATE", each_term(line), "#endif"]
+        # what more groups need comes first: nothing that fewer need is a part of it
+        rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
+        lines: list[str] = []
+        for own, some in groupby(rows, key=lambda row: row[0]):
+            inner = [line for _, each in some for line in each]
+            if own:
+                test = f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"
+                inner = [test, *(line if line.startswith("#") else _IN + line for line in inner), "}"]
+            lines += inner
+        return lines
 
     @property
     def _groups(self) -> list[str]:
@@ -194,27 +213,25 @@ class Tangent:
         return text if entry.free_symbols else f"splat({text})"
 
     def _row(self) -> list[str]:
-        body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
+        body = ["double next = 1.0/(k + 1);", "vec sum[TOGETHER];", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
         for row, _ in self._rates():
-            terms = []
+            driven = any(of == row for of, _ in self.sources)
+            begun = f"source[d][{row.upper()}][k]" if driven else "splat(0.0)"
+            lines = [f"EACH_DIRECTION(d) sum[d] = {begun};"]
             for state in self.states:
                 entry = self.matrix.get((row, state), sp.Integer(0))
-                column = f"t[{state.upper()}]"
                 if isinstance(entry, str):
-                    terms.append(f"product({self._array(entry)}, {column}, k)")
-                elif entry == 1:
-                    terms.append(f"{column}[k]")
+                    lines.append(f"add_products(sum, {self._array(entry)}, t, {state.upper()}, many, k);")
                 elif entry != 0:
-                    terms.append(f"{self.constants.factor(entry, f'{row}_by_{state}')}*{column}[k]")
-            if any(of == row for of, _ in self.sources):
-                terms.append(f"source[{row.upper()}][k]")
-            line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
-            body += ["#if TURNING_STATE", line, "#endif"] if row == "turned" else [line]
+                    factor = "" if entry == 1 else f"{self.constants.factor(entry, f'{row}_by_{state}')}*"
+                    lines.append(f"EACH_DIRECTION(d) sum[d] += {factor}t[d][{state.upper()}][k];")
+            lines.append(f"EACH_DIRECTION(d) t[d][{row.upper()}][k + 1] = sum[d]*next;")
+            body += ["#if TURNING_STATE", *lines, "#endif"] if row == "turned" else lines
         head = (
-            "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
-            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
+            "INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, const vec *const (*source)[STATES], int k)"
         )
-        doc = "Coefficient k + 1 of a derivative of the states, with what drives it beside the states."
+        doc = "Coefficient k + 1 of derivatives of the states in some directions, each with what drives it beside the states."
         return [*comment(doc), *function(head, body), ""]
 
     def _sources(self) -> list[str]:

@@ -1,20 +1,12 @@
 /* Derivatives over a step: matrix and sources once, a linear recurrence for each direction, the saltation at an event. */
 
-#define SLOPE_TERM(k) if (k < ORDER) slope_coefficients(d, c, s, v, film, shear, asked, k);
-#define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, d, c, s, v, film, shear, source, k);
-
-static __attribute__((noinline)) void expand_slopes(
-    slopes *d, const slope_constants *c, const series *s, const constants *v, vec film, vec shear,
-    unsigned asked)
-{
-    EVERY(SLOPE_TERM)
-}
-
-static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slopes *d, const slope_constants *c,
-    const series *s, const constants *v, vec film, vec shear, const vec *const *source)
-{
-    EVERY(TANGENT_TERM)
-}
+#define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, many, d, c, s, v, film, shear, source, k);
+#define EXPAND_TANGENTS(count) static __attribute__((noinline)) void expand_tangents_##count(vec (*const *t)[TERMS], \
+    const slopes *d, const slope_constants *c, const series *s, const constants *v, vec film, vec shear, \
+    const vec *const (*source)[STATES]) { enum { many = count }; EVERY(TANGENT_TERM) }
+EXPAND_TANGENTS(1)
+EXPAND_TANGENTS(2)
+EXPAND_TANGENTS(4)
 
 static const vec NOTHING[TERMS];
 
@@ -23,22 +15,32 @@ static const vec NOTHING[TERMS];
 static void expand_along(tangents *all, const flights *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
     const vec *groups = (const void *)&f->c;
+    const vec *source[GROUPS][STATES];
+    vec(*t[GROUPS])[TERMS];
+    vec own[STATES];
+    int many = 0;
+    for (int state = 0; state < STATES; state++)
+        own[state] = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
     all->asked = 0;
     for (int group = 0; group < GROUPS; group++) {
         if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
             continue;
         all->asked |= 1u << group;
-        const vec *source[STATES];
-        vec(*t)[TERMS] = all->t[group], size = vec_abs(groups[group]);
+        vec size = vec_abs(groups[group]);
         size = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
+        t[many] = all->t[group];
         for (int state = 0; state < STATES; state++) {
-            source[state] = NOTHING;
-            t[state][0] = l->along.t[group][state];
-            vec own = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
-            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + size*own);
+            source[many][state] = NOTHING;
+            t[many][state][0] = l->along.t[group][state];
+            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[many][state][0]) + size*own[state]);
         }
-        sources(d, s, group, source);
-        expand_tangent(t, d, &f->slopes, s, &f->c, acting(l), l->shear, source);
+        sources(d, s, group, source[many++]);
+    }
+    for (int first = 0; first < many;) {
+        int left = many - first;
+        (left >= 4 ? expand_tangents_4 : left >= 2 ? expand_tangents_2 : expand_tangents_1)(
+            t + first, d, &f->slopes, s, &f->c, acting(l), l->shear, source + first);
+        first += left >= 4 ? 4 : left >= 2 ? 2 : 1;
     }
 }
 
