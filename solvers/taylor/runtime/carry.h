@@ -14,7 +14,6 @@ static const vec NOTHING[TERMS];
  * its elasticity were one. A mode that decays fast may be gone from the states and not from these: they share the step. */
 static void expand_along(tangents *all, const flights *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
-    const vec *groups = (const void *)&f->c;
     const vec *source[GROUPS][STATES];
     vec(*t[GROUPS])[TERMS];
     vec own[STATES];
@@ -26,13 +25,11 @@ static void expand_along(tangents *all, const flights *l, const fixed *f, const 
         if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
             continue;
         all->asked |= 1u << group;
-        vec size = vec_abs(groups[group]);
-        size = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
         t[many] = all->t[group];
         for (int state = 0; state < STATES; state++) {
             source[many][state] = NOTHING;
             t[many][state][0] = l->along.t[group][state];
-            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[many][state][0]) + size*own[state]);
+            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[many][state][0]) + f->one[group]*own[state]);
         }
         sources(d, s, group, source[many++]);
     }
