@@ -8,9 +8,10 @@ import sympy as sp
 
 from ..laws import LAWS
 from ..laws.base import Law, LawFunction
-from .taylor_c import Constants, Recurrences, Text, comment, each_term, function
+from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
 from .taylor_laws import LIMIT, compared, moves
+from .taylor_layout import comment, each_term, function
 from .taylor_program import Program, cheapest
 from .text import needed
 

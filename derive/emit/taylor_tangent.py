@@ -16,11 +16,11 @@ from sympy.core.function import AppliedUndef
 from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
-from ..quantities import VOCABULARY
-from ..scaling import group_definitions
 from .taylor import Beside, Header
-from .taylor_c import Constants, Recurrences, Text, comment, each_term, function
+from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
+from .taylor_layout import comment, each_term, function
+from .taylor_scale import scale_slopes
 from .taylor_slopes import arguments, shortest
 
 _IN = "    "
@@ -109,7 +109,15 @@ class Tangent:
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
         lines += ["", *comment(f"{doc}\n\nIts tangent: derivatives of the states by the groups. {cost}"), ""]
         lines += self._enumerations()
-        lines += [*self._constants(), *self._structs(), *coefficients, *row, *source, *self._values(), *self._scale()]
+        lines += [
+            *self._constants(),
+            *self._structs(),
+            *coefficients,
+            *row,
+            *source,
+            *self._values(),
+            *scale_slopes(self.model),
+        ]
         return "\n".join(lines).rstrip() + "\n"
 
     def _enumerations(self) -> list[str]:
@@ -213,7 +221,11 @@ class Tangent:
         return text if entry.free_symbols else f"splat({text})"
 
     def _row(self) -> list[str]:
-        body = ["double next = 1.0/(k + 1);", "vec sum[TOGETHER];", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
+        body = [
+            "double next = 1.0/(k + 1);",
+            "vec sum[TOGETHER];",
+            "(void)s; (void)c; (void)v; (void)film; (void)shear;",
+        ]
         for row, _ in self._rates():
             driven = any(of == row for of, _ in self.sources)
             begun = f"source[d][{row.upper()}][k]" if driven else "splat(0.0)"
@@ -228,10 +240,10 @@ class Tangent:
             lines.append(f"EACH_DIRECTION(d) t[d][{row.upper()}][k + 1] = sum[d]*next;")
             body += ["#if TURNING_STATE", *lines, "#endif"] if row == "turned" else lines
         head = (
-            "INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, const slope_constants *c, "
-            "const series *of, const constants *v, vec film, vec shear, const vec *const (*source)[STATES], int k)"
+            "INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, "
+            "const slope_constants *c, const series *of, const constants *v, vec film, vec shear, const vec *const (*source)[STATES], int k)"
         )
-        doc = "Coefficient k + 1 of derivatives of the states in some directions, each with what drives it beside the states."
+        doc = "Coefficient k + 1 of derivatives of the states in some directions, each with its own source."
         return [*comment(doc), *function(head, body), ""]
 
     def _sources(self) -> list[str]:
@@ -304,38 +316,6 @@ class Tangent:
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
         return [*comment("How the gap beyond which there is no tangential force changes."), *function(head, body), ""]
 
-    def _scale(self) -> list[str]:
-        """How the groups change with the quantities in SI."""
-        definitions = group_definitions()
-        wanted = {group: definitions.get(group, group) for group in self.model.groups}
-        used = set().union(*(expression.free_symbols for expression in wanted.values()))
-        names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
-        text = Text(lambda symbol: self._quantity_name(symbol))
-        bits = dict.fromkeys(names, 0)
-        body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
-        for name in names:
-            symbol = VOCABULARY[name].symbol
-            body.append(f"case SI_{symbol.name.upper()}:")
-            for place, (group, expression) in enumerate(wanted.items()):
-                slope = _power_slope(expression, symbol, group)
-                if slope != 0:
-                    bits[name] |= 1 << place
-                    body.append(f"{_IN}slope[BY_{group.name.upper()}] = {text.vector(slope)};")
-            body.append(_IN + "break;")
-        body.append("}")
-        head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
-        moved = [
-            *comment("The groups that each quantity in SI moves, as bits."),
-            f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};",
-            "",
-        ]
-        return [*moved, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
-
-    def _quantity_name(self, symbol: sp.Symbol) -> str:
-        return f"v->{symbol.name}" if symbol in self.model.groups and symbol in group_definitions() else (
-            f"q[SI_{symbol.name.upper()}]"
-        )  # fmt: skip
-
 
 def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
     body = []
@@ -344,16 +324,6 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
         if told:
             body += [f"case BY_{group.upper()}:", *told, _IN + "break;"]
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
-
-
-def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
-    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
-    if expression == symbol:
-        return sp.Integer(1)
-    power = expression.as_powers_dict().get(symbol, 0)
-    if symbol.is_positive and power != 0 and not (expression / symbol**power).has(symbol):
-        return power * group / symbol
-    return sp.diff(expression, symbol)
 
 
 def tangent_header(model: Model, digest: str, provenance: str, doc: str) -> str:

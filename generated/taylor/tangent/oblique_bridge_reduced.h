@@ -258,8 +258,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     }
 }
 
-/* Coefficient k + 1 of derivatives of the states in some directions, each with what drives it beside the
- * states. */
+/* Coefficient k + 1 of derivatives of the states in some directions, each with its own source. */
 INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, const slope_constants *c,
     const series *of, const constants *v, vec film, vec shear, const vec *const (*source)[STATES], int k)
 {
