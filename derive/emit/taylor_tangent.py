@@ -241,7 +241,8 @@ class Tangent:
             body += ["#if TURNING_STATE", *lines, "#endif"] if row == "turned" else lines
         head = (
             "INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, "
-            "const slope_constants *c, const series *of, const constants *v, vec film, vec shear, const vec *const (*source)[STATES], int k)"
+            "const slope_constants *c, const series *of, const constants *v, vec film, vec shear, "
+            "const vec *const (*source)[STATES], int k)"
         )
         doc = "Coefficient k + 1 of derivatives of the states in some directions, each with its own source."
         return [*comment(doc), *function(head, body), ""]
