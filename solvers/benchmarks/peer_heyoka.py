@@ -173,7 +173,8 @@ class Batch:
         flight = self.starts[self.lanes[lane].collision].flight
         if not flight.watch.certificate:
             return False
-        return flight.proof.decided(self.integrator.state[:, lane].copy(), flight.phase)
+        proof = energy_proof(flight.proof) or flight.proof  # the cheap one alone, as in the kernel
+        return proof.decided(self.integrator.state[:, lane].copy(), flight.phase)
 
     def ended(self, lane: int, separated: bool) -> bool:
         """Record how a collision ended and take the next."""
