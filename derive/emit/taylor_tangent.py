@@ -221,30 +221,27 @@ class Tangent:
         return text if entry.free_symbols else f"splat({text})"
 
     def _row(self) -> list[str]:
-        body = [
-            "double next = 1.0/(k + 1);",
-            "vec sum[TOGETHER];",
-            "(void)s; (void)c; (void)v; (void)film; (void)shear;",
-        ]
+        body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
         for row, _ in self._rates():
-            driven = any(of == row for of, _ in self.sources)
-            begun = f"source[d][{row.upper()}][k]" if driven else "splat(0.0)"
-            lines = [f"EACH_DIRECTION(d) sum[d] = {begun};"]
+            terms = []
             for state in self.states:
                 entry = self.matrix.get((row, state), sp.Integer(0))
+                column = f"t[{state.upper()}]"
                 if isinstance(entry, str):
-                    lines.append(f"add_products(sum, {self._array(entry)}, t, {state.upper()}, many, k);")
+                    terms.append(f"product({self._array(entry)}, {column}, k)")
+                elif entry == 1:
+                    terms.append(f"{column}[k]")
                 elif entry != 0:
-                    factor = "" if entry == 1 else f"{self.constants.factor(entry, f'{row}_by_{state}')}*"
-                    lines.append(f"EACH_DIRECTION(d) sum[d] += {factor}t[d][{state.upper()}][k];")
-            lines.append(f"EACH_DIRECTION(d) t[d][{row.upper()}][k + 1] = sum[d]*next;")
-            body += ["#if TURNING_STATE", *lines, "#endif"] if row == "turned" else lines
+                    terms.append(f"{self.constants.factor(entry, f'{row}_by_{state}')}*{column}[k]")
+            if any(of == row for of, _ in self.sources):
+                terms.append(f"source[{row.upper()}][k]")
+            line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
+            body += ["#if TURNING_STATE", line, "#endif"] if row == "turned" else [line]
         head = (
-            "INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, "
-            "const slope_constants *c, const series *of, const constants *v, vec film, vec shear, "
-            "const vec *const (*source)[STATES], int k)"
+            "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
         )
-        doc = "Coefficient k + 1 of derivatives of the states in some directions, each with its own source."
+        doc = "Coefficient k + 1 of a derivative of the states, with what drives it beside the states."
         return [*comment(doc), *function(head, body), ""]
 
     def _sources(self) -> list[str]:

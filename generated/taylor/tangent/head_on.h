@@ -66,20 +66,15 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     }
 }
 
-/* Coefficient k + 1 of derivatives of the states in some directions, each with its own source. */
-INLINE void tangent_coefficients(vec (*const *t)[TERMS], int many, const slopes *s, const slope_constants *c,
-    const series *of, const constants *v, vec film, vec shear, const vec *const (*source)[STATES], int k)
+/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
+    const constants *v, vec film, vec shear, const vec *const *source, int k)
 {
     double next = 1.0/(k + 1);
-    vec sum[TOGETHER];
     (void)s; (void)c; (void)v; (void)film; (void)shear;
-    EACH_DIRECTION(d) sum[d] = splat(0.0);
-    EACH_DIRECTION(d) sum[d] += t[d][OPENING][k];
-    EACH_DIRECTION(d) t[d][GAP][k + 1] = sum[d]*next;
-    EACH_DIRECTION(d) sum[d] = source[d][OPENING][k];
-    add_products(sum, s->opening_by_gap, t, GAP, many, k);
-    add_products(sum, s->opening_by_opening, t, OPENING, many, k);
-    EACH_DIRECTION(d) t[d][OPENING][k + 1] = sum[d]*next;
+    t[GAP][k + 1] = (t[OPENING][k])*next;
+    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
+        + source[OPENING][k])*next;
 }
 
 /* What drives the derivatives by a group, where it is not zero. */

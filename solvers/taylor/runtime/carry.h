@@ -1,12 +1,12 @@
 /* Derivatives over a step: matrix and sources once, a linear recurrence for each direction, the saltation at an event. */
 
-#define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, many, d, c, s, v, film, shear, source, k);
-#define EXPAND_TANGENTS(count) static __attribute__((noinline)) void expand_tangents_##count(vec (*const *t)[TERMS], \
-    const slopes *d, const slope_constants *c, const series *s, const constants *v, vec film, vec shear, \
-    const vec *const (*source)[STATES]) { enum { many = count }; EVERY(TANGENT_TERM) }
-EXPAND_TANGENTS(1)
-EXPAND_TANGENTS(2)
-EXPAND_TANGENTS(4)
+#define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, d, c, s, v, film, shear, source, k);
+
+static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slopes *d, const slope_constants *c,
+    const series *s, const constants *v, vec film, vec shear, const vec *const *source)
+{
+    EVERY(TANGENT_TERM)
+}
 
 static const vec NOTHING[TERMS];
 
@@ -14,10 +14,7 @@ static const vec NOTHING[TERMS];
  * its elasticity were one. A mode that decays fast may be gone from the states and not from these: they share the step. */
 static void expand_along(tangents *all, const flights *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
-    const vec *source[GROUPS][STATES];
-    vec(*t[GROUPS])[TERMS];
     vec own[STATES];
-    int many = 0;
     for (int state = 0; state < STATES; state++)
         own[state] = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
     all->asked = 0;
@@ -25,19 +22,15 @@ static void expand_along(tangents *all, const flights *l, const fixed *f, const 
         if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
             continue;
         all->asked |= 1u << group;
-        t[many] = all->t[group];
+        const vec *source[STATES];
+        vec(*t)[TERMS] = all->t[group];
         for (int state = 0; state < STATES; state++) {
-            source[many][state] = NOTHING;
-            t[many][state][0] = l->along.t[group][state];
-            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[many][state][0]) + f->one[group]*own[state]);
+            source[state] = NOTHING;
+            t[state][0] = l->along.t[group][state];
+            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + f->one[group]*own[state]);
         }
-        sources(d, s, group, source[many++]);
-    }
-    for (int first = 0; first < many;) {
-        int left = many - first;
-        (left >= 4 ? expand_tangents_4 : left >= 2 ? expand_tangents_2 : expand_tangents_1)(
-            t + first, d, &f->slopes, s, &f->c, acting(l), l->shear, source + first);
-        first += left >= 4 ? 4 : left >= 2 ? 2 : 1;
+        sources(d, s, group, source);
+        expand_tangent(t, d, &f->slopes, s, &f->c, acting(l), l->shear, source);
     }
 }
 
