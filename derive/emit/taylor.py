@@ -12,8 +12,9 @@ from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import VOCABULARY, opening
-from .taylor_c import Constants, Recurrences, comment, function
+from .taylor_c import Constants, Recurrences
 from .taylor_closed import WORKS, attracting, edge_function, momentum_functions, work_function
+from .taylor_layout import comment, function
 from .taylor_ledger import Ledger
 from .taylor_program import Program
 from .taylor_proofs import held_functions, tethered_functions

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Mapping
 
 import sympy as sp
@@ -12,7 +11,6 @@ from ..laws.base import is_slot_call
 from .printer import EmissionError
 from .taylor_program import Operation, Program
 
-_WIDTH = 110
 _FUNCTIONS = {sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan"}
 _EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
 _ADD, _MUL, _ATOM = range(3)
@@ -189,10 +187,17 @@ class Recurrences:
 
     Arguments:
         where: C text of a series that the program does not make itself.
+        local: whether a series of its own is a variable of the function and no field of `s`.
     """
 
-    def __init__(self, program: Program, constants: Constants, where: Callable[[str], str]) -> None:
-        self.program, self.constants, self._where = program, constants, where
+    def __init__(
+        self,
+        program: Program,
+        constants: Constants,
+        where: Callable[[str], str],
+        local: Callable[[str], bool] = lambda name: False,
+    ) -> None:
+        self.program, self.constants, self._where, self._local = program, constants, where, local
         self._own = {operation.name for operation in program.operations}
         self._calls = {operation.name for operation in program.operations if operation.kind == "call"}
         for symbol, expression in program.named.items():
@@ -209,12 +214,17 @@ class Recurrences:
         """C text of a series' array."""
         if name in self._calls:
             return f"s->{name}.result"
-        return f"s->{name}" if name in self._own else self._where(name)
+        return f"{self._place(name)}{name}" if name in self._own else self._where(name)
 
-    def fields(self) -> list[str]:
-        """Declarations of the arrays."""
+    def _place(self, name: str) -> str:
+        return "" if self._local(name) else "s->"
+
+    def fields(self, local: bool = False) -> list[str]:
+        """Declarations of the arrays; of those that are local, or of the others."""
         lines = []
         for operation in self.program.operations:
+            if self._local(operation.name) != local:
+                continue
             if operation.kind == "call":
                 assert operation.call is not None
                 lines.append(f"{operation.call[0]}_{operation.call[1]}_series {operation.name};")
@@ -237,7 +247,9 @@ class Recurrences:
         name, kind = operation.name, operation.kind
         series = [self.array(part) for part in operation.series]
         factors = self.factors[name]
-        target = f"s->{name}[k]"
+        place = self._place(name)
+        whole = f"{place}{name}"
+        target = f"{whole}[k]"
         if kind == "linear":
             terms = _terms(factors[:-1], [f"{part}[k]" for part in series])
             offset = factors[-1]
@@ -250,20 +262,21 @@ class Recurrences:
         if kind == "square":
             return f"{target} = square({series[0]}, k);"
         if kind == "reciprocal":
-            return f"{target} = reciprocal({series[0]}, s->{name}, k);"
+            return f"{target} = reciprocal({series[0]}, {whole}, k);"
         if kind == "quotient":
-            return f"{target} = quotient({series[0]}, {series[1]}, s->{name}, &s->over_{name}, k);"
+            return f"{target} = quotient({series[0]}, {series[1]}, {whole}, &{place}over_{name}, k);"
         if kind == "sqrt":
-            return f"{target} = root({series[0]}, s->{name}, &s->over_{name}, k);"
+            return f"{target} = root({series[0]}, {whole}, &{place}over_{name}, k);"
         if kind == "power":
-            return f"{target} = power({series[0]}, s->{name}, {factors[0]}, &s->over_{name}, k);"
+            return f"{target} = power({series[0]}, {whole}, {factors[0]}, &{place}over_{name}, k);"
         if kind == "exp":
-            return f"{target} = exponential({series[0]}, s->slope_of_{operation.series[0]}, s->{name}, k);"
+            return f"{target} = exponential({series[0]}, {place}slope_of_{operation.series[0]}, {whole}, k);"
         if kind == "log":
-            return f"{target} = logarithm({series[0]}, s->{name}, s->slope_of_{name}, &s->over_{name}, k);"
+            return f"{target} = logarithm({series[0]}, {whole}, {place}slope_of_{name}, &{place}over_{name}, k);"
         if kind == "sine":
             inner = operation.series[0]
-            return f"circular({series[0]}, s->slope_of_{inner}, s->{name}, s->cosine_of_{inner}, k);"
+            cosine = self.array(f"cosine_of_{inner}")
+            return f"circular({series[0]}, {place}slope_of_{inner}, {whole}, {cosine}, k);"
         if kind == "cosine":
             return f"/* {name} comes with its sine */"
         assert operation.call is not None
@@ -315,28 +328,3 @@ def _terms(factors: list[str], series: list[str]) -> str:
         body = part if bare == "1.0" else f"{bare}*{part}"
         text += (" - " if negative else " + ") + body if text else ("-" if negative else "") + body
     return text
-
-
-def comment(text: str) -> list[str]:
-    """A C comment, wrapped."""
-    lines: list[str] = []
-    for paragraph in text.strip().split("\n"):
-        lines += textwrap.wrap(paragraph, _WIDTH - 3, break_long_words=False, break_on_hyphens=False) or [""]
-    if len(lines) == 1:
-        return [f"/* {lines[0]} */"]
-    return [f"/* {lines[0]}", *(f" * {line}".rstrip() for line in lines[1:-1]), f" * {lines[-1]} */"]
-
-
-def function(head: str, body: list[str]) -> list[str]:
-    """A C function; a head too long for a line is broken at its arguments, a statement at its operators."""
-    lines = textwrap.wrap(head, _WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
-    lines.append("{")
-    for line in body:
-        if line.startswith("#"):
-            lines.append(line)
-            continue
-        lines += textwrap.wrap(
-            line, _WIDTH, initial_indent="    ", subsequent_indent="        ", break_long_words=False,
-            break_on_hyphens=False,
-        )  # fmt: skip
-    return [*lines, "}"]

@@ -9,7 +9,8 @@ from ..forces import FILM
 from ..laws.base import is_slot_call
 from ..model import Model
 from ..quantities import opening
-from .taylor_c import Constants, comment, function
+from .taylor_c import Constants
+from .taylor_layout import comment, function
 
 WORKS = {"capillary": "bridge", "attraction": "attraction"}  # of the ledger, and the slot of the force
 Calls = dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]]

@@ -11,7 +11,8 @@ import sympy as sp
 
 from ..laws.base import Law, LawFunction
 from ..model import GROUPS
-from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_c import Constants, Recurrences, Text
+from .taylor_layout import comment, function
 from .taylor_program import Program, cheapest
 from .taylor_work import antiderivative
 from .text import needed

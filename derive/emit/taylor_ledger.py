@@ -12,7 +12,8 @@ import sympy as sp
 
 from ..model import Model
 from .printer import EmissionError
-from .taylor_c import Constants, Recurrences, comment, function
+from .taylor_c import Constants, Recurrences
+from .taylor_layout import comment, function
 from .taylor_program import Program
 
 #: Terms of the ledger that are series of their own; the work against all attractions together is a state already.

@@ -8,8 +8,9 @@ from sympy.core.function import AppliedUndef
 from ..laws.base import is_slot_call
 from ..model import Model
 from ..slots import places
-from .taylor_c import Constants, Text, comment, function
+from .taylor_c import Constants, Text
 from .taylor_laws import moves
+from .taylor_layout import comment, function
 from .text import needed
 
 # On strings two functions, the cheap and telling margin first.

@@ -10,7 +10,8 @@ from ..laws.base import slot_call
 from ..model import Model
 from ..quantities import VOCABULARY, R, contact_angle, rupture_gap, volume, x0
 from ..scaling import group_definitions
-from .taylor_c import Text, comment, function
+from .taylor_c import Text
+from .taylor_layout import comment, function
 
 _OWN_RUPTURE = R * slot_call("bridge", "rupture_distance", volume, contact_angle) / x0  # the law's own
 
@@ -34,3 +35,39 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
         body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
     doc = "The groups of a collision from its quantities in SI."
     return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+
+
+def scale_slopes(model: Model) -> list[str]:
+    """How the groups change with the quantities in SI, and which of them each quantity moves."""
+    definitions = group_definitions()
+    wanted = {group: definitions.get(group, group) for group in model.groups}
+    used = set().union(*(expression.free_symbols for expression in wanted.values()))
+    names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
+    known = set(model.groups) & definitions.keys()
+    text = Text(lambda symbol: f"v->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]")
+    bits = dict.fromkeys(names, 0)
+    body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
+    for name in names:
+        symbol = VOCABULARY[name].symbol
+        body.append(f"case SI_{symbol.name.upper()}:")
+        for place, (group, expression) in enumerate(wanted.items()):
+            slope = _power_slope(expression, symbol, group)
+            if slope != 0:
+                bits[name] |= 1 << place
+                body.append(f"    slope[BY_{group.name.upper()}] = {text.vector(slope)};")
+        body.append("    break;")
+    body.append("}")
+    head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
+    moved = f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};"
+    lines = [*comment("The groups that each quantity in SI moves, as bits."), moved, ""]
+    return [*lines, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
+
+
+def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
+    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
+    if expression == symbol:
+        return sp.Integer(1)
+    power = expression.as_powers_dict().get(symbol, 0)
+    if symbol.is_positive and power != 0 and not (expression / symbol**power).has(symbol):
+        return power * group / symbol
+    return sp.diff(expression, symbol)

@@ -8,9 +8,10 @@ import sympy as sp
 
 from ..laws import LAWS
 from ..laws.base import Law, LawFunction
-from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
 from .taylor_laws import LIMIT, compared, moves
+from .taylor_layout import comment, each_term, function
 from .taylor_program import Program, cheapest
 from .text import needed
 
@@ -93,11 +94,11 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
         target = f"by_{argument.name}"
         if isinstance(result, str):
             if result != target:
-                ending.append(f"s->{target}[k] = {made.array(result)}[k];")
+                ending.append(each_term(f"s->{target}[k] = {made.array(result)}[k];"))
         else:
             level = constants.factor(result, f"level_by_{argument.name}")
             level = level if level.startswith(("c->", "v->")) else f"splat({level})"
-            ending.append(f"s->{target}[k] = k == 0 ? {level} : splat(0.0);")
+            ending.append(each_term(f"s->{target}[k] = k == 0 ? {level} : splat(0.0);"))
         if not isinstance(result, str) or result != target:
             fields.append(f"vec {target}[TERMS];")
     names = [*constants.prepared]
@@ -116,11 +117,11 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
         *(f"    {field}" for field in fields),
         f"}} {name}_slopes;",
         "",
-        *comment(f"Derivatives of {name} by its arguments: coefficient k; products of series: {program.cost:g}."),
+        *comment(f"Derivatives of {name} by its arguments; products of series: {program.cost:g}."),
         *function(
-            f"INLINE void {name}_slopes_next({name}_slopes *s, const {name}_slope_constants *c, "
-            f"const {name}_series *of, const {name}_constants *v{inputs}, int k)",
-            [unused, *made.lines(), *ending],
+            f"INLINE void {name}_slopes_of({name}_slopes *restrict s, const {name}_slope_constants *c, "
+            f"const {name}_series *of, const {name}_constants *v{inputs})",
+            [unused, *map(each_term, made.lines()), *ending],
         ),
         "",
     ]

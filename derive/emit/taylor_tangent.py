@@ -7,6 +7,7 @@ out of the flow's own; a direction then costs as many products as the matrix has
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from itertools import groupby
 from typing import TypeAlias
 
 import sympy as sp
@@ -15,11 +16,11 @@ from sympy.core.function import AppliedUndef
 from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
-from ..quantities import VOCABULARY
-from ..scaling import group_definitions
 from .taylor import Beside, Header
-from .taylor_c import Constants, Recurrences, Text, comment, function
+from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
+from .taylor_layout import comment, each_term, function
+from .taylor_scale import scale_slopes
 from .taylor_slopes import arguments, shortest
 
 _IN = "    "
@@ -47,7 +48,8 @@ class Tangent:
         given = {group: f"v->{group.name}" for group in model.groups}
         given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
         self.constants = Constants(given, (FILM, SHEAR))
-        self.made = Recurrences(self.program, self.constants, self._where)
+        self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
+        self.made = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
 
     # ---- derivatives
 
@@ -58,14 +60,19 @@ class Tangent:
         argument = arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
         if symbol.name not in self._slopes:
-            self._slopes[symbol.name] = f"s->{call}.by_{argument}"
+            self._slopes[symbol.name] = f"{call}.by_{argument}"
             self.program.give(symbol)
         return symbol
 
     def _where(self, series: str) -> str:
         if series in self._slopes:
-            return self._slopes[series]
+            return self._law_place(self._slopes[series].split(".")[0]) + self._slopes[series]
         return f"of->{series}.result" if series in self._calls else f"of->{series}"
+
+    def _law_place(self, call: str) -> str:
+        """A law's slopes are local unless one is itself an entry."""
+        entries = {self._slopes[entry].split(".")[0] for entry in self._kept if entry in self._slopes}
+        return "s->" if call in entries else ""
 
     def _rates(self) -> list[tuple[str, sp.Expr]]:
         rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
@@ -102,7 +109,15 @@ class Tangent:
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
         lines += ["", *comment(f"{doc}\n\nIts tangent: derivatives of the states by the groups. {cost}"), ""]
         lines += self._enumerations()
-        lines += [*self._constants(), *self._structs(), *coefficients, *row, *source, *self._values(), *self._scale()]
+        lines += [
+            *self._constants(),
+            *self._structs(),
+            *coefficients,
+            *row,
+            *source,
+            *self._values(),
+            *scale_slopes(self.model),
+        ]
         return "\n".join(lines).rstrip() + "\n"
 
     def _enumerations(self) -> list[str]:
@@ -133,29 +148,34 @@ class Tangent:
         return [*lines, *comment("What the slopes need once a collision."), *function(head, body), ""]
 
     def _structs(self) -> list[str]:
-        lines = ["typedef struct {"]
-        lines += [f"    {slot}_{call}_slopes {name};" for name, (slot, call, _) in self._laws().items()]
+        lines = comment("What the rates change by: entries of the matrix, and what drives a direction.")
+        lines += ["typedef struct {", *(f"    {field}" for field in self._law_fields("s->"))]
         lines += [f"    {field}" for field in self.made.fields()]
         lines += [f"    vec {field}[TERMS];" for field in self._level_fields()]
         return [*lines, "} slopes;", ""]
+
+    def _law_fields(self, place: str) -> list[str]:
+        laws = self._laws().items()
+        return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
 
     def _level_fields(self) -> list[str]:
         return [f"{row}_by_{by}" for (row, by), entry in self.sources.items() if not isinstance(entry, str)]
 
     def _coefficients(self) -> list[str]:
-        body = ["(void)film; (void)shear; (void)c; (void)asked;"]
+        body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
         for name, (slot, call, given) in self._laws().items():
             passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
-            body.append(f"{slot}_{call}_slopes_next(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed}, k);")
+            into = f"{self._law_place(name)}{name}"
+            body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
         body += self._guarded()
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
-                body.append(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);")
+                body.append(each_term(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);"))
         head = (
-            "INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, "
-            "vec film, vec shear, unsigned asked, int k)"
+            "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
         )
-        doc = "Coefficient k of what the rates change by with the states, and with the groups that are asked for."
+        doc = "What the rates change by with the states, and with the groups that are asked for."
         return [*comment(doc), *function(head, body), ""]
 
     def _guarded(self) -> list[str]:
@@ -170,17 +190,24 @@ class Tangent:
                 if operation.name in always:
                     always.add(part)
                 needs.setdefault(part, set()).update(needs.get(operation.name, ()))
-        lines: list[str] = []
-        before: tuple[str, ...] = ()
+        turning = {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of == "turned"}
+        turning -= {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of != "turned"}
+        rows = []
         for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
             own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
-            if own != before:
-                lines += (["}"] if before else []) + (
-                    [f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"] if own else []
-                )
-                before = own
-            lines.append(_IN + line if own else line)
-        return lines + (["}"] if before else [])
+            rows.append((own, [each_term(line)]))
+            if operation.name in turning:
+                rows[-1] = own, ["#if TURNING_STATE", each_term(line), "#endif"]
+        # what more groups need comes first: nothing that fewer need is a part of it
+        rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
+        lines: list[str] = []
+        for own, some in groupby(rows, key=lambda row: row[0]):
+            inner = [line for _, each in some for line in each]
+            if own:
+                test = f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"
+                inner = [test, *(line if line.startswith("#") else _IN + line for line in inner), "}"]
+            lines += inner
+        return lines
 
     @property
     def _groups(self) -> list[str]:
@@ -287,38 +314,6 @@ class Tangent:
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
         return [*comment("How the gap beyond which there is no tangential force changes."), *function(head, body), ""]
 
-    def _scale(self) -> list[str]:
-        """How the groups change with the quantities in SI."""
-        definitions = group_definitions()
-        wanted = {group: definitions.get(group, group) for group in self.model.groups}
-        used = set().union(*(expression.free_symbols for expression in wanted.values()))
-        names = [name for name in VOCABULARY if VOCABULARY[name].symbol in used]
-        text = Text(lambda symbol: self._quantity_name(symbol))
-        bits = dict.fromkeys(names, 0)
-        body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
-        for name in names:
-            symbol = VOCABULARY[name].symbol
-            body.append(f"case SI_{symbol.name.upper()}:")
-            for place, (group, expression) in enumerate(wanted.items()):
-                slope = _power_slope(expression, symbol, group)
-                if slope != 0:
-                    bits[name] |= 1 << place
-                    body.append(f"{_IN}slope[BY_{group.name.upper()}] = {text.vector(slope)};")
-            body.append(_IN + "break;")
-        body.append("}")
-        head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
-        moved = [
-            *comment("The groups that each quantity in SI moves, as bits."),
-            f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};",
-            "",
-        ]
-        return [*moved, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
-
-    def _quantity_name(self, symbol: sp.Symbol) -> str:
-        return f"v->{symbol.name}" if symbol in self.model.groups and symbol in group_definitions() else (
-            f"q[SI_{symbol.name.upper()}]"
-        )  # fmt: skip
-
 
 def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
     body = []
@@ -327,16 +322,6 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
         if told:
             body += [f"case BY_{group.upper()}:", *told, _IN + "break;"]
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
-
-
-def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
-    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
-    if expression == symbol:
-        return sp.Integer(1)
-    power = expression.as_powers_dict().get(symbol, 0)
-    if symbol.is_positive and power != 0 and not (expression / symbol**power).has(symbol):
-        return power * group / symbol
-    return sp.diff(expression, symbol)
 
 
 def tangent_header(model: Model, digest: str, provenance: str, doc: str) -> str:

@@ -15,15 +15,16 @@ from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
 from ..settings import RTOL
-from ..taylor.along import Carried, carried
+from ..taylor.along import DISTANCES, Carried, carried
 from ..taylor.engine import PATIENT, Impacts, order_for
 from ..validity import warn
 from . import kernel
 from .gradients import sensitivities
-from .nearness import LOOK, limit
+from .nearness import LOOK, limit, refused
 from .parameters import Kind, check_hold, check_wrt, kind_of, references, way
 from .problem import NEAR, SHARPEST
 from .quantities import QUANTITIES, check_of
+from .result import Near
 
 if TYPE_CHECKING:
     import xarray
@@ -157,16 +158,18 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     found = flown(which, asked.rtol, _SOON)
     if found is None:
         return which
-    answers, near = found.flown.answers, found.flown.near[:, 0]
+    answers, measures = found.flown.answers, found.flown.near
+    near, least = measures[:, 0], limit(asked.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(asked, which, found, far)
     # what creeps for long mostly sticks: without derivatives first
     slow = np.flatnonzero(answers["status"] > 1)
     if slow.size:
         plain = _without(asked, which[slow], asked.rtol)
-        answers[slow], near[slow] = plain.answers, plain.near[:, 0]
+        answers[slow], measures[slow] = plain.answers, plain.near
     # nearer than NEAR a flight amplifies its errors: again, to a tolerance that allows for it, by decades
-    close = (answers["outcome"] > 0) & ~far & (near > LOOK * limit(asked.rtol))
+    told = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # nothing is to be measured
+    close = (answers["outcome"] > 0) & ~far & ((near > LOOK * least) | (told & (near >= least)))
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
@@ -178,8 +181,15 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     if "restitution" in asked.of:
         place = asked.of.index("restitution")
         asked.value[place, stuck], asked.gradient[place, stuck] = 0.0, 0.0
-    left: np.ndarray = which[asked.outcome[which] == FAILED]
+    for k in np.flatnonzero((answers["outcome"] > 0) & told & (near < least)):
+        asked.reason[which[k]] = str(refused(Near(*_boundary(measures[k])), least))
+    left: np.ndarray = which[(asked.outcome[which] == FAILED) & (asked.reason[which] == "")]
     return left
+
+
+def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
+    name, of = DISTANCES[int(measures[1])]
+    return name, float(measures[0]), of
 
 
 def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:

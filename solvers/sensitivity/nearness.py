@@ -56,10 +56,10 @@ def checked(scene: Scene, n: Numbers, finder: Locate, path: Path, rtol: float) -
     else:
         if "rests" in path.kinds:
             near = Near("chatter (it rests on the solids before it separates)", 0.0, "rebound speed")
-            raise _refused(near, least)
+            raise refused(near, least)
         near = _nearest(scene, n, list(_suspects(finder, path)), least)
     if near is not None and near.distance < least:
-        raise _refused(near, least)
+        raise refused(near, least)
     return near
 
 
@@ -67,7 +67,7 @@ def explained(scene: Scene, n: Numbers, error: ComputationError, rtol: float) ->
     """What to say of a flight that could not be followed: the boundary that it lies at, if it does."""
     looked = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
     near = min(looked, key=lambda one: one.distance)
-    return _refused(near, limit(rtol)) if near.distance < limit(rtol) else error
+    return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
 
 
 def _nearest(scene: Scene, n: Numbers, suspects: list[Near], least: float) -> Near | None:
@@ -83,7 +83,8 @@ def _nearest(scene: Scene, n: Numbers, suspects: list[Near], least: float) -> Ne
     return min(found, key=lambda one: one.distance, default=None)
 
 
-def _refused(near: Near, least: float) -> ComputationError:
+def refused(near: Near, least: float) -> ComputationError:
+    """What is said of a collision nearer to a boundary than `least`."""
     return ComputationError(
         f"no derivative: the collision lies at the {near}, nearer than {least:.1g}",
         advice="move the impact; the boundary itself can be differentiated (wetdoublet boundary --wrt)",

@@ -18,6 +18,11 @@ from .library import ANSWER, Variant, kernel, knows
 RESULTS = 8  # as runtime/along.h has them
 COLUMNS = {"time": 4, "smallest_gap": 5, "turned": 6}  # after the outputs
 CHATTERS = 5  # the boundary of a flight that rested on the solids
+DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
+    6: ("tie of roughness and elastic length", "particles.roughness"),
+    7: ("glass criterion met at first touch", "liquid.glass_transition_pressure"),
+    8: ("half turn at separation", "rotation"),
+}
 _CHUNK = 1024  # collisions whose derivatives are in work at a time
 _LOOSEST = 1e-6
 
@@ -29,7 +34,8 @@ class Carried:
     Arguments:
         answers: of ANSWER, a collision each.
         slopes: (collisions, quantities, RESULTS); zero where nothing separated.
-        near: (collisions, 2); of what separated, the least measure of its nearness to a boundary, and which (along.h).
+        near: (collisions, 3); of what separated, the least measure of its nearness to a boundary, which (along.h), and
+            the least of those measures that are not in DISTANCES.
         quantities: names in the vocabulary, in the order of `slopes`.
         by_energy: sticks are proved by their energy, a level below a barrier.
     """
@@ -69,7 +75,7 @@ def carried(
     asked = _asked(library, names, moved)
     count = impacts.angle.size
     answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(names), RESULTS))
-    near = np.full((count, 2), np.inf)
+    near = np.full((count, 3), np.inf)
     for first in range(0, count, _CHUNK):
         size = min(_CHUNK, count - first)
         parts = [column[first : first + size] if own else column for column, own in zip(columns, varies, strict=True)]

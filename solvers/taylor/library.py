@@ -133,7 +133,8 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [f"#define {name} {value}" for name, value in settings.items()]
-    parts += [(_RUNTIME / name).read_text() for name in ("vector.h", "series.h")]
+    first = ("vector.h", "series.h", "whole.h") if variant.gradients else ("vector.h", "series.h")
+    parts += [(_RUNTIME / name).read_text() for name in first]
     parts += emitted
     wanted = {
         "ledger.h": variant.ledger,

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
 from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.sensitivity import many
 from wetdoublet.solvers.sensitivity.kernel import KNOWN
 from wetdoublet.solvers.sensitivity.many import STICK
 from wetdoublet.solvers.taylor import library
@@ -158,6 +159,36 @@ def test_sticks_and_boundaries() -> None:
     assert np.isnan(gradient[1:, 0]).all()
     assert np.isnan(gradient[:, 1:3]).all()
     assert np.isfinite(gradient[:, 3]).all()
+
+
+@pytest.mark.parametrize("distance", [6e-4, 5e-5])
+def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Just past the speed at which first touch is glassy, many say what one says: the derivative, or why there is none.
+
+    The pressure at first touch is proportional to the speed, so the distance is the speed's own; the limit is 1e-4.
+    """
+    rtol, angle, names = 1e-8, 0.3554, "liquid.viscosity"
+    scene = Scene.load("granulation")
+    probe = 0.2356 / scene.stokes_per_speed
+    seen = carried(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False)
+    assert seen is not None
+    assert seen.near[0, 1] == 7
+    speed = probe * np.exp(distance - seen.near[0, 0])
+    one, said = None, ""
+    try:
+        one = sensitivities(scene, ["restitution"], [names], speed=speed, angle=angle, rtol=rtol)
+    except ComputationError as error:
+        said = str(error)
+    monkeypatch.setattr(many, "sensitivities", None)  # that nothing is done alone
+    found = gradients_many(scene, speed=speed, angle=angle, wrt=names, rtol=rtol)
+    assert found.reason.values[0] == said
+    if distance > 1e-4:
+        assert one is not None
+        expected = one.gradient["restitution"]["liquid.viscosity"]
+        np.testing.assert_allclose(found.gradient.values.item(), expected, rtol=1e-6)
+    else:
+        assert f"glass criterion met at first touch at a relative distance of {distance:.2g}" in said
+        assert np.isnan(found.gradient.values).all()
 
 
 def test_what_the_kernel_does_not_know() -> None:

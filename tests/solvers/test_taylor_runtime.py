@@ -41,6 +41,15 @@ void recur(int which, const double *a, const double *b, double *f, double *g)
     }
 }
 
+/* the product of two series made whole */
+void whole(const double *a, const double *b, double *f)
+{
+    vec u[TERMS], v[TERMS], w[TERMS];
+    for (int k = 0; k < TERMS; k++) u[k] = splat(a[k]), v[k] = splat(b[k]);
+    EACH_TERM(w[k] = product(u, v, k);)
+    for (int k = 0; k < ORDER; k++) f[k] = w[k][LANES - 1];
+}
+
 double first(const double *a, int order)
 {
     double b[TERMS + 1];
@@ -59,7 +68,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     found = compiler()
     assert found is not None
     text = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
-    text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "roots.h"))
+    text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "whole.h", "roots.h"))
     (folder / "runtime.c").write_text(text + HARNESS)
     command = [found[0], *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
@@ -103,6 +112,15 @@ def test_log_outside_its_domain(runtime: ctypes.CDLL):
         x, y = np.full(lanes, value), np.zeros(lanes)
         runtime.lanes_log(_pointer(x), _pointer(y))
         assert np.isnan(y).all()
+
+
+def test_products_made_whole(runtime: ctypes.CDLL):
+    """A product of series made whole is their convolution, to the rounding of its sums."""
+    a, b = np.random.default_rng(3).normal(size=(2, ORDER + 1))
+    made = np.zeros(ORDER)
+    runtime.whole(_pointer(a), _pointer(b), _pointer(made))
+    rounding = 2 * ORDER * np.finfo(float).eps * np.convolve(np.abs(a), np.abs(b))[:ORDER]
+    assert (np.abs(made - np.convolve(a, b)[:ORDER]) <= rounding).all()
 
 
 def _series(runtime: ctypes.CDLL, which: int, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

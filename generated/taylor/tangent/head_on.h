@@ -43,25 +43,26 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
 }
 
+/* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
-    film_resistance_slopes film_resistance_law;
     vec opening_by_gap[TERMS];
     vec opening_by_opening[TERMS];
     vec opening_by_stokes[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
-INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, unsigned asked, int k)
+/* What the rates change by with the states, and with the groups that are asked for. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v, vec film, vec shear, unsigned asked)
 {
+    film_resistance_slopes film_resistance_law;
     (void)film; (void)shear; (void)c; (void)asked;
-    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
-        &v->film_resistance_law, of->gap, k);
-    s->opening_by_gap[k] = film*c->opening_by_gap_factor*product(s->film_resistance_law.by_gap, of->opening,
-        k);
-    s->opening_by_opening[k] = film*c->opening_by_gap_factor*of->film_resistance_law.result[k];
+    film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    EACH_TERM(s->opening_by_gap[k] = film*c->opening_by_gap_factor*product(film_resistance_law.by_gap,
+        of->opening, k);)
+    EACH_TERM(s->opening_by_opening[k] = film*c->opening_by_gap_factor*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_STOKES)) {
-        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
+        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];)
     }
 }
 

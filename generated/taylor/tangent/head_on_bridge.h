@@ -63,10 +63,8 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     bridge_force_slope_prepare(&c->bridge_force_law, &v->bridge_force_law);
 }
 
+/* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
-    film_resistance_slopes film_resistance_law;
-    bridge_force_slopes bridge_force_law;
-    vec film_resistance_law_by_gap_by_opening[TERMS];
     vec opening_by_gap[TERMS];
     vec opening_by_opening[TERMS];
     vec opening_by_stokes[TERMS];
@@ -76,39 +74,42 @@ typedef struct {
     vec opening_by_contact_angle[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
-INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, unsigned asked, int k)
+/* What the rates change by with the states, and with the groups that are asked for. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v, vec film, vec shear, unsigned asked)
 {
+    film_resistance_slopes film_resistance_law;
+    bridge_force_slopes bridge_force_law;
+    vec film_resistance_law_by_gap_by_opening[TERMS];
     (void)film; (void)shear; (void)c; (void)asked;
-    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
-        &v->film_resistance_law, of->gap, k);
-    bridge_force_slopes_next(&s->bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
-        &v->bridge_force_law, of->scaled_gap, k);
-    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] =
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*s->bridge_force_law.by_gap_over_radius[k] +
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
-    s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
-    if (asked & (1u << BY_STOKES)) {
-        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
-        c->opening_by_stokes_per_bridge_force*of->film_force[k];
-    }
+    film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    bridge_force_slopes_of(&bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
+        &v->bridge_force_law, of->scaled_gap);
+    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
+    EACH_TERM(s->opening_by_gap[k] =
+        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] +
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k];)
+    EACH_TERM(s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
-        s->opening_by_aspect[k] = c->opening_by_aspect_factor*product(s->bridge_force_law.by_gap_over_radius,
-        of->gap, k);
+        EACH_TERM(s->opening_by_aspect[k] =
+        c->opening_by_aspect_factor*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
     }
     if (asked & (1u << BY_CAPILLARY)) {
-        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
-    }
-    if (asked & (1u << BY_VOLUME)) {
-        s->opening_by_volume[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
+        EACH_TERM(s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];)
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
-        s->opening_by_contact_angle[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
+        EACH_TERM(s->opening_by_contact_angle[k] =
+        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_contact_angle[k];)
+    }
+    if (asked & (1u << BY_STOKES)) {
+        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+        c->opening_by_stokes_per_bridge_force*of->film_force[k];)
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        EACH_TERM(s->opening_by_volume[k] =
+        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_volume[k];)
     }
 }
 

@@ -65,15 +65,8 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     strings_stiffness_slope_prepare(&c->strings_stiffness_law, &v->strings_stiffness_law);
 }
 
+/* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
-    film_resistance_slopes film_resistance_law;
-    strings_stiffness_slopes strings_stiffness_law;
-    vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec string_pull_by_gap[TERMS];
-    vec gap_by_offset_squared[TERMS];
-    vec gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec string_pull_by_aspect[TERMS];
-    vec film_resistance_law_by_gap_by_opening[TERMS];
     vec opening_by_gap[TERMS];
     vec opening_by_opening[TERMS];
     vec opening_by_stokes[TERMS];
@@ -82,46 +75,52 @@ typedef struct {
     vec opening_by_string_ratio[TERMS];
 } slopes;
 
-/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
-INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, unsigned asked, int k)
+/* What the rates change by with the states, and with the groups that are asked for. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v, vec film, vec shear, unsigned asked)
 {
+    film_resistance_slopes film_resistance_law;
+    strings_stiffness_slopes strings_stiffness_law;
+    vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
+    vec string_pull_by_gap[TERMS];
+    vec gap_by_offset_squared[TERMS];
+    vec gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
+    vec string_pull_by_aspect[TERMS];
+    vec film_resistance_law_by_gap_by_opening[TERMS];
     (void)film; (void)shear; (void)c; (void)asked;
-    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
-        &v->film_resistance_law, of->gap, k);
-    strings_stiffness_slopes_next(&s->strings_stiffness_law, &c->strings_stiffness_law,
-        &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared, k);
-    s->offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
-        s->strings_stiffness_law.by_offset_squared, k);
-    s->string_pull_by_gap[k] =
-        c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*s->offset_squared_by_strings_stiffness_law_by_offset_squared[k]
-        + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];
+    film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    strings_stiffness_slopes_of(&strings_stiffness_law, &c->strings_stiffness_law, &of->strings_stiffness_law,
+        &v->strings_stiffness_law, of->offset_squared);
+    EACH_TERM(offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
+        strings_stiffness_law.by_offset_squared, k);)
+    EACH_TERM(string_pull_by_gap[k] =
+        c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*offset_squared_by_strings_stiffness_law_by_offset_squared[k]
+        + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];)
+    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
+    EACH_TERM(s->opening_by_gap[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k]
+        - string_pull_by_gap[k];)
+    EACH_TERM(s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
-        s->gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);
-        s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared, k);
-        s->string_pull_by_aspect[k] =
-        c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
-        + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];
+        EACH_TERM(gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);)
+        EACH_TERM(gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, gap_by_offset_squared, k);)
+        EACH_TERM(string_pull_by_aspect[k] =
+        c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
+        + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];)
+        EACH_TERM(s->opening_by_aspect[k] = -string_pull_by_aspect[k];)
     }
-    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k]
-        - s->string_pull_by_gap[k];
-    s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
     if (asked & (1u << BY_STOKES)) {
-        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
-    }
-    if (asked & (1u << BY_ASPECT)) {
-        s->opening_by_aspect[k] = -s->string_pull_by_aspect[k];
-    }
-    if (asked & (1u << BY_WEIGHT)) {
-        s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
+        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
-        s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
-        s->strings_stiffness_law.by_string_ratio, k);
+        EACH_TERM(s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
+        strings_stiffness_law.by_string_ratio, k);)
+    }
+    if (asked & (1u << BY_WEIGHT)) {
+        EACH_TERM(s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];)
     }
 }
 

@@ -102,7 +102,31 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     bridge_force_slope_prepare(&c->bridge_force_law, &v->bridge_force_law);
 }
 
+/* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
+    vec opening_by_gap[TERMS];
+    vec opening_by_opening[TERMS];
+    vec opening_by_orbit[TERMS];
+    vec opening_by_stokes[TERMS];
+    vec opening_by_aspect[TERMS];
+    vec opening_by_obliquity[TERMS];
+    vec opening_by_capillary[TERMS];
+    vec opening_by_volume[TERMS];
+    vec opening_by_contact_angle[TERMS];
+    vec orbit_by_gap[TERMS];
+    vec orbit_by_orbit[TERMS];
+    vec orbit_by_stokes[TERMS];
+    vec orbit_by_aspect[TERMS];
+    vec turned_by_gap[TERMS];
+    vec turned_by_orbit[TERMS];
+    vec turned_by_aspect[TERMS];
+    vec turned_by_obliquity[TERMS];
+} slopes;
+
+/* What the rates change by with the states, and with the groups that are asked for. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v, vec film, vec shear, unsigned asked)
+{
     shear_log_factor_slopes shear_log_factor_law;
     film_resistance_slopes film_resistance_law;
     bridge_force_slopes bridge_force_law;
@@ -123,137 +147,114 @@ typedef struct {
     vec slip_by_aspect_by_shear_log_factor_law[TERMS];
     vec shear_force_by_aspect[TERMS];
     vec film_resistance_law_by_gap_by_opening[TERMS];
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec opening_by_orbit[TERMS];
-    vec opening_by_stokes[TERMS];
     vec bridge_force_law_by_gap_over_radius_by_gap[TERMS];
-    vec opening_by_aspect[TERMS];
-    vec opening_by_obliquity[TERMS];
-    vec opening_by_capillary[TERMS];
-    vec opening_by_volume[TERMS];
-    vec opening_by_contact_angle[TERMS];
     vec distance_by_shear_force_by_gap[TERMS];
-    vec orbit_by_gap[TERMS];
     vec distance_by_slip_by_orbit[TERMS];
-    vec orbit_by_orbit[TERMS];
-    vec orbit_by_stokes[TERMS];
     vec distance_by_shear_force_by_aspect[TERMS];
     vec gap_by_shear_force[TERMS];
-    vec orbit_by_aspect[TERMS];
-    vec turned_by_gap[TERMS];
-    vec turned_by_orbit[TERMS];
-    vec turned_by_aspect[TERMS];
-    vec turned_by_obliquity[TERMS];
-} slopes;
-
-/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
-INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, unsigned asked, int k)
-{
     (void)film; (void)shear; (void)c; (void)asked;
-    shear_log_factor_slopes_next(&s->shear_log_factor_law, &c->shear_log_factor_law,
-        &of->shear_log_factor_law, &v->shear_log_factor_law, of->gap, k);
-    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
-        &v->film_resistance_law, of->gap, k);
-    bridge_force_slopes_next(&s->bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
-        &v->bridge_force_law, of->scaled_gap, k);
-    if (asked & (1u << BY_ASPECT)) {
-        s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
-        s->centrifugal_force_by_aspect[k] =
-        c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*s->gap_by_orbital_rate_squared[k] +
-        c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];
-    }
-    s->orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate, of->shear_log_factor_law.result,
-        k);
-    s->orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient(s->orbital_rate_by_shear_log_factor_law, of->distance,
-        s->orbital_rate_by_shear_log_factor_law_over_distance,
-        &s->over_orbital_rate_by_shear_log_factor_law_over_distance, k);
-    s->shear_log_factor_law_by_gap_by_slip[k] = product(s->shear_log_factor_law.by_gap, of->slip, k);
-    s->shear_force_by_gap[k] =
-        shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*s->orbital_rate_by_shear_log_factor_law_over_distance[k]
+    shear_log_factor_slopes_of(&shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
+        &v->shear_log_factor_law, of->gap);
+    film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    bridge_force_slopes_of(&bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
+        &v->bridge_force_law, of->scaled_gap);
+    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
+        of->shear_log_factor_law.result, k);)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        quotient(orbital_rate_by_shear_log_factor_law, of->distance,
+        orbital_rate_by_shear_log_factor_law_over_distance,
+        &over_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product(shear_log_factor_law.by_gap, of->slip, k);)
+    EACH_TERM(shear_force_by_gap[k] =
+        shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_gap_by_slip[k];
-    s->inverse_distance_squared[k] = reciprocal(of->distance_squared, s->inverse_distance_squared, k);
-    s->slip_by_orbit[k] = k == 0 ? s->inverse_distance_squared[k] + 0.15625 : s->inverse_distance_squared[k];
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
+    EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
+    EACH_TERM(slip_by_orbit[k] = k == 0 ? inverse_distance_squared[k] + 0.15625 :
+        inverse_distance_squared[k];)
+    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
+    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
+        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] +
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k];)
+    EACH_TERM(s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
+    EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
+        orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
+    EACH_TERM(s->opening_by_orbit[k] =
+        c->opening_by_orbit_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+    EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
+    EACH_TERM(s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
+        distance_by_shear_force_by_gap[k];)
+    EACH_TERM(distance_by_slip_by_orbit[k] = product(of->distance, slip_by_orbit, k);)
+    EACH_TERM(s->orbit_by_orbit[k] = shear*c->orbit_by_orbit_factor*product(of->shear_log_factor_law.result,
+        distance_by_slip_by_orbit, k);)
+#if TURNING_STATE
+    EACH_TERM(s->turned_by_gap[k] =
+        c->turned_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+#endif
+#if TURNING_STATE
+    EACH_TERM(s->turned_by_orbit[k] =
+        c->turned_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
+#endif
     if (asked & (1u << BY_ASPECT)) {
-        s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-        s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
-        s->gap_by_orbital_rate_over_distance, &s->over_gap_by_orbital_rate_over_distance, k);
-        s->slip_by_aspect[k] = k == 0 ? -2.0*s->gap_by_orbital_rate_over_distance[k] +
-        c->slip_by_aspect_offset : -2.0*s->gap_by_orbital_rate_over_distance[k];
-        s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
-        k);
-        s->slip_by_aspect_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
-        s->slip_by_aspect, k);
-        s->shear_force_by_aspect[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
+        EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
+        EACH_TERM(centrifugal_force_by_aspect[k] =
+        c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
+        c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
+        EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
+        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
+        EACH_TERM(slip_by_aspect[k] = k == 0 ? -2.0*gap_by_orbital_rate_over_distance[k] +
+        c->slip_by_aspect_offset : -2.0*gap_by_orbital_rate_over_distance[k];)
+        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
+        of->slip, k);)
+        EACH_TERM(slip_by_aspect_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        slip_by_aspect, k);)
+        EACH_TERM(shear_force_by_aspect[k] =
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_aspect_by_slip[k]
         +
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->slip_by_aspect_by_shear_log_factor_law[k]
-        + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];
-    }
-    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*s->bridge_force_law.by_gap_over_radius[k] +
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k];
-    s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
-    s->orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance, s->orbital_rate_over_distance,
-        &s->over_orbital_rate_over_distance, k);
-    s->opening_by_orbit[k] =
-        c->opening_by_orbit_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
-    if (asked & (1u << BY_STOKES)) {
-        s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
-        c->opening_by_stokes_per_bridge_force*of->film_force[k];
-    }
-    if (asked & (1u << BY_ASPECT)) {
-        s->bridge_force_law_by_gap_over_radius_by_gap[k] = product(s->bridge_force_law.by_gap_over_radius,
-        of->gap, k);
-        s->opening_by_aspect[k] =
-        c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap*s->bridge_force_law_by_gap_over_radius_by_gap[k]
-        + s->centrifugal_force_by_aspect[k];
-    }
-    if (asked & (1u << BY_OBLIQUITY)) {
-        s->opening_by_obliquity[k] = c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*slip_by_aspect_by_shear_log_factor_law[k]
+        + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
+        EACH_TERM(bridge_force_law_by_gap_over_radius_by_gap[k] = product(bridge_force_law.by_gap_over_radius,
+        of->gap, k);)
+        EACH_TERM(s->opening_by_aspect[k] =
+        c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap*bridge_force_law_by_gap_over_radius_by_gap[k]
+        + centrifugal_force_by_aspect[k];)
+        EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
+        EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
+        EACH_TERM(s->orbit_by_aspect[k] = -distance_by_shear_force_by_aspect[k] - gap_by_shear_force[k];)
+#if TURNING_STATE
+        EACH_TERM(s->turned_by_aspect[k] =
+        c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*gap_by_orbital_rate_over_distance[k] +
+        c->turned_by_aspect_per_orbital_rate*of->orbital_rate[k];)
+#endif
     }
     if (asked & (1u << BY_CAPILLARY)) {
-        s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];
-    }
-    if (asked & (1u << BY_VOLUME)) {
-        s->opening_by_volume[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_volume[k];
+        EACH_TERM(s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];)
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
-        s->opening_by_contact_angle[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*s->bridge_force_law.by_contact_angle[k];
-    }
-    s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
-    s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
-        s->distance_by_shear_force_by_gap[k];
-    s->distance_by_slip_by_orbit[k] = product(of->distance, s->slip_by_orbit, k);
-    s->orbit_by_orbit[k] = shear*c->orbit_by_orbit_factor*product(of->shear_log_factor_law.result,
-        s->distance_by_slip_by_orbit, k);
-    if (asked & (1u << BY_STOKES)) {
-        s->orbit_by_stokes[k] =
-        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];
-    }
-    if (asked & (1u << BY_ASPECT)) {
-        s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
-        s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
-        s->orbit_by_aspect[k] = -s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k];
-    }
-    s->turned_by_gap[k] = c->turned_by_gap_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
-    s->turned_by_orbit[k] = c->turned_by_orbit_per_inverse_distance_squared*s->inverse_distance_squared[k];
-    if (asked & (1u << BY_ASPECT)) {
-        s->turned_by_aspect[k] =
-        c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*s->gap_by_orbital_rate_over_distance[k] +
-        c->turned_by_aspect_per_orbital_rate*of->orbital_rate[k];
+        EACH_TERM(s->opening_by_contact_angle[k] =
+        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_contact_angle[k];)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
-        s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+        EACH_TERM(s->opening_by_obliquity[k] =
+        c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
+#if TURNING_STATE
+        EACH_TERM(s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
+#endif
+    }
+    if (asked & (1u << BY_STOKES)) {
+        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
+        c->opening_by_stokes_per_bridge_force*of->film_force[k];)
+        EACH_TERM(s->orbit_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];)
+    }
+    if (asked & (1u << BY_VOLUME)) {
+        EACH_TERM(s->opening_by_volume[k] =
+        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_volume[k];)
     }
 }
 

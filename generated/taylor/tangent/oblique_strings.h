@@ -131,7 +131,41 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     arm_lever_slope_prepare(&c->arm_lever_law, &v->arm_lever_law);
 }
 
+/* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
+    vec opening_by_gap[TERMS];
+    vec opening_by_opening[TERMS];
+    vec opening_by_orbit[TERMS];
+    vec opening_by_rotation[TERMS];
+    vec opening_by_stokes[TERMS];
+    vec opening_by_aspect[TERMS];
+    vec opening_by_obliquity[TERMS];
+    vec opening_by_weight[TERMS];
+    vec opening_by_string_ratio[TERMS];
+    vec orbit_by_gap[TERMS];
+    vec orbit_by_orbit[TERMS];
+    vec orbit_by_spin[TERMS];
+    vec orbit_by_rotation[TERMS];
+    vec orbit_by_stokes[TERMS];
+    vec orbit_by_aspect[TERMS];
+    vec orbit_by_obliquity[TERMS];
+    vec orbit_by_weight[TERMS];
+    vec orbit_by_string_ratio[TERMS];
+    vec spin_by_gap[TERMS];
+    vec spin_by_orbit[TERMS];
+    vec spin_by_spin[TERMS];
+    vec spin_by_stokes[TERMS];
+    vec spin_by_aspect[TERMS];
+    vec rotation_by_gap[TERMS];
+    vec rotation_by_orbit[TERMS];
+    vec rotation_by_aspect[TERMS];
+    vec rotation_by_obliquity[TERMS];
+} slopes;
+
+/* What the rates change by with the states, and with the groups that are asked for. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v, vec film, vec shear, unsigned asked)
+{
     shear_log_factor_slopes shear_log_factor_law;
     film_resistance_slopes film_resistance_law;
     strings_stiffness_slopes strings_stiffness_law;
@@ -140,16 +174,20 @@ typedef struct {
     vec gap_by_offset_squared_by_gap[TERMS];
     vec gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
     vec offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[TERMS];
+    vec
+        offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[TERMS];
     vec string_pull_by_gap[TERMS];
     vec distance_by_gap[TERMS];
     vec distance_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
     vec distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[TERMS];
-    vec distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec
+        distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[TERMS];
     vec distance_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[TERMS];
-    vec distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[TERMS];
+    vec
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec strings_stiffness_law_by_sine_of_scaled_rotation[TERMS];
     vec strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_pull_by_rotation[TERMS];
@@ -161,7 +199,8 @@ typedef struct {
     vec gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[TERMS];
     vec gap_by_strings_stiffness_law[TERMS];
     vec offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[TERMS];
+    vec
+        offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[TERMS];
     vec string_pull_by_aspect[TERMS];
     vec gap_by_strings_stiffness_law_by_string_ratio[TERMS];
     vec strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[TERMS];
@@ -172,8 +211,10 @@ typedef struct {
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
     vec shear_force_by_gap[TERMS];
     vec distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[TERMS];
-    vec distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
-    vec distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec sine_of_rotation[TERMS], slope_of_rotation[TERMS];
     vec cosine_of_rotation[TERMS];
     vec strings_stiffness_law_by_cosine_of_rotation[TERMS];
@@ -185,319 +226,269 @@ typedef struct {
     vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_aspect[TERMS];
     vec film_resistance_law_by_gap_by_opening[TERMS];
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec opening_by_orbit[TERMS];
-    vec opening_by_rotation[TERMS];
-    vec opening_by_stokes[TERMS];
-    vec opening_by_aspect[TERMS];
-    vec opening_by_obliquity[TERMS];
-    vec opening_by_weight[TERMS];
-    vec opening_by_string_ratio[TERMS];
     vec distance_by_shear_force_by_gap[TERMS];
     vec distance_by_offset_squared_by_gap[TERMS];
     vec distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[TERMS];
-    vec orbit_by_gap[TERMS];
+    vec
+        distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[TERMS];
     vec shear_log_factor_law_over_distance[TERMS];
     vec over_shear_log_factor_law_over_distance;
-    vec orbit_by_orbit[TERMS];
-    vec orbit_by_spin[TERMS];
-    vec orbit_by_rotation[TERMS];
-    vec orbit_by_stokes[TERMS];
     vec distance_by_shear_force_by_aspect[TERMS];
     vec distance_by_offset_squared_by_aspect[TERMS];
     vec distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[TERMS];
+    vec
+        distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[TERMS];
     vec gap_by_shear_force[TERMS];
     vec gap_by_string_sideways[TERMS];
-    vec orbit_by_aspect[TERMS];
     vec distance_by_strings_stiffness_law[TERMS];
-    vec orbit_by_obliquity[TERMS];
-    vec orbit_by_weight[TERMS];
     vec distance_by_strings_stiffness_law_by_string_ratio[TERMS];
-    vec orbit_by_string_ratio[TERMS];
     vec arm_lever_law_by_distance_by_shear_force[TERMS];
     vec arm_lever_law_by_shear_force_by_gap[TERMS];
-    vec spin_by_gap[TERMS];
     vec arm_lever_law_by_shear_log_factor_law[TERMS];
     vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
     vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec spin_by_orbit[TERMS];
-    vec spin_by_spin[TERMS];
-    vec spin_by_stokes[TERMS];
     vec arm_lever_law_by_distance_by_gap[TERMS];
     vec arm_lever_law_by_distance_by_gap_by_shear_force[TERMS];
     vec arm_lever_law_by_shear_force_by_aspect[TERMS];
-    vec spin_by_aspect[TERMS];
-    vec rotation_by_gap[TERMS];
     vec inverse_distance_squared[TERMS];
-    vec rotation_by_orbit[TERMS];
     vec gap_by_orbital_rate_over_distance[TERMS];
     vec over_gap_by_orbital_rate_over_distance;
-    vec rotation_by_aspect[TERMS];
-    vec rotation_by_obliquity[TERMS];
-} slopes;
-
-/* Coefficient k of what the rates change by with the states, and with the groups that are asked for. */
-INLINE void slope_coefficients(slopes *s, const slope_constants *c, const series *of, const constants *v, vec
-    film, vec shear, unsigned asked, int k)
-{
     (void)film; (void)shear; (void)c; (void)asked;
-    shear_log_factor_slopes_next(&s->shear_log_factor_law, &c->shear_log_factor_law,
-        &of->shear_log_factor_law, &v->shear_log_factor_law, of->gap, k);
-    film_resistance_slopes_next(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
-        &v->film_resistance_law, of->gap, k);
-    strings_stiffness_slopes_next(&s->strings_stiffness_law, &c->strings_stiffness_law,
-        &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared, k);
-    arm_lever_slopes_next(&s->arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
-        of->distance, k);
-    s->offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
-        c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];
-    s->gap_by_offset_squared_by_gap[k] = product(of->gap, s->offset_squared_by_gap, k);
-    s->gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared_by_gap, k);
-    s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->offset_squared_by_gap, k);
-    s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
+    shear_log_factor_slopes_of(&shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
+        &v->shear_log_factor_law, of->gap);
+    film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    strings_stiffness_slopes_of(&strings_stiffness_law, &c->strings_stiffness_law, &of->strings_stiffness_law,
+        &v->strings_stiffness_law, of->offset_squared);
+    arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
+        of->distance);
+    EACH_TERM(offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
+        c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];)
+    EACH_TERM(gap_by_offset_squared_by_gap[k] = product(of->gap, offset_squared_by_gap, k);)
+    EACH_TERM(gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, gap_by_offset_squared_by_gap, k);)
+    EACH_TERM(offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, offset_squared_by_gap, k);)
+    EACH_TERM(offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
         = product(of->sine_of_scaled_rotation_squared,
-        s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);
-    s->string_pull_by_gap[k] =
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k]
+        offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(string_pull_by_gap[k] =
+        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k]
         +
         c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*of->strings_stiffness_law.result[k]
         +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];
-    s->distance_by_gap[k] = product(of->distance, of->gap, k);
-    s->distance_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->distance_by_gap, k);
-    s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation, s->distance_by_gap_by_strings_stiffness_law_by_offset_squared,
-        k);
-    s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];)
+    EACH_TERM(distance_by_gap[k] = product(of->distance, of->gap, k);)
+    EACH_TERM(distance_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, distance_by_gap, k);)
+    EACH_TERM(distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
+        product(of->sine_of_scaled_rotation, distance_by_gap_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         = product(of->cosine_of_scaled_rotation,
-        s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);
-    s->sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation_squared, of->sine_of_scaled_rotation, k);
-    s->distance_by_strings_stiffness_law_by_offset_squared[k] = product(of->distance,
-        s->strings_stiffness_law.by_offset_squared, k);
-    s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k]
-        = product(s->sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
-        s->distance_by_strings_stiffness_law_by_offset_squared, k);
-    s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k] =
+        product(of->sine_of_scaled_rotation_squared, of->sine_of_scaled_rotation, k);)
+    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared[k] = product(of->distance,
+        strings_stiffness_law.by_offset_squared, k);)
+    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k]
+        = product(sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
+        distance_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         = product(of->cosine_of_scaled_rotation,
-        s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
-        k);
-    s->strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
-        of->sine_of_scaled_rotation, k);
-    s->strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        product(of->cosine_of_scaled_rotation, s->strings_stiffness_law_by_sine_of_scaled_rotation, k);
-    s->string_pull_by_rotation[k] =
-        c->string_pull_by_rotation_per_distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*s->distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
+        k);)
+    EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
+        of->sine_of_scaled_rotation, k);)
+    EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
+        product(of->cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(string_pull_by_rotation[k] =
+        c->string_pull_by_rotation_per_distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         +
-        c->string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        c->string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];
-    if (asked & (1u << BY_ASPECT)) {
-        s->gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);
-        s->centrifugal_force_by_aspect[k] =
-        c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*s->gap_by_orbital_rate_squared[k] +
-        c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];
-        s->gap_by_sine_of_scaled_rotation_squared[k] = product(of->gap, of->sine_of_scaled_rotation_squared,
-        k);
-        s->offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k] +
-        4.0*s->gap_by_sine_of_scaled_rotation_squared[k];
-        s->gap_by_offset_squared_by_aspect[k] = product(of->gap, s->offset_squared_by_aspect, k);
-        s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->gap_by_offset_squared_by_aspect, k);
-        s->gap_by_strings_stiffness_law[k] = product(of->gap, of->strings_stiffness_law.result, k);
-        s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->offset_squared_by_aspect, k);
-    s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
-        = product(of->sine_of_scaled_rotation_squared,
-        s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);
-        s->string_pull_by_aspect[k] =
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k]
-        + v->weight*s->gap_by_strings_stiffness_law[k] +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];
-    }
-    if (asked & (1u << BY_STRING_RATIO)) {
-        s->gap_by_strings_stiffness_law_by_string_ratio[k] = product(of->gap,
-        s->strings_stiffness_law.by_string_ratio, k);
-        s->strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k] =
-        product(s->strings_stiffness_law.by_string_ratio, of->sine_of_scaled_rotation_squared, k);
-        s->string_pull_by_string_ratio[k] =
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*s->gap_by_strings_stiffness_law_by_string_ratio[k]
+        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
+        of->shear_log_factor_law.result, k);)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        quotient(orbital_rate_by_shear_log_factor_law, of->distance,
+        orbital_rate_by_shear_log_factor_law_over_distance,
+        &over_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product(shear_log_factor_law.by_gap, of->slip, k);)
+    EACH_TERM(shear_force_by_gap[k] =
+        shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*s->strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k];
-    }
-    s->orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate, of->shear_log_factor_law.result,
-        k);
-    s->orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient(s->orbital_rate_by_shear_log_factor_law, of->distance,
-        s->orbital_rate_by_shear_log_factor_law_over_distance,
-        &s->over_orbital_rate_by_shear_log_factor_law_over_distance, k);
-    s->shear_log_factor_law_by_gap_by_slip[k] = product(s->shear_log_factor_law.by_gap, of->slip, k);
-    s->shear_force_by_gap[k] =
-        shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*s->orbital_rate_by_shear_log_factor_law_over_distance[k]
-        +
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_gap_by_slip[k];
-    s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation, s->distance_by_strings_stiffness_law_by_offset_squared, k);
-    s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
+    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
+        product(of->sine_of_scaled_rotation, distance_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         = product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
-        s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);
-    s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         = product(of->cosine_of_scaled_rotation,
-        s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
-        k);
-    circular(of->rotation, s->slope_of_rotation, s->sine_of_rotation, s->cosine_of_rotation, k);
+        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
+        k);)
+    EACH_TERM(circular(of->rotation, slope_of_rotation, sine_of_rotation, cosine_of_rotation, k);)
     /* cosine_of_rotation comes with its sine */
-    s->strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
-        s->cosine_of_rotation, k);
-    s->string_sideways_by_rotation[k] =
-        c->string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation*s->distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+    EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
+        cosine_of_rotation, k);)
+    EACH_TERM(string_sideways_by_rotation[k] =
+        c->string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation*distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         +
-        c->string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation*s->strings_stiffness_law_by_cosine_of_rotation[k];
-    if (asked & (1u << BY_ASPECT)) {
-        s->shear_log_factor_law_by_aspect_by_slip[k] = product(s->shear_log_factor_law.by_aspect, of->slip,
-        k);
-        s->gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);
-        s->gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
-        s->gap_by_orbital_rate, k);
-        s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient(s->gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
-        s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
-        &s->over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);
-        s->shear_force_by_aspect[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*s->shear_log_factor_law_by_aspect_by_slip[k]
-        +
-        shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*s->gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
-        + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];
-    }
-    s->film_resistance_law_by_gap_by_opening[k] = product(s->film_resistance_law.by_gap, of->opening, k);
-    s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*s->film_resistance_law_by_gap_by_opening[k]
-        - s->string_pull_by_gap[k];
-    s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];
-    s->orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance, s->orbital_rate_over_distance,
-        &s->over_orbital_rate_over_distance, k);
-    s->opening_by_orbit[k] =
-        c->opening_by_orbit_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
-    s->opening_by_rotation[k] = -s->string_pull_by_rotation[k];
-    if (asked & (1u << BY_STOKES)) {
-        s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];
-    }
-    if (asked & (1u << BY_ASPECT)) {
-        s->opening_by_aspect[k] = s->centrifugal_force_by_aspect[k] - s->string_pull_by_aspect[k];
-    }
-    if (asked & (1u << BY_OBLIQUITY)) {
-        s->opening_by_obliquity[k] = c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];
-    }
-    if (asked & (1u << BY_WEIGHT)) {
-        s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];
-    }
-    if (asked & (1u << BY_STRING_RATIO)) {
-        s->opening_by_string_ratio[k] = -s->string_pull_by_string_ratio[k];
-    }
-    s->distance_by_shear_force_by_gap[k] = product(of->distance, s->shear_force_by_gap, k);
-    s->distance_by_offset_squared_by_gap[k] = product(of->distance, s->offset_squared_by_gap, k);
-    s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->distance_by_offset_squared_by_gap, k);
-    s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k] =
-        product(s->sine_of_rotation,
-        s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);
-    s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] +
+        c->string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation*strings_stiffness_law_by_cosine_of_rotation[k];)
+    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
+    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k]
+        - string_pull_by_gap[k];)
+    EACH_TERM(s->opening_by_opening[k] =
+        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
+    EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
+        orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
+    EACH_TERM(s->opening_by_orbit[k] =
+        c->opening_by_orbit_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+    EACH_TERM(s->opening_by_rotation[k] = -string_pull_by_rotation[k];)
+    EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
+    EACH_TERM(distance_by_offset_squared_by_gap[k] = product(of->distance, offset_squared_by_gap, k);)
+    EACH_TERM(distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, distance_by_offset_squared_by_gap, k);)
+    EACH_TERM(distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
+        = product(sine_of_rotation,
+        distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] +
         c->orbit_by_gap_per_shear_force*of->string_sideways[k] +
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*s->distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        - s->distance_by_shear_force_by_gap[k];
-    s->shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
-        s->shear_log_factor_law_over_distance, &s->over_shear_log_factor_law_over_distance, k);
-    s->orbit_by_orbit[k] =
-        shear*c->orbit_by_orbit_per_shear_log_factor_law_over_distance*s->shear_log_factor_law_over_distance[k];
-    s->orbit_by_spin[k] =
+        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
+        - distance_by_shear_force_by_gap[k];)
+    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
+        shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(s->orbit_by_orbit[k] =
+        shear*c->orbit_by_orbit_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
+    EACH_TERM(s->orbit_by_spin[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
-        of->shear_log_factor_law.result, k);
-    s->orbit_by_rotation[k] = -product(of->distance, s->string_sideways_by_rotation, k);
-    if (asked & (1u << BY_STOKES)) {
-        s->orbit_by_stokes[k] = c->opening_by_stokes_per_film_force*product(of->distance, of->shear_force, k);
-    }
+        of->shear_log_factor_law.result, k);)
+    EACH_TERM(s->orbit_by_rotation[k] = -product(of->distance, string_sideways_by_rotation, k);)
+    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product(arm_lever_law.by_distance,
+        of->shear_force, k);)
+    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, shear_force_by_gap,
+        k);)
+    EACH_TERM(s->spin_by_gap[k] =
+        c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force*arm_lever_law_by_distance_by_shear_force[k]
+        + 0.3125*arm_lever_law_by_shear_force_by_gap[k];)
+    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product(of->arm_lever_law.result,
+        of->shear_log_factor_law.result, k);)
+    EACH_TERM(arm_lever_law_by_shear_log_factor_law_over_distance_squared[k] =
+        quotient(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
+        arm_lever_law_by_shear_log_factor_law_over_distance_squared,
+        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
+    EACH_TERM(s->spin_by_orbit[k] =
+        shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
+    EACH_TERM(s->spin_by_spin[k] =
+        shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*arm_lever_law_by_shear_log_factor_law[k];)
+    EACH_TERM(s->rotation_by_gap[k] =
+        c->rotation_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+    EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
+    EACH_TERM(s->rotation_by_orbit[k] =
+        c->rotation_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
     if (asked & (1u << BY_ASPECT)) {
-        s->distance_by_shear_force_by_aspect[k] = product(of->distance, s->shear_force_by_aspect, k);
-        s->distance_by_offset_squared_by_aspect[k] = product(of->distance, s->offset_squared_by_aspect, k);
-        s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(s->strings_stiffness_law.by_offset_squared, s->distance_by_offset_squared_by_aspect, k);
-    s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        = product(s->sine_of_rotation,
-        s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);
-        s->gap_by_shear_force[k] = product(of->gap, of->shear_force, k);
-        s->gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);
-        s->orbit_by_aspect[k] =
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*s->distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        - s->distance_by_shear_force_by_aspect[k] - s->gap_by_shear_force[k] - s->gap_by_string_sideways[k];
+        EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
+        EACH_TERM(centrifugal_force_by_aspect[k] =
+        c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
+        c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
+        EACH_TERM(gap_by_sine_of_scaled_rotation_squared[k] = product(of->gap,
+        of->sine_of_scaled_rotation_squared, k);)
+        EACH_TERM(offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k]
+        + 4.0*gap_by_sine_of_scaled_rotation_squared[k];)
+        EACH_TERM(gap_by_offset_squared_by_aspect[k] = product(of->gap, offset_squared_by_aspect, k);)
+        EACH_TERM(gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, gap_by_offset_squared_by_aspect, k);)
+        EACH_TERM(gap_by_strings_stiffness_law[k] = product(of->gap, of->strings_stiffness_law.result, k);)
+        EACH_TERM(offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, offset_squared_by_aspect, k);)
+    EACH_TERM(offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
+        = product(of->sine_of_scaled_rotation_squared,
+        offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);)
+        EACH_TERM(string_pull_by_aspect[k] =
+        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k]
+        + v->weight*gap_by_strings_stiffness_law[k] +
+        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];)
+        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
+        of->slip, k);)
+        EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        gap_by_orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
+        quotient(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
+        gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
+        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+        EACH_TERM(shear_force_by_aspect[k] =
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_aspect_by_slip[k]
+        +
+        shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
+        + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
+        EACH_TERM(s->opening_by_aspect[k] = centrifugal_force_by_aspect[k] - string_pull_by_aspect[k];)
+        EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
+        EACH_TERM(distance_by_offset_squared_by_aspect[k] = product(of->distance, offset_squared_by_aspect,
+        k);)
+        EACH_TERM(distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
+        product(strings_stiffness_law.by_offset_squared, distance_by_offset_squared_by_aspect, k);)
+    EACH_TERM(distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
+        = product(sine_of_rotation,
+        distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);)
+        EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
+        EACH_TERM(gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);)
+        EACH_TERM(s->orbit_by_aspect[k] =
+        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
+        - distance_by_shear_force_by_aspect[k] - gap_by_shear_force[k] - gap_by_string_sideways[k];)
+        EACH_TERM(arm_lever_law_by_distance_by_gap[k] = product(arm_lever_law.by_distance, of->gap, k);)
+        EACH_TERM(arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
+        arm_lever_law_by_distance_by_gap, k);)
+        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
+        shear_force_by_aspect, k);)
+        EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_law_by_distance_by_gap_by_shear_force[k] +
+        0.3125*arm_lever_law_by_shear_force_by_aspect[k];)
+        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
+        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
+        EACH_TERM(s->rotation_by_aspect[k] =
+        c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance*gap_by_orbital_rate_over_distance[k] +
+        c->rotation_by_aspect_per_orbital_rate*of->orbital_rate[k];)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
-        s->distance_by_strings_stiffness_law[k] = product(of->distance, of->strings_stiffness_law.result, k);
-        s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(s->sine_of_rotation,
-        s->distance_by_strings_stiffness_law, k);
+        EACH_TERM(s->opening_by_obliquity[k] =
+        c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
+        EACH_TERM(distance_by_strings_stiffness_law[k] = product(of->distance,
+        of->strings_stiffness_law.result, k);)
+        EACH_TERM(s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(sine_of_rotation,
+        distance_by_strings_stiffness_law, k);)
+        EACH_TERM(s->rotation_by_obliquity[k] =
+        c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
     }
-    if (asked & (1u << BY_WEIGHT)) {
-        s->orbit_by_weight[k] = c->opening_by_weight_per_string_pull*product(of->distance,
-        of->string_sideways, k);
+    if (asked & (1u << BY_STOKES)) {
+        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];)
+        EACH_TERM(s->orbit_by_stokes[k] = c->opening_by_stokes_per_film_force*product(of->distance,
+        of->shear_force, k);)
+        EACH_TERM(s->spin_by_stokes[k] =
+        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
-        s->distance_by_strings_stiffness_law_by_string_ratio[k] = product(of->distance,
-        s->strings_stiffness_law.by_string_ratio, k);
-        s->orbit_by_string_ratio[k] =
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*product(s->sine_of_rotation,
-        s->distance_by_strings_stiffness_law_by_string_ratio, k);
+        EACH_TERM(gap_by_strings_stiffness_law_by_string_ratio[k] = product(of->gap,
+        strings_stiffness_law.by_string_ratio, k);)
+        EACH_TERM(strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k] =
+        product(strings_stiffness_law.by_string_ratio, of->sine_of_scaled_rotation_squared, k);)
+        EACH_TERM(string_pull_by_string_ratio[k] =
+        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*gap_by_strings_stiffness_law_by_string_ratio[k]
+        +
+        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k];)
+        EACH_TERM(s->opening_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
+        EACH_TERM(distance_by_strings_stiffness_law_by_string_ratio[k] = product(of->distance,
+        strings_stiffness_law.by_string_ratio, k);)
+        EACH_TERM(s->orbit_by_string_ratio[k] =
+        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*product(sine_of_rotation,
+        distance_by_strings_stiffness_law_by_string_ratio, k);)
     }
-    s->arm_lever_law_by_distance_by_shear_force[k] = product(s->arm_lever_law.by_distance, of->shear_force,
-        k);
-    s->arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, s->shear_force_by_gap, k);
-    s->spin_by_gap[k] =
-        c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force*s->arm_lever_law_by_distance_by_shear_force[k]
-        + 0.3125*s->arm_lever_law_by_shear_force_by_gap[k];
-    s->arm_lever_law_by_shear_log_factor_law[k] = product(of->arm_lever_law.result,
-        of->shear_log_factor_law.result, k);
-    s->arm_lever_law_by_shear_log_factor_law_over_distance_squared[k] =
-        quotient(s->arm_lever_law_by_shear_log_factor_law, of->distance_squared,
-        s->arm_lever_law_by_shear_log_factor_law_over_distance_squared,
-        &s->over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);
-    s->spin_by_orbit[k] =
-        shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*s->arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];
-    s->spin_by_spin[k] =
-        shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*s->arm_lever_law_by_shear_log_factor_law[k];
-    if (asked & (1u << BY_STOKES)) {
-        s->spin_by_stokes[k] =
-        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];
-    }
-    if (asked & (1u << BY_ASPECT)) {
-        s->arm_lever_law_by_distance_by_gap[k] = product(s->arm_lever_law.by_distance, of->gap, k);
-        s->arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
-        s->arm_lever_law_by_distance_by_gap, k);
-        s->arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
-        s->shear_force_by_aspect, k);
-        s->spin_by_aspect[k] = 0.3125*s->arm_lever_law_by_distance_by_gap_by_shear_force[k] +
-        0.3125*s->arm_lever_law_by_shear_force_by_aspect[k];
-    }
-    s->rotation_by_gap[k] =
-        c->rotation_by_gap_per_orbital_rate_over_distance*s->orbital_rate_over_distance[k];
-    s->inverse_distance_squared[k] = reciprocal(of->distance_squared, s->inverse_distance_squared, k);
-    s->rotation_by_orbit[k] =
-        c->rotation_by_orbit_per_inverse_distance_squared*s->inverse_distance_squared[k];
-    if (asked & (1u << BY_ASPECT)) {
-        s->gap_by_orbital_rate_over_distance[k] = quotient(s->gap_by_orbital_rate, of->distance,
-        s->gap_by_orbital_rate_over_distance, &s->over_gap_by_orbital_rate_over_distance, k);
-        s->rotation_by_aspect[k] =
-        c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance*s->gap_by_orbital_rate_over_distance[k] +
-        c->rotation_by_aspect_per_orbital_rate*of->orbital_rate[k];
-    }
-    if (asked & (1u << BY_OBLIQUITY)) {
-        s->rotation_by_obliquity[k] = c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];
+    if (asked & (1u << BY_WEIGHT)) {
+        EACH_TERM(s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];)
+        EACH_TERM(s->orbit_by_weight[k] = c->opening_by_weight_per_string_pull*product(of->distance,
+        of->string_sideways, k);)
     }
 }
 

@@ -24,6 +24,7 @@ typedef struct {
     mask there[GROUPS]; /* the group has changed something by now */
     vec least; /* smallest gap at an end of a phase */
     vec near;  /* least measure so far, and of which boundary */
+    vec hint;  /* least of those that are no distances, but say that one should be measured */
     mask boundary;
 } carried;
 
@@ -48,16 +49,19 @@ static void along_start(carried *a, const constants *v, int lane)
         a->there[group][lane] = FLOWS[group] ? -1 : 0;
     }
     a->least[lane] = 1.0;
-    a->near[lane] = INFINITY;
+    a->near[lane] = a->hint[lane] = INFINITY;
     a->boundary[lane] = FAR;
 }
 
 static void along_near(carried *a, int lane, double measure, int boundary)
 {
-    if (!(measure >= a->near[lane])) { /* NaN is near */
-        a->near[lane] = measure == measure ? measure : 0.0;
+    measure = measure == measure ? measure : 0.0; /* NaN is near */
+    if (measure < a->near[lane]) {
+        a->near[lane] = measure;
         a->boundary[lane] = boundary;
     }
+    if (boundary < TIE || boundary == UNWOUND)
+        a->hint[lane] = fmin(a->hint[lane], measure);
 }
 
 /* The jump at a reversal, before it is done to the states. */

@@ -1,14 +1,6 @@
 /* Derivatives over a step: matrix and sources once, a linear recurrence for each direction, the saltation at an event. */
 
-#define SLOPE_TERM(k) if (k < ORDER) slope_coefficients(d, c, s, v, film, shear, asked, k);
 #define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, d, c, s, v, film, shear, source, k);
-
-static __attribute__((noinline)) void expand_slopes(
-    slopes *d, const slope_constants *c, const series *s, const constants *v, vec film, vec shear,
-    unsigned asked)
-{
-    EVERY(SLOPE_TERM)
-}
 
 static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slopes *d, const slope_constants *c,
     const series *s, const constants *v, vec film, vec shear, const vec *const *source)
@@ -22,20 +14,20 @@ static const vec NOTHING[TERMS];
  * its elasticity were one. A mode that decays fast may be gone from the states and not from these: they share the step. */
 static void expand_along(tangents *all, const flights *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
-    const vec *groups = (const void *)&f->c;
+    vec own[STATES];
+    for (int state = 0; state < STATES; state++)
+        own[state] = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
     all->asked = 0;
     for (int group = 0; group < GROUPS; group++) {
         if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
             continue;
         all->asked |= 1u << group;
         const vec *source[STATES];
-        vec(*t)[TERMS] = all->t[group], size = vec_abs(groups[group]);
-        size = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
+        vec(*t)[TERMS] = all->t[group];
         for (int state = 0; state < STATES; state++) {
             source[state] = NOTHING;
             t[state][0] = l->along.t[group][state];
-            vec own = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
-            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + size*own);
+            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + f->one[group]*own[state]);
         }
         sources(d, s, group, source);
         expand_tangent(t, d, &f->slopes, s, &f->c, acting(l), l->shear, source);

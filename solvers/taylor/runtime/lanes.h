@@ -131,8 +131,8 @@ static void fly(queue *q)
             expand_slopes(&d, &f.slopes, &s, &f.c, acting(&l), l.shear, q->asked);
         expand_along(&t, &l, &f, &s, &d, q->asked);
         vec h = only(l.alive, step_size(&s, &f, &creeps, &t));
-        for (int group = 0; group < GROUPS && bits(creeps); group++)
-            damp(t.t[group], creeps);
+        for (unsigned left = bits(creeps) ? t.asked : 0; left; left &= left - 1)
+            damp(t.t[__builtin_ctz(left)], creeps);
 #else
         vec h = only(l.alive, step_size(&s, &f, &creeps));
 #endif
@@ -220,7 +220,8 @@ const int proved_by_energy = 0;
  *
  * by_group: RESULTS for each of `group_names` a collision; gradients: RESULTS for each of `quantity_names`.
  * asked: the groups whose derivatives are carried, as bits.
- * near: for each that separated, the least measure of nearness to a boundary, and its kind (along.h).
+ * near: for each that separated, the least measure of nearness to a boundary, its kind (along.h), and the least of those
+ * measures that are no distances.
  */
 int collide_along(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget,
     answer *answers, unsigned asked, double *by_group, double *gradients, double *near)

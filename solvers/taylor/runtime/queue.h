@@ -42,6 +42,7 @@ typedef struct {
     vec contact, end, edge;
 #if GRADIENTS
     slope_constants slopes;
+    vec one[GROUPS]; /* a derivative's size where its elasticity is one, of a state of one */
 #endif
 } fixed;
 
@@ -74,7 +75,7 @@ typedef struct {
     double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
-    double *near;                 /* least measure of nearness, and its boundary */
+    double *near;                 /* least measure of nearness, its boundary, least of those that are no distances */
     unsigned asked;               /* groups, as bits */
 #endif
 } queue;
@@ -150,6 +151,10 @@ static void fill_queue(queue *q)
         prepare(&f.c);
 #if GRADIENTS
         prepare_slopes(&f.slopes, &f.c);
+        for (int group = 0; group < GROUPS; group++) {
+            vec size = vec_abs(((const vec *)&f.c)[group]);
+            f.one[group] = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
+        }
 #endif
         unsigned beyond = set_tolerance(q, &f);
         memset(y, 0, sizeof y);
@@ -284,8 +289,10 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
 #if GRADIENTS
-        q->near[2*l->index[lane]] = l->along.near[lane];
-        q->near[2*l->index[lane] + 1] = l->along.boundary[lane];
+        double *near = q->near + 3*l->index[lane];
+        near[0] = l->along.near[lane];
+        near[1] = l->along.boundary[lane];
+        near[2] = l->along.hint[lane];
         along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
 #endif
     }

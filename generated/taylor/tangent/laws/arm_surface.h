@@ -14,10 +14,10 @@ typedef struct {
     vec by_distance[TERMS];
 } arm_lever_slopes;
 
-/* Derivatives of arm_lever by its arguments: coefficient k; products of series: 0. */
-INLINE void arm_lever_slopes_next(arm_lever_slopes *s, const arm_lever_slope_constants *c, const
-    arm_lever_series *of, const arm_lever_constants *v, const vec *distance, int k)
+/* Derivatives of arm_lever by its arguments; products of series: 0. */
+INLINE void arm_lever_slopes_of(arm_lever_slopes *restrict s, const arm_lever_slope_constants *c, const
+    arm_lever_series *of, const arm_lever_constants *v, const vec *distance)
 {
     (void)distance; (void)of; (void)c; (void)v;
-    s->by_distance[k] = k == 0 ? splat(0.0) : splat(0.0);
+    EACH_TERM(s->by_distance[k] = k == 0 ? splat(0.0) : splat(0.0);)
 }

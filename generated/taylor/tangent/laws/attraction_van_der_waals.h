@@ -17,12 +17,14 @@ typedef struct {
     vec by_gap[TERMS];
 } attraction_force_slopes;
 
-/* Derivatives of attraction_force by its arguments: coefficient k; products of series: 2. */
-INLINE void attraction_force_slopes_next(attraction_force_slopes *s, const attraction_force_slope_constants
-    *c, const attraction_force_series *of, const attraction_force_constants *v, const vec *gap, int k)
+/* Derivatives of attraction_force by its arguments; products of series: 2. */
+INLINE void attraction_force_slopes_of(attraction_force_slopes *restrict s, const
+    attraction_force_slope_constants *c, const attraction_force_series *of, const attraction_force_constants
+    *v, const vec *gap)
 {
     (void)gap; (void)of; (void)c; (void)v;
-    s->gap_squared_by_gap[k] = product(of->gap_squared, gap, k);
-    s->inverse_gap_squared_by_gap[k] = reciprocal(s->gap_squared_by_gap, s->inverse_gap_squared_by_gap, k);
-    s->by_gap[k] = -2.0*s->inverse_gap_squared_by_gap[k];
+    EACH_TERM(s->gap_squared_by_gap[k] = product(of->gap_squared, gap, k);)
+    EACH_TERM(s->inverse_gap_squared_by_gap[k] = reciprocal(s->gap_squared_by_gap,
+        s->inverse_gap_squared_by_gap, k);)
+    EACH_TERM(s->by_gap[k] = -2.0*s->inverse_gap_squared_by_gap[k];)
 }

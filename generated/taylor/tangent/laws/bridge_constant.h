@@ -18,12 +18,12 @@ typedef struct {
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
 
-/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 0. */
-INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_slope_constants *c, const
-    bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius, int k)
+/* Derivatives of bridge_force by its arguments; products of series: 0. */
+INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge_force_slope_constants *c,
+    const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    s->by_gap_over_radius[k] = k == 0 ? splat(0.0) : splat(0.0);
-    s->by_volume[k] = k == 0 ? splat(0.0) : splat(0.0);
-    s->by_contact_angle[k] = k == 0 ? c->level_by_contact_angle : splat(0.0);
+    EACH_TERM(s->by_gap_over_radius[k] = k == 0 ? splat(0.0) : splat(0.0);)
+    EACH_TERM(s->by_volume[k] = k == 0 ? splat(0.0) : splat(0.0);)
+    EACH_TERM(s->by_contact_angle[k] = k == 0 ? c->level_by_contact_angle : splat(0.0);)
 }

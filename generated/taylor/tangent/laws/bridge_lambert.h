@@ -34,33 +34,35 @@ typedef struct {
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
 
-/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 5.5. */
-INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_slope_constants *c, const
-    bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius, int k)
+/* Derivatives of bridge_force by its arguments; products of series: 5.5. */
+INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge_force_slope_constants *c,
+    const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    s->inverse_cylinder_reach[k] = reciprocal(of->cylinder_reach, s->inverse_cylinder_reach, k);
-    s->cylinder_reach_squared[k] = square(of->cylinder_reach, k);
-    s->gap_over_radius_squared_over_cylinder_reach_squared[k] = quotient(of->gap_over_radius_squared,
-        s->cylinder_reach_squared, s->gap_over_radius_squared_over_cylinder_reach_squared,
-        &s->over_gap_over_radius_squared_over_cylinder_reach_squared, k);
-    s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k] =
+    EACH_TERM(s->inverse_cylinder_reach[k] = reciprocal(of->cylinder_reach, s->inverse_cylinder_reach, k);)
+    EACH_TERM(s->cylinder_reach_squared[k] = square(of->cylinder_reach, k);)
+    EACH_TERM(s->gap_over_radius_squared_over_cylinder_reach_squared[k] =
+        quotient(of->gap_over_radius_squared, s->cylinder_reach_squared,
+        s->gap_over_radius_squared_over_cylinder_reach_squared,
+        &s->over_gap_over_radius_squared_over_cylinder_reach_squared, k);)
+    EACH_TERM(s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k] =
         quotient(s->gap_over_radius_squared_over_cylinder_reach_squared, of->cylinder_reach,
         s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach, k);
-    s->by_gap_over_radius[k] = c->by_gap_over_radius_per_inverse_cylinder_reach*s->inverse_cylinder_reach[k] +
-        c->by_gap_over_radius_per_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k];
-    s->gap_over_radius_over_cylinder_reach_squared[k] = quotient(gap_over_radius, s->cylinder_reach_squared,
-        s->gap_over_radius_over_cylinder_reach_squared, &s->over_gap_over_radius_over_cylinder_reach_squared,
-        k);
-    s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k] =
+        &s->over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach, k);)
+    EACH_TERM(s->by_gap_over_radius[k] =
+        c->by_gap_over_radius_per_inverse_cylinder_reach*s->inverse_cylinder_reach[k] +
+        c->by_gap_over_radius_per_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k];)
+    EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared[k] = quotient(gap_over_radius,
+        s->cylinder_reach_squared, s->gap_over_radius_over_cylinder_reach_squared,
+        &s->over_gap_over_radius_over_cylinder_reach_squared, k);)
+    EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k] =
         quotient(s->gap_over_radius_over_cylinder_reach_squared, of->cylinder_reach,
         s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach, k);
-    s->by_volume[k] =
-        c->by_volume_per_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k];
-    s->by_contact_angle[k] = k == 0 ?
+        &s->over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach, k);)
+    EACH_TERM(s->by_volume[k] =
+        c->by_volume_per_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k];)
+    EACH_TERM(s->by_contact_angle[k] = k == 0 ?
         c->by_contact_angle_per_gap_over_radius_over_cylinder_reach*of->gap_over_radius_over_cylinder_reach[k]
         + c->by_contact_angle_offset :
-        c->by_contact_angle_per_gap_over_radius_over_cylinder_reach*of->gap_over_radius_over_cylinder_reach[k];
+        c->by_contact_angle_per_gap_over_radius_over_cylinder_reach*of->gap_over_radius_over_cylinder_reach[k];)
 }

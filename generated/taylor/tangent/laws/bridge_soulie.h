@@ -22,19 +22,20 @@ typedef struct {
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
 
-/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 1. */
-INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_slope_constants *c, const
-    bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius, int k)
+/* Derivatives of bridge_force by its arguments; products of series: 1. */
+INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge_force_slope_constants *c,
+    const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    s->by_gap_over_radius[k] = v->decay*of->exp_of_combination[k];
-    s->gap_over_radius_by_exp_of_combination[k] = product(gap_over_radius, of->exp_of_combination, k);
-    s->by_volume[k] = k == 0 ?
+    EACH_TERM(s->by_gap_over_radius[k] = v->decay*of->exp_of_combination[k];)
+    EACH_TERM(s->gap_over_radius_by_exp_of_combination[k] = product(gap_over_radius, of->exp_of_combination,
+        k);)
+    EACH_TERM(s->by_volume[k] = k == 0 ?
         c->by_volume_per_gap_over_radius_by_exp_of_combination*s->gap_over_radius_by_exp_of_combination[k] +
         c->offset_by_volume*of->exp_of_combination[k] + c->by_volume_offset :
         c->by_volume_per_gap_over_radius_by_exp_of_combination*s->gap_over_radius_by_exp_of_combination[k] +
-        c->offset_by_volume*of->exp_of_combination[k];
-    s->by_contact_angle[k] = c->offset_by_contact_angle*of->exp_of_combination[k];
+        c->offset_by_volume*of->exp_of_combination[k];)
+    EACH_TERM(s->by_contact_angle[k] = c->offset_by_contact_angle*of->exp_of_combination[k];)
 }
 
 static inline vec bridge_rupture_distance_by_volume(vec volume, vec contact_angle)

@@ -81,33 +81,34 @@ typedef struct {
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
 
-/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 7. */
-INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_slope_constants *c, const
-    bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius, int k)
+/* Derivatives of bridge_force by its arguments; products of series: 7. */
+INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge_force_slope_constants *c,
+    const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    s->exp_of_combination_2_by_exp_of_combination[k] = product(of->exp_of_combination_2,
-        of->exp_of_combination, k);
-    s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
+    EACH_TERM(s->exp_of_combination_2_by_exp_of_combination[k] = product(of->exp_of_combination_2,
+        of->exp_of_combination, k);)
+    EACH_TERM(s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
         quotient(s->exp_of_combination_2_by_exp_of_combination, gap_over_radius,
         s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
-        &s->over_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);
-    s->log_scaled_gap_by_exp_of_combination_2[k] = product(of->log_scaled_gap, of->exp_of_combination_2, k);
-    s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k] = product(of->exp_of_combination,
-        s->log_scaled_gap_by_exp_of_combination_2, k);
-    s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
+        &s->over_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);)
+    EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2[k] = product(of->log_scaled_gap,
+        of->exp_of_combination_2, k);)
+    EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k] =
+        product(of->exp_of_combination, s->log_scaled_gap_by_exp_of_combination_2, k);)
+    EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
         quotient(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination, gap_over_radius,
         s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
-        &s->over_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);
-    s->by_gap_over_radius[k] =
+        &s->over_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);)
+    EACH_TERM(s->by_gap_over_radius[k] =
         c->by_gap_over_radius_per_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius*s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k]
         +
-        c->by_gap_over_radius_per_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius*s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k];
-    s->log_scaled_gap_squared_by_exp_of_combination_2[k] = product(of->log_scaled_gap_squared,
-        of->exp_of_combination_2, k);
-    s->log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[k] =
-        product(of->exp_of_combination, s->log_scaled_gap_squared_by_exp_of_combination_2, k);
-    s->by_volume[k] = c->by_volume_per_exp_of_combination_2*of->exp_of_combination_2[k] +
+        c->by_gap_over_radius_per_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius*s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k];)
+    EACH_TERM(s->log_scaled_gap_squared_by_exp_of_combination_2[k] = product(of->log_scaled_gap_squared,
+        of->exp_of_combination_2, k);)
+    EACH_TERM(s->log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[k] =
+        product(of->exp_of_combination, s->log_scaled_gap_squared_by_exp_of_combination_2, k);)
+    EACH_TERM(s->by_volume[k] = c->by_volume_per_exp_of_combination_2*of->exp_of_combination_2[k] +
         c->by_volume_per_exp_of_combination_2_by_exp_of_combination*s->exp_of_combination_2_by_exp_of_combination[k]
         +
         c->by_volume_per_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination*s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k]
@@ -116,13 +117,14 @@ INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_
         +
         c->by_volume_per_log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination*s->log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[k]
         +
-        c->by_volume_per_exp_of_combination_2_by_exp_of_combination_2*s->exp_of_combination_2_by_exp_of_combination[k];
-    s->by_contact_angle[k] = c->by_contact_angle_per_exp_of_combination_2*of->exp_of_combination_2[k] +
+        c->by_volume_per_exp_of_combination_2_by_exp_of_combination_2*s->exp_of_combination_2_by_exp_of_combination[k];)
+    EACH_TERM(s->by_contact_angle[k] =
+        c->by_contact_angle_per_exp_of_combination_2*of->exp_of_combination_2[k] +
         c->by_contact_angle_per_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination*s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k]
         +
         c->by_contact_angle_per_log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination*s->log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[k]
         +
-        c->by_contact_angle_per_exp_of_combination_2_by_exp_of_combination*s->exp_of_combination_2_by_exp_of_combination[k];
+        c->by_contact_angle_per_exp_of_combination_2_by_exp_of_combination*s->exp_of_combination_2_by_exp_of_combination[k];)
 }
 
 static inline vec bridge_rupture_distance_by_volume(vec volume, vec contact_angle)

@@ -30,26 +30,29 @@ typedef struct {
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
 
-/* Derivatives of bridge_force by its arguments: coefficient k; products of series: 3.5. */
-INLINE void bridge_force_slopes_next(bridge_force_slopes *s, const bridge_force_slope_constants *c, const
-    bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius, int k)
+/* Derivatives of bridge_force by its arguments; products of series: 3.5. */
+INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge_force_slope_constants *c,
+    const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    s->combination_2[k] = k == 0 ? 100.0*of->scaled_gap[k] + 21.0 : 100.0*of->scaled_gap[k];
-    s->combination_3[k] = k == 0 ? 50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k] + 20.0 :
-        50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k];
-    s->combination_3_squared[k] = square(s->combination_3, k);
-    s->combination_2_over_combination_3_squared[k] = quotient(s->combination_2, s->combination_3_squared,
-        s->combination_2_over_combination_3_squared, &s->over_combination_2_over_combination_3_squared, k);
-    s->by_gap_over_radius[k] =
-        c->by_gap_over_radius_per_combination_2_over_combination_3_squared*s->combination_2_over_combination_3_squared[k];
-    s->scaled_gap_by_combination_2[k] = product(of->scaled_gap, s->combination_2, k);
-    s->scaled_gap_by_combination_2_over_combination_3_squared[k] = quotient(s->scaled_gap_by_combination_2,
-        s->combination_3_squared, s->scaled_gap_by_combination_2_over_combination_3_squared,
-        &s->over_scaled_gap_by_combination_2_over_combination_3_squared, k);
-    s->by_volume[k] =
-        c->by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared*s->scaled_gap_by_combination_2_over_combination_3_squared[k];
-    s->by_contact_angle[k] = c->by_contact_angle_per_inverse_combination*of->inverse_combination[k];
+    EACH_TERM(s->combination_2[k] = k == 0 ? 100.0*of->scaled_gap[k] + 21.0 : 100.0*of->scaled_gap[k];)
+    EACH_TERM(s->combination_3[k] = k == 0 ? 50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k] + 20.0 :
+        50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k];)
+    EACH_TERM(s->combination_3_squared[k] = square(s->combination_3, k);)
+    EACH_TERM(s->combination_2_over_combination_3_squared[k] = quotient(s->combination_2,
+        s->combination_3_squared, s->combination_2_over_combination_3_squared,
+        &s->over_combination_2_over_combination_3_squared, k);)
+    EACH_TERM(s->by_gap_over_radius[k] =
+        c->by_gap_over_radius_per_combination_2_over_combination_3_squared*s->combination_2_over_combination_3_squared[k];)
+    EACH_TERM(s->scaled_gap_by_combination_2[k] = product(of->scaled_gap, s->combination_2, k);)
+    EACH_TERM(s->scaled_gap_by_combination_2_over_combination_3_squared[k] =
+        quotient(s->scaled_gap_by_combination_2, s->combination_3_squared,
+        s->scaled_gap_by_combination_2_over_combination_3_squared,
+        &s->over_scaled_gap_by_combination_2_over_combination_3_squared, k);)
+    EACH_TERM(s->by_volume[k] =
+        c->by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared*s->scaled_gap_by_combination_2_over_combination_3_squared[k];)
+    EACH_TERM(s->by_contact_angle[k] =
+        c->by_contact_angle_per_inverse_combination*of->inverse_combination[k];)
 }
 
 static inline vec bridge_rupture_distance_by_volume(vec volume, vec contact_angle)

@@ -16,11 +16,12 @@ typedef struct {
     vec by_gap[TERMS];
 } film_resistance_slopes;
 
-/* Derivatives of film_resistance by its arguments: coefficient k; products of series: 0.5. */
-INLINE void film_resistance_slopes_next(film_resistance_slopes *s, const film_resistance_slope_constants *c,
-    const film_resistance_series *of, const film_resistance_constants *v, const vec *gap, int k)
+/* Derivatives of film_resistance by its arguments; products of series: 0.5. */
+INLINE void film_resistance_slopes_of(film_resistance_slopes *restrict s, const
+    film_resistance_slope_constants *c, const film_resistance_series *of, const film_resistance_constants *v,
+    const vec *gap)
 {
     (void)gap; (void)of; (void)c; (void)v;
-    s->inverse_gap_squared[k] = square(of->inverse_gap, k);
-    s->by_gap[k] = k == 0 ? -s->inverse_gap_squared[k] + 1.0 : -s->inverse_gap_squared[k];
+    EACH_TERM(s->inverse_gap_squared[k] = square(of->inverse_gap, k);)
+    EACH_TERM(s->by_gap[k] = k == 0 ? -s->inverse_gap_squared[k] + 1.0 : -s->inverse_gap_squared[k];)
 }

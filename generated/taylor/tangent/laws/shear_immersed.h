@@ -18,14 +18,15 @@ typedef struct {
     vec by_aspect[TERMS];
 } shear_log_factor_slopes;
 
-/* Derivatives of shear_log_factor by its arguments: coefficient k; products of series: 1. */
-INLINE void shear_log_factor_slopes_next(shear_log_factor_slopes *s, const shear_log_factor_slope_constants
-    *c, const shear_log_factor_series *of, const shear_log_factor_constants *v, const vec *gap, int k)
+/* Derivatives of shear_log_factor by its arguments; products of series: 1. */
+INLINE void shear_log_factor_slopes_of(shear_log_factor_slopes *restrict s, const
+    shear_log_factor_slope_constants *c, const shear_log_factor_series *of, const shear_log_factor_constants
+    *v, const vec *gap)
 {
     (void)gap; (void)of; (void)c; (void)v;
-    s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);
-    s->by_gap[k] = -s->inverse_gap[k];
-    s->by_aspect[k] = k == 0 ? c->level_by_aspect : splat(0.0);
+    EACH_TERM(s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);)
+    EACH_TERM(s->by_gap[k] = -s->inverse_gap[k];)
+    EACH_TERM(s->by_aspect[k] = k == 0 ? c->level_by_aspect : splat(0.0);)
 }
 
 static inline vec shear_edge_by_aspect(vec aspect)

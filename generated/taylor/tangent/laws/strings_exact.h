@@ -35,38 +35,41 @@ typedef struct {
     vec by_offset_squared[TERMS];
 } strings_rise_slopes;
 
-/* Derivatives of strings_rise by its arguments: coefficient k; products of series: 5. */
-INLINE void strings_rise_slopes_next(strings_rise_slopes *s, const strings_rise_slope_constants *c, const
-    strings_rise_series *of, const strings_rise_constants *v, const vec *offset_squared, int k)
+/* Derivatives of strings_rise by its arguments; products of series: 5. */
+INLINE void strings_rise_slopes_of(strings_rise_slopes *restrict s, const strings_rise_slope_constants *c,
+    const strings_rise_series *of, const strings_rise_constants *v, const vec *offset_squared)
 {
     (void)offset_squared; (void)of; (void)c; (void)v;
-    s->offset_squared_by_root_of_combination[k] = product(offset_squared, of->root_of_combination, k);
-    s->combination_3[k] = k == 0 ? c->combination_3_per_offset_squared*offset_squared[k] +
+    EACH_TERM(s->offset_squared_by_root_of_combination[k] = product(offset_squared, of->root_of_combination,
+        k);)
+    EACH_TERM(s->combination_3[k] = k == 0 ? c->combination_3_per_offset_squared*offset_squared[k] +
         c->combination_3_per_root_of_combination*of->root_of_combination[k] -
         s->offset_squared_by_root_of_combination[k] + c->combination_3_offset :
         c->combination_3_per_offset_squared*offset_squared[k] +
         c->combination_3_per_root_of_combination*of->root_of_combination[k] -
-        s->offset_squared_by_root_of_combination[k];
-    s->offset_squared_over_combination_3[k] = quotient(offset_squared, s->combination_3,
-        s->offset_squared_over_combination_3, &s->over_offset_squared_over_combination_3, k);
-    s->combination_4[k] = k == 0 ? c->combination_4_per_root_of_combination*of->root_of_combination[k] -
-        offset_squared[k] + c->combination_3_per_root_of_combination :
-        c->combination_4_per_root_of_combination*of->root_of_combination[k] - offset_squared[k];
-    s->offset_squared_over_combination_4[k] = quotient(offset_squared, s->combination_4,
-        s->offset_squared_over_combination_4, &s->over_offset_squared_over_combination_4, k);
-    s->by_string_ratio[k] =
+        s->offset_squared_by_root_of_combination[k];)
+    EACH_TERM(s->offset_squared_over_combination_3[k] = quotient(offset_squared, s->combination_3,
+        s->offset_squared_over_combination_3, &s->over_offset_squared_over_combination_3, k);)
+    EACH_TERM(s->combination_4[k] = k == 0 ?
+        c->combination_4_per_root_of_combination*of->root_of_combination[k] - offset_squared[k] +
+        c->combination_3_per_root_of_combination :
+        c->combination_4_per_root_of_combination*of->root_of_combination[k] - offset_squared[k];)
+    EACH_TERM(s->offset_squared_over_combination_4[k] = quotient(offset_squared, s->combination_4,
+        s->offset_squared_over_combination_4, &s->over_offset_squared_over_combination_4, k);)
+    EACH_TERM(s->by_string_ratio[k] =
         c->by_string_ratio_per_offset_squared_over_combination_3*s->offset_squared_over_combination_3[k] -
-        s->offset_squared_over_combination_4[k];
-    s->combination_5[k] = k == 0 ? c->combination_5_per_offset_squared*offset_squared[k] +
+        s->offset_squared_over_combination_4[k];)
+    EACH_TERM(s->combination_5[k] = k == 0 ? c->combination_5_per_offset_squared*offset_squared[k] +
         c->combination_5_per_root_of_combination*of->root_of_combination[k] -
         2.0*s->offset_squared_by_root_of_combination[k] + c->combination_5_offset :
         c->combination_5_per_offset_squared*offset_squared[k] +
         c->combination_5_per_root_of_combination*of->root_of_combination[k] -
-        2.0*s->offset_squared_by_root_of_combination[k];
-    s->offset_squared_over_combination_5[k] = quotient(offset_squared, s->combination_5,
-        s->offset_squared_over_combination_5, &s->over_offset_squared_over_combination_5, k);
-    s->inverse_combination_2[k] = reciprocal(of->combination_2, s->inverse_combination_2, k);
-    s->by_offset_squared[k] = s->offset_squared_over_combination_5[k] + s->inverse_combination_2[k];
+        2.0*s->offset_squared_by_root_of_combination[k];)
+    EACH_TERM(s->offset_squared_over_combination_5[k] = quotient(offset_squared, s->combination_5,
+        s->offset_squared_over_combination_5, &s->over_offset_squared_over_combination_5, k);)
+    EACH_TERM(s->inverse_combination_2[k] = reciprocal(of->combination_2, s->inverse_combination_2, k);)
+    EACH_TERM(s->by_offset_squared[k] = s->offset_squared_over_combination_5[k] +
+        s->inverse_combination_2[k];)
 }
 
 typedef struct { vec combination_2_per_root_of_combination, by_string_ratio_per_inverse_combination_2, combination_3_per_root_of_combination; } strings_stiffness_slope_constants;
@@ -89,18 +92,20 @@ typedef struct {
     vec by_offset_squared[TERMS];
 } strings_stiffness_slopes;
 
-/* Derivatives of strings_stiffness by its arguments: coefficient k; products of series: 3. */
-INLINE void strings_stiffness_slopes_next(strings_stiffness_slopes *s, const strings_stiffness_slope_constants
-    *c, const strings_stiffness_series *of, const strings_stiffness_constants *v, const vec *offset_squared,
-    int k)
+/* Derivatives of strings_stiffness by its arguments; products of series: 3. */
+INLINE void strings_stiffness_slopes_of(strings_stiffness_slopes *restrict s, const
+    strings_stiffness_slope_constants *c, const strings_stiffness_series *of, const
+    strings_stiffness_constants *v, const vec *offset_squared)
 {
     (void)offset_squared; (void)of; (void)c; (void)v;
-    s->offset_squared_by_root_of_combination[k] = product(offset_squared, of->root_of_combination, k);
-    s->combination_2[k] = c->combination_2_per_root_of_combination*of->root_of_combination[k] -
-        s->offset_squared_by_root_of_combination[k];
-    s->inverse_combination_2[k] = reciprocal(s->combination_2, s->inverse_combination_2, k);
-    s->by_string_ratio[k] = c->by_string_ratio_per_inverse_combination_2*s->inverse_combination_2[k];
-    s->combination_3[k] = c->combination_3_per_root_of_combination*of->root_of_combination[k] -
-        2.0*s->offset_squared_by_root_of_combination[k];
-    s->by_offset_squared[k] = reciprocal(s->combination_3, s->by_offset_squared, k);
+    EACH_TERM(s->offset_squared_by_root_of_combination[k] = product(offset_squared, of->root_of_combination,
+        k);)
+    EACH_TERM(s->combination_2[k] = c->combination_2_per_root_of_combination*of->root_of_combination[k] -
+        s->offset_squared_by_root_of_combination[k];)
+    EACH_TERM(s->inverse_combination_2[k] = reciprocal(s->combination_2, s->inverse_combination_2, k);)
+    EACH_TERM(s->by_string_ratio[k] =
+        c->by_string_ratio_per_inverse_combination_2*s->inverse_combination_2[k];)
+    EACH_TERM(s->combination_3[k] = c->combination_3_per_root_of_combination*of->root_of_combination[k] -
+        2.0*s->offset_squared_by_root_of_combination[k];)
+    EACH_TERM(s->by_offset_squared[k] = reciprocal(s->combination_3, s->by_offset_squared, k);)
 }

@@ -18,13 +18,13 @@ typedef struct {
     vec by_offset_squared[TERMS];
 } strings_rise_slopes;
 
-/* Derivatives of strings_rise by its arguments: coefficient k; products of series: 0. */
-INLINE void strings_rise_slopes_next(strings_rise_slopes *s, const strings_rise_slope_constants *c, const
-    strings_rise_series *of, const strings_rise_constants *v, const vec *offset_squared, int k)
+/* Derivatives of strings_rise by its arguments; products of series: 0. */
+INLINE void strings_rise_slopes_of(strings_rise_slopes *restrict s, const strings_rise_slope_constants *c,
+    const strings_rise_series *of, const strings_rise_constants *v, const vec *offset_squared)
 {
     (void)offset_squared; (void)of; (void)c; (void)v;
-    s->by_string_ratio[k] = c->by_string_ratio_per_offset_squared*offset_squared[k];
-    s->by_offset_squared[k] = k == 0 ? c->level_by_offset_squared : splat(0.0);
+    EACH_TERM(s->by_string_ratio[k] = c->by_string_ratio_per_offset_squared*offset_squared[k];)
+    EACH_TERM(s->by_offset_squared[k] = k == 0 ? c->level_by_offset_squared : splat(0.0);)
 }
 
 typedef struct { vec level_by_string_ratio; } strings_stiffness_slope_constants;
@@ -41,12 +41,12 @@ typedef struct {
     vec by_offset_squared[TERMS];
 } strings_stiffness_slopes;
 
-/* Derivatives of strings_stiffness by its arguments: coefficient k; products of series: 0. */
-INLINE void strings_stiffness_slopes_next(strings_stiffness_slopes *s, const strings_stiffness_slope_constants
-    *c, const strings_stiffness_series *of, const strings_stiffness_constants *v, const vec *offset_squared,
-    int k)
+/* Derivatives of strings_stiffness by its arguments; products of series: 0. */
+INLINE void strings_stiffness_slopes_of(strings_stiffness_slopes *restrict s, const
+    strings_stiffness_slope_constants *c, const strings_stiffness_series *of, const
+    strings_stiffness_constants *v, const vec *offset_squared)
 {
     (void)offset_squared; (void)of; (void)c; (void)v;
-    s->by_string_ratio[k] = k == 0 ? c->level_by_string_ratio : splat(0.0);
-    s->by_offset_squared[k] = k == 0 ? splat(0.0) : splat(0.0);
+    EACH_TERM(s->by_string_ratio[k] = k == 0 ? c->level_by_string_ratio : splat(0.0);)
+    EACH_TERM(s->by_offset_squared[k] = k == 0 ? splat(0.0) : splat(0.0);)
 }

@@ -1,0 +1,8 @@
+/* Series made one after the other out of series that are known whole, so that what is multiplied stays in registers. */
+
+#define TERM_AT(number, ...) { enum { k = number }; if (k < ORDER) { __VA_ARGS__ } }
+/* A statement for each coefficient k but the last, which no rate needs. */
+#define EACH_TERM(...) TERM_AT(0, __VA_ARGS__) TERM_AT(1, __VA_ARGS__) TERM_AT(2, __VA_ARGS__) TERM_AT(3, __VA_ARGS__) \
+    TERM_AT(4, __VA_ARGS__) TERM_AT(5, __VA_ARGS__) TERM_AT(6, __VA_ARGS__) TERM_AT(7, __VA_ARGS__) \
+    TERM_AT(8, __VA_ARGS__) TERM_AT(9, __VA_ARGS__) TERM_AT(10, __VA_ARGS__) TERM_AT(11, __VA_ARGS__) \
+    TERM_AT(12, __VA_ARGS__) TERM_AT(13, __VA_ARGS__) TERM_AT(14, __VA_ARGS__) TERM_AT(15, __VA_ARGS__)
