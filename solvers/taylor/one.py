@@ -128,7 +128,8 @@ def _trajectory(scene: Scene, n: Numbers, rtol: float, told: Recorded, full: boo
 
 
 def stretches(steps: Steps, states: int) -> list[Stretch]:
-    """The phases of one collision, each with its states at parts of its duration, the angle turned last.
+    """The phases of one collision, each with its states at parts of its duration, the angle turned last; none at all
+    where first touch decides.
 
     Arguments:
         states: how many of the series are the model's own.
@@ -136,6 +137,8 @@ def stretches(steps: Steps, states: int) -> list[Stretch]:
     from ..trajectory import Stretch
 
     rows, found = steps.rows, []
+    if not rows.size:
+        return []  # decided at first touch
     firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1))
     for first, end in zip(firsts, np.append(firsts[1:], rows.size), strict=True):
         own, row = Steps(rows[first:end], steps.turned), rows[first]

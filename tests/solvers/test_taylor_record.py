@@ -145,6 +145,20 @@ def test_a_trajectory_is_continuous():
     np.testing.assert_allclose(ends[:-1], rows["series"][1:, :, 0], rtol=1e-14, atol=1e-15)
 
 
+def test_decided_at_first_touch():
+    """A stick that is proved at first touch takes no step: its trajectory is that one state, as Rosenbrock's is."""
+    impact: dict[str, Any] = {"stokes": 0.001, "angle": "75 deg"}
+    mine, other = (
+        collide("granulation", engine=engine, trajectory=True, **impact) for engine in ("taylor", "rosenbrock")
+    )
+    assert (mine.engine, mine.outcome, mine.until) == ("taylor", "stick", 0.0)
+    assert mine.trajectory is not None
+    assert other.trajectory is not None
+    assert mine.trajectory.phase.values.tolist() == ["first touch"]
+    for name, values in other.trajectory.items():
+        np.testing.assert_allclose(mine.trajectory[name], values, rtol=1e-14, atol=0, err_msg=str(name))
+
+
 def test_too_little_room_is_asked_for_again(monkeypatch: pytest.MonkeyPatch):
     """A log of one event and rows for three steps give the same collision as room for all."""
     monkeypatch.setattr(record, "_LOG_ROOM", 1)

@@ -171,7 +171,8 @@ static void fly(queue *q)
         l.steps += 1;
         l.crept = (l.crept + 1) & creeps;
         l.stride = h;
-        unsigned slow_ones = bits(l.alive & ~falls & (l.crept > PATIENCE));
+        mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
+        unsigned slow_ones = bits(l.alive & ~falls & ~spent & (l.crept > PATIENCE));
 #if GRADIENTS
         slow_ones = q->asked ? 0 : slow_ones; /* crawl.h knows nothing of derivatives */
 #endif
@@ -180,7 +181,6 @@ static void fly(queue *q)
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));
-        mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
             int lane = __builtin_ctz(failed);
             int status = lost[lane] ? NOT_FINITE : l.steps[lane] > q->budget ? NO_BUDGET : CHATTER;
