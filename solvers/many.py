@@ -129,7 +129,7 @@ def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iter
     run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
     pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
     waiting: dict[Any, np.ndarray] = {}
-    left = iter(blocks)
+    left, done = iter(blocks), False
     try:
         while True:
             with _undisturbed():  # an interrupt is for this process, which then stops its workers
@@ -138,6 +138,7 @@ def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iter
                     if len(waiting) > 2 * cores:
                         break
             if not waiting:
+                done = True
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
                 yield waiting.pop(future), future.result()
@@ -146,7 +147,8 @@ def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iter
             f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
         ) from None
     finally:
-        pool.shutdown(wait=True, kill_workers=True)
+        # idle workers end by themselves; without psutil loky kills by pgrep, which slim systems lack, and never ends
+        pool.shutdown(wait=True, kill_workers=not done)
 
 
 def _deaf() -> None:

@@ -245,4 +245,7 @@ def _trajectory(
     attrs = attributes(scene, path.outcome, plugin, rtol)
     tolerance, p = told(rtol, plugin, n.groups), model.group_values(n.groups)
     pieces = [stretch(piece, model, flown, p, plugin, tolerance) for piece in flown.pieces]
-    return dataset(pieces, model, n, flown.y, attrs)
+    try:
+        return dataset(pieces, model, n, flown.y, attrs)
+    except ComputationError as error:
+        raise n.in_si(error) from None

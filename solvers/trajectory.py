@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from .chain import Flown, Piece
-from .integrators import Tolerance, plain
+from .errors import ComputationError
+from .integrators import IntegrationFailed, Tolerance, plain
 from .model import Model
 from .numbers import Numbers
 from .scene import Scene
@@ -60,12 +61,17 @@ class Stretch:
 
 
 def stretch(piece: Piece, model: Model, flown: Flown, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
-    """A piece of a chain, which is flown again through the times asked for."""
+    """A piece of a chain, which is flown again through the times asked for; ComputationError where that fails."""
     size, names = len(model.state), (*model.state, *flown.extras)
     offset = flown.offset if "rotation" in flown.extras else 0.0
 
     def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-        inside = plain(piece.flow, plugin, tolerance, tuple(parts[1:]))(piece.start, p, piece.duration)
+        try:
+            inside = plain(piece.flow, plugin, tolerance, tuple(parts[1:]))(piece.start, p, piece.duration)
+        except IntegrationFailed as failure:  # the located flight, by smaller steps, may have got through
+            state = dict(zip(model.state, piece.start.tolist(), strict=False))
+            message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
+            raise ComputationError(message, piece.name, piece.time, state, advice) from None
         y = np.column_stack([piece.start, inside])
         return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
 

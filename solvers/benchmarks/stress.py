@@ -106,13 +106,14 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
 
     from loky import ProcessPoolExecutor
 
-    pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
+    pool, done = ProcessPoolExecutor(max_workers=cores, initializer=_deaf), False
     try:
         waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
         for future in as_completed(waiting):
             yield waiting.pop(future), future.result()
+        done = True
     finally:
-        pool.shutdown(wait=True, kill_workers=True)
+        pool.shutdown(wait=True, kill_workers=not done)  # as solvers/many.py has it
 
 
 def _blocks(cases: Sequence[Case]) -> list[list[int]]:

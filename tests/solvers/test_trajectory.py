@@ -3,7 +3,8 @@
 from importlib.metadata import version
 
 import pytest
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import ComputationError, Scene, collide, trajectory
+from wetdoublet.solvers.integrators import IntegrationFailed
 
 
 def test_attributes_suffice_to_repeat_the_flight():
@@ -29,3 +30,17 @@ def test_attributes_survive_a_file(tmp_path):
     flight.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
         assert {name: read.attrs[name] for name in flight.attrs} == flight.attrs
+
+
+def test_a_trajectory_that_fails_is_an_answer(monkeypatch):
+    """An integrator that gives up on the way is an error that names phase, time, state and what to try, in SI."""
+
+    def fails(*_):
+        raise IntegrationFailed("Evaluation failed")
+
+    monkeypatch.setattr(trajectory, "plain", lambda *_: fails)
+    with pytest.raises(
+        ComputationError, match=r"rosenbrock gave up .* in phase closing .*gap = 8e-06.*--engine"
+    ) as found:
+        collide("granulation", engine="rosenbrock", trajectory=True)
+    assert found.value.time == 0.0
