@@ -21,7 +21,7 @@ LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from an
 REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
-_MAX_STEPS = 4_000  # phases of one flight
+_MAX_STEPS = 2_000  # phases of one flight
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 
 

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.errors import ComputationError
 
 ENGINES = ("cvodes", "rosenbrock")
 
@@ -151,7 +152,10 @@ def test_similarity(length: float, mass: float, time: float, stokes: float, angl
 @settings(max_examples=25, deadline=None)
 @given(data=st.data())
 def test_energy_and_angular_momentum(data: st.DataObject) -> None:
-    """Any scene: kinetic energy is accounted for, dissipation is not negative, L is kept where it must be."""
+    """Any scene: kinetic energy is accounted for, dissipation is not negative, L is kept where it must be.
+
+    A doublet may visit its film for ever without a proof (docs/known-issues.md): that is said, and no result.
+    """
     law = data.draw(
         st.sampled_from(
             ["mikami", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant", "mikami-log10"]
@@ -168,7 +172,11 @@ def test_energy_and_angular_momentum(data: st.DataObject) -> None:
     }
     scene = Scene.load("granulation").with_entries(entries)
     stokes, angle = 10 ** data.draw(st.floats(-2, 0.5)), data.draw(st.floats(0, 1.5))
-    found = collide(scene, stokes=stokes, angle=angle, rtol=1e-10)
+    try:
+        found = collide(scene, stokes=stokes, angle=angle, rtol=1e-10)
+    except ComputationError as error:
+        assert "phases have not decided the outcome" in str(error)
+        return
     energy = found.energy
     assert energy is not None
     assert abs(energy.residual) < 1e-8 * energy.initial
