@@ -106,7 +106,8 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
 
     from loky import ProcessPoolExecutor
 
-    pool, done = ProcessPoolExecutor(max_workers=cores, initializer=_deaf), False
+    alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # threads of numpy's would only get in the way
+    pool, done = ProcessPoolExecutor(max_workers=cores, initializer=_deaf, env=alone), False
     try:
         waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
         for future in as_completed(waiting):
