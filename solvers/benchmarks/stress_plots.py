@@ -13,6 +13,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from ..changes import GRAZE
+from ..ticks import plain
 from .stress import Stress
 from .stress_check import FAST
 
@@ -52,7 +53,9 @@ def over_impacts(found: Stress) -> Figure:
             drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
             axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
-        figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
+        bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
+        if bar.vmax < 1e3 * bar.vmin:  # powers of ten alone would be too few
+            plain(bar.ax.yaxis)
         _marked(axes, found)
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
         axes.set_yticks(range(0, 91, 15))

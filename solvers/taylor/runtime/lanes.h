@@ -189,12 +189,7 @@ static void fly(queue *q)
     }
 }
 
-/* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
- *
- * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
- * also: what else is to be written, or null.
- */
-int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, record *also)
+static queue asked_for(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers)
 {
     queue q;
     memset(&q, 0, sizeof q);
@@ -202,9 +197,20 @@ int collide(long count, const double *const *quantities, const unsigned char *va
     q.varies = varies;
     q.rtol = rtol;
     q.answers = answers;
-    q.also = also;
     q.count = count;
     q.budget = budget;
+    return q;
+}
+
+/* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
+ *
+ * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
+ * also: what else is to be written, or null.
+ */
+int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, record *also)
+{
+    queue q = asked_for(count, quantities, varies, rtol, budget, answers);
+    q.also = also;
     fly(&q);
     return (int)sizeof(answer);
 }
@@ -226,14 +232,7 @@ const int proved_by_energy = 0;
 int collide_along(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget,
     answer *answers, unsigned asked, double *by_group, double *gradients, double *near)
 {
-    queue q;
-    memset(&q, 0, sizeof q);
-    q.quantities = quantities;
-    q.varies = varies;
-    q.rtol = rtol;
-    q.answers = answers;
-    q.count = count;
-    q.budget = budget;
+    queue q = asked_for(count, quantities, varies, rtol, budget, answers);
     q.asked = asked;
     q.by_group = by_group;
     q.gradients = gradients;
