@@ -54,7 +54,7 @@ def over_impacts(found: Stress) -> Figure:
             axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
         bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
-        if bar.vmax < 1e3 * bar.vmin:  # powers of ten alone would be too few
+        if ends[1] < 1e3 * ends[0]:  # powers of ten alone would be too few
             plain(bar.ax.yaxis)
         _marked(axes, found)
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
