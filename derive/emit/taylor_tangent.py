@@ -19,9 +19,10 @@ from ..model import Model
 from .taylor import Beside, Header
 from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
+from .taylor_cotangent import cotangent
 from .taylor_layout import comment, each_term, function
 from .taylor_scale import scale_slopes
-from .taylor_slopes import arguments, shortest
+from .taylor_slopes import arguments, define_shortest, factored, shortest
 
 _IN = "    "
 Entry: TypeAlias = str | sp.Expr
@@ -41,7 +42,7 @@ class Tangent:
         self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
         self.program = flow.continued()
         self._slopes: dict[str, str] = {}  # name of a law's slope -> its array
-        self.chain = Chain(model.definitions, self._slope, model.groups)
+        self.chain = Chain(model.definitions, self._slope, (*model.groups, FILM, SHEAR))
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
         self._differentiate()
@@ -90,20 +91,35 @@ class Tangent:
                     if slope != 0:
                         found.append((into, (row, variable.name), slope))
         for symbol, expression in self.chain.named:
-            self.program.define(symbol, expression)
+            define_shortest(self.program, symbol, expression)
         for into, (row, by), slope in found:
-            into[row, by] = shortest(self.program, (slope, sp.factor(slope)), f"{row}_by_{by}")
+            into[row, by] = shortest(self.program, (slope, *factored(slope)), f"{row}_by_{by}")
 
     @property
     def flowing(self) -> list[str]:
         """Groups that the rates depend on."""
         return [group.name for group in self.model.groups if any(by == group.name for _, by in self.sources)]
 
+    @property
+    def flow(self) -> set[str]:
+        """Names of the series that the flow has, the states among them."""
+        return self._flow | set(self.states)
+
+    def diagonal(self, state: sp.Symbol) -> sp.Expr:
+        """How a state's rate changes with the state itself, in series of the flow and constants."""
+        slope = self.chain.by(dict(self._rates())[state.name], state)
+        known = dict(self.model.definitions) | dict(self.chain.named)
+        own = {symbol: value for symbol, value in known.items() if symbol.name not in self.flow}
+        while own.keys() & slope.free_symbols:
+            slope = slope.xreplace(own)
+        return slope
+
     # ---- text
 
     def text(self, digest: str, provenance: str, doc: str) -> str:
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
+        back = cotangent(self)
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction."
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
@@ -114,6 +130,7 @@ class Tangent:
             *self._structs(),
             *coefficients,
             *row,
+            *back,
             *source,
             *self._values(),
             *scale_slopes(self.model),
@@ -164,7 +181,7 @@ class Tangent:
     def _coefficients(self) -> list[str]:
         body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
         for name, (slot, call, given) in self._laws().items():
-            passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+            passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
             into = f"{self._law_place(name)}{name}"
             body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
         body += self._guarded()
@@ -213,7 +230,8 @@ class Tangent:
     def _groups(self) -> list[str]:
         return [group.name for group in self.model.groups]
 
-    def _array(self, name: str) -> str:
+    def array(self, name: str) -> str:
+        """Where emitted C has a series."""
         return self.made.array(name)
 
     def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
@@ -228,7 +246,7 @@ class Tangent:
                 entry = self.matrix.get((row, state), sp.Integer(0))
                 column = f"t[{state.upper()}]"
                 if isinstance(entry, str):
-                    terms.append(f"product({self._array(entry)}, {column}, k)")
+                    terms.append(f"product({self.array(entry)}, {column}, k)")
                 elif entry == 1:
                     terms.append(f"{column}[k]")
                 elif entry != 0:
@@ -251,7 +269,7 @@ class Tangent:
             lines = []
             for (row, by), entry in self.sources.items():
                 if by == group:
-                    array = self._array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
+                    array = self.array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
                     line = f"source[{row.upper()}] = {array};"
                     lines += ["#if TURNING_STATE", _IN + line, "#endif"] if row == "turned" else [_IN + line]
             body += [*lines, _IN + "break;"]
