@@ -202,8 +202,10 @@ class Tangent:
         for (_, by), entry in self.sources.items():
             if isinstance(entry, str):
                 needs[entry].add(by)
+        sines = {each.series: each.name for each in self.program.operations if each.kind == "sine"}
         for operation in reversed(self.program.operations):
-            for part in operation.series:
+            made_with = (sines[operation.series],) if operation.kind == "cosine" and operation.series in sines else ()
+            for part in (*operation.series, *made_with):
                 if operation.name in always:
                     always.add(part)
                 needs.setdefault(part, set()).update(needs.get(operation.name, ()))

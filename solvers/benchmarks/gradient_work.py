@@ -85,7 +85,7 @@ def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
     impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
 
     def run() -> np.ndarray:
-        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol)
+        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol, backward=True)
         assert found is not None  # there is a compiler
         rows: np.ndarray = found.first[0]
         return rows

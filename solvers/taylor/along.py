@@ -23,7 +23,7 @@ DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` n
     7: ("glass criterion met at first touch", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
 }
-MOST_STEPS = 200  # as runtime/tape.h has it
+MOST_STEPS = 300  # as runtime/tape.h has it
 STRICTER = 4.0  # steps that no direction holds are held to a tolerance stricter by this
 _CHUNK = 1024  # collisions whose derivatives are in work at a time
 _LOOSEST = 1e-6
@@ -67,11 +67,11 @@ def carried(
         backward: of the restitution alone, taken back along the flight: for the price of one direction. Flights of more
             than some hundred steps are handed over.
     """
-    if backward:
-        budget, rtol = min(budget, MOST_STEPS), min(rtol, _LOOSEST) / STRICTER
     library = _library(impacts.scene, oblique, order or order_for(min(rtol, _LOOSEST)), rotation, backward)
     if library is None:
         return None
+    if backward:
+        budget, rtol = min(budget, MOST_STEPS), min(rtol, _LOOSEST) / STRICTER
     names = _names(library, "quantity_names")
     given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
     given |= si_values(impacts.scene, None, None)

@@ -269,6 +269,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         strings_stiffness_by_gap, k);)
     EACH_TERM(strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
         product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, strings_stiffness_by_rotation, k);)
+    EACH_TERM(circular(of->rotation, slope_of_rotation, sine_of_rotation, cosine_of_rotation, k);)
     /* cosine_of_rotation comes with its sine */
     EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
         cosine_of_rotation, k);)
@@ -318,9 +319,6 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
     EACH_TERM(s->rotation_by_orbit[k] =
         c->rotation_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
-    if (asked & (1u << BY_ASPECT | 1u << BY_OBLIQUITY | 1u << BY_STRING_RATIO)) {
-        EACH_TERM(circular(of->rotation, slope_of_rotation, sine_of_rotation, cosine_of_rotation, k);)
-    }
     if (asked & (1u << BY_ASPECT)) {
         EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
         EACH_TERM(centrifugal_force_by_aspect[k] =
