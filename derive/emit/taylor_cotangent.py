@@ -66,7 +66,10 @@ def _contraction(tangent: Tangent) -> list[str]:
     def name(symbol: sp.Symbol) -> str:
         return f"of->{symbol.name}[0]" if symbol.name in moving else tangent.constants.name(symbol)
 
-    body = ["(void)of; (void)v; (void)film; (void)shear;", f"return {Text(name).vector(sp.factor_terms(-trace.xreplace(shown)))};"]
+    body = [
+        "(void)of; (void)v; (void)film; (void)shear;",
+        f"return {Text(name).vector(sp.factor_terms(-trace.xreplace(shown)))};",
+    ]
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
     doc = "The rate at which a volume of states shrinks where a step starts: that of its fast modes."
     return [*comment(doc), *function(head, body), ""]

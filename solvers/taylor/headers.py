@@ -23,6 +23,7 @@ def headers(choice: Choice) -> tuple[str, ...] | None:
     return tuple(texts)
 
 
+@cache  # the files are the package's own
 def tangents(choice: Choice) -> tuple[str, ...] | None:
     """Texts of the headers with the derivatives of a choice, laws first; None where they are not emitted."""
     paths = [f"taylor/tangent/laws/{slot}_{name.replace('-', '_')}.h" for slot, name in choice.laws]
