@@ -1,8 +1,8 @@
 """The transposed recurrence of a structure's tangent: a result's derivatives taken back over a step, in C.
 
 A step's tangent makes coefficients of a direction one after the other and sums them. Read backwards, the same products
-lead from the result's derivatives by the sum to those by each coefficient, by the states at the step's start, and by the
-sources, whatever the number of groups.
+lead from the result's derivatives by the sum to those by each coefficient: by the states at the step's start, and by
+all that drives a direction, whatever the number of groups.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ def cotangent(tangent: Tangent) -> list[str]:
 def _recurrence(tangent: Tangent) -> list[str]:
     body = ["(void)s; (void)c; (void)v; (void)film; (void)shear;"]
     for state in tangent.states:
-        terms, turned = [], []
+        terms: list[str] = []
+        turned: list[str] = []
         for (row, by), entry in tangent.matrix.items():
             if by != state:
                 continue
@@ -50,8 +51,8 @@ def _recurrence(tangent: Tangent) -> list[str]:
         "const slope_constants *c, const constants *v, vec film, vec shear, int k)"
     )
     doc = (
-        "A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in `after` over "
-        "that number; what the sum gives is there."
+        "A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in `after` "
+        "over that number; what the sum gives is there."
     )
     return [*comment(doc), *function(head, body), ""]
 

@@ -37,7 +37,7 @@ class Gradients:
 
     @classmethod
     def of(cls, task: Task, count: int = SEPARATING) -> Gradients:
-        """The first `count` collisions of a task that separate, drawn on until there are so many; its last parameters."""
+        """The first `count` collisions that separate, drawn on until there are so many; the last of its parameters."""
         scene, kept = task.scene, list[Impact]()
         for impacts in task.drawn():
             stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))

@@ -190,11 +190,12 @@ def _number(value: float) -> float | None:
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error
 NOTE = """\
 Derivatives of e_n in theta, p = p_ref (1 + theta), of 25 collisions of each task that separate, drawn on from its
-sequence until there are so many; the set is repeated 20 times in one call. `gradients_many` has some 2 ms a call beside
-the kernel (checks, boundaries too near, the labelled Dataset), so smaller calls cost more. The error of a collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's are
-its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our own;
-it need prove no stick, and is given the derivatives of the groups in the parameters. Differences are of collisions at
-rtol 1e-13; what is listed as their tolerance is the relative step."""
+sequence until there are so many; the set is repeated 20 times in one call. `gradients_many` has some 2 ms a call
+beside the kernel (checks, boundaries too near, the labelled Dataset), so smaller calls cost more. The error of a
+collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's
+are its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our
+own; it need prove no stick, and is given the derivatives of the groups in the parameters. Differences are of
+collisions at rtol 1e-13; what is listed as their tolerance is the relative step."""
 
 
 def gradient_work_text(found: Sequence[Record]) -> str:

@@ -40,8 +40,8 @@ FLAGS = (
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 _DRIVER = (
-    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h", "meeting.h",
-    "carry.h", "tape.h", "quantities.h", "back.h", "near.h", "crawl.h", "trajectory.h", "lanes.h",
+    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h",
+    "meeting.h", "carry.h", "tape.h", "quantities.h", "back.h", "near.h", "crawl.h", "trajectory.h", "lanes.h",
 )  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
