@@ -87,7 +87,7 @@ def along(
         elif quantity == "angle":
             paces[:, k] = impacts.angle / angle
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
-    separated = found.answers["outcome"] > 0
+    separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
     scales = _Scales(scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
@@ -97,6 +97,8 @@ def along(
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
         first[place] = np.einsum("ck,kp->cp", found.slopes[:, :, column] * paces, rows)  # small: no BLAS, no threads
+        if name == "final_spin":  # it parted as it touched: the spin is what rounding leaves
+            plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if QUANTITIES[name].scale is not None:
             scale, relative = scales.of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]

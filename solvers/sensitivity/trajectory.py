@@ -167,7 +167,7 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
     the former along the directions (at a fixed time since the leg began), its end's time, and that one's.
     """
     model = course.model
-    extras = ("rotation",) if model.oblique and not model.strings else ()
+    extras = ("rotation",) if model.has("turning_rate") and not model.strings else ()
     p, durations = symbols(course)
     seeds = MX.sym("seeds", p.numel(), count)
     last = course.legs[-1]
