@@ -12,7 +12,7 @@ from ..locate import Path
 from ..numbers import numbers, si_values
 from ..scene import Scene
 from ..taylor.along import CHATTERS, COLUMNS, Carried, carried, differentiates
-from ..taylor.engine import BUDGET, Impacts
+from ..taylor.engine import BUDGET, Impacts, order_for
 from .parameters import SCALES, Kind, references, way
 from .problem import Problem, Slopes, sharpened
 from .quantities import QUANTITIES
@@ -113,7 +113,7 @@ def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Ne
     if odd_head_on or not path.separated or not offers(problem.scene, of):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near))
+    found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
     if found is None:
         return None
     answer = found.flown.answers[0]

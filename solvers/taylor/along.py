@@ -91,10 +91,13 @@ def carried(
 
 
 def _library(scene: Scene, oblique: bool, order: int, rotation: bool) -> ctypes.CDLL | None:
-    if not differentiates(scene):
-        return None
+    return kernel(variant_of(scene, oblique, order, rotation)) if differentiates(scene) else None
+
+
+def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool) -> Variant:
+    """What the kernel that differentiates a scene's collisions is compiled for."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return kernel(Variant(choose(scene, oblique), order, rotation, own, gradients=True))
+    return Variant(choose(scene, oblique), order, rotation, own, gradients=True)
 
 
 def differentiates(scene: Scene) -> bool:
