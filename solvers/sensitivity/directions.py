@@ -74,9 +74,12 @@ def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
 
 def inverse(seeds: np.ndarray) -> np.ndarray:
     """Left inverse of directions, whatever their sizes: a group that is 1e-15 of another is no less one."""
-    size = np.linalg.norm(seeds, axis=0)
-    size[size == 0] = 1.0
-    found: np.ndarray = np.linalg.pinv(seeds / size) / size[:, None]
+    rows = np.abs(seeds).max(axis=1, initial=0.0)
+    rows[rows == 0] = 1.0
+    sized = seeds / rows[:, None]
+    columns = np.linalg.norm(sized, axis=0)
+    columns[columns == 0] = 1.0
+    found: np.ndarray = np.linalg.pinv(sized / columns) / columns[:, None] / rows
     return found
 
 
