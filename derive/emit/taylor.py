@@ -32,10 +32,12 @@ class Beside:
     Arguments:
         definitions: its groups in SI quantities.
         meanings: of groups and quantities, by name.
+        extra: what its calls of a slot's function take beside that one's own arguments.
     """
 
     definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
+    extra: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict)
 
 
 class Header:
