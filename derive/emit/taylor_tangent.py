@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
+from .printer import EmissionError
 from .taylor import Beside, Header
 from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
@@ -31,9 +32,11 @@ Entry: TypeAlias = str | sp.Expr
 class Tangent:
     """Text of one structure's tangent header."""
 
-    def __init__(self, model: Model, digest: str, provenance: str, doc: str) -> None:
-        self.model = model
-        self.header = Header(model, Beside())
+    def __init__(self, model: Model, digest: str, provenance: str, doc: str, beside: Beside) -> None:
+        if beside.extra.get("glass.pressure"):
+            raise EmissionError("no slopes of a glass law with quantities of its own")
+        self.model, self.beside = model, beside
+        self.header = Header(model, beside)
         self.header.text(digest, provenance, doc)  # fills in its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
@@ -56,13 +59,17 @@ class Tangent:
     def _slope(self, node: AppliedUndef, position: int) -> sp.Symbol:
         slot, name = node.func.__name__.split(".")
         call = self.header.flow.series(node) if self.header.flow.moves(node) else None
-        assert call in self._calls, f"{node} is no series of the flow"
-        argument = arguments(slot, name, len(node.args))[position]
+        if call not in self._calls:
+            raise EmissionError(f"no slopes of {node}: it is no series of the flow")
+        argument = self._arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
         if symbol.name not in self._slopes:
             self._slopes[symbol.name] = f"{call}.by_{argument}"
             self.program.give(symbol)
         return symbol
+
+    def _arguments(self, slot: str, name: str, count: int) -> tuple[str, ...]:
+        return arguments(slot, name, count, self.beside.extra.get(f"{slot}.{name}", ()))
 
     def _where(self, series: str) -> str:
         if series in self._slopes:
@@ -76,8 +83,7 @@ class Tangent:
 
     def _rates(self) -> list[tuple[str, sp.Expr]]:
         rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
-        shape = self.model.structure
-        if shape.oblique and not shape.strings:
+        if self.header.turning is not None:
             rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
         return rows
 
@@ -116,7 +122,7 @@ class Tangent:
             *row,
             *source,
             *self._values(),
-            *scale_slopes(self.model),
+            *scale_slopes(self.model, self.beside.definitions),
         ]
         return "\n".join(lines).rstrip() + "\n"
 
@@ -308,7 +314,7 @@ class Tangent:
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)
         body = ["(void)v;", "switch (group) {"]
-        for argument, own in zip(arguments(slot, name, len(call.args)), call.args, strict=True):
+        for argument, own in zip(self._arguments(slot, name, len(call.args)), call.args, strict=True):
             body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
@@ -324,6 +330,6 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
 
 
-def tangent_header(model: Model, digest: str, provenance: str, doc: str) -> str:
+def tangent_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
     """The C header of a structure's tangent."""
-    return Tangent(model, digest, provenance, doc).text(digest, provenance, doc)
+    return Tangent(model, digest, provenance, doc, beside or Beside()).text(digest, provenance, doc)

@@ -4,7 +4,7 @@
  * time is no variable of it, only a sum whose parts change with the events that end them (saltation).
  */
 
-enum { BY_TIME = 4, BY_SMALLEST, BY_TURNED, RESULTS = 8 }; /* after the outputs; columns of a collision's derivatives */
+enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED, RESULTS = 8 }; /* after the outputs; columns of a collision's derivatives */
 
 /* How near a flight comes to a boundary between outcomes, by its own measures (solvers/sensitivity/nearness.py). */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
