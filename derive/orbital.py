@@ -11,6 +11,10 @@ Per unit mass, r = d a the centre distance there, J = r^2 omega the momentum of 
 3. So while omega >= xi at d for the J of now, G < 0 holds the doublet; once omega = xi there, slip_energy = 0, and
    from then on G + slip_energy < 0 does. One test: G + slip_energy (where xi > omega) < 0.
 
+4. Where no shear acts beyond a distance e < d, J stops growing once omega = xi at e. With L conserved (midgap) that is
+   a state known in advance: the slip energy at d that is left there is never taken, and does not count in 3. None
+   counts where the J of now is larger already (`midgap_within`).
+
 With the midgap arm that sum is the energy above the least one with this L at d. With the surface arm the exchange
 conserves sqrt(J) + (8/5) sqrt(xi) a along states that turn as one body, which takes the place of L.
 """
@@ -48,6 +52,18 @@ def lag() -> sp.Expr:
 def midgap(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
     """Slip energy over m a^2 omega0^2: that of the slip, since L = J + (32/5) a^2 xi is all that is conserved."""
     return (momentum / distance**2 - turning) ** 2 / (2 * (1 / distance**2 + 1 / spheres_inertia()))
+
+
+def rigid_momentum(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
+    """J once omega = xi at this distance, with the L of now."""
+    inertia = spheres_inertia()
+    return distance**2 * (momentum + inertia * turning) / (distance**2 + inertia)
+
+
+def midgap_within(distance: sp.Expr, edge: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
+    """Slip energy as far as a shear can take it that ends at the distance `edge`, while omega < xi there."""
+    rigid = rigid_momentum(edge, momentum, turning)
+    return midgap(distance, momentum, turning) - midgap(distance, rigid, rigid / edge**2)
 
 
 def _potential(share: sp.Expr) -> sp.Expr:

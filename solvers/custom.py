@@ -164,27 +164,29 @@ class Package:
 
         return cached(f"{self.digest[:16]}-{name}.py", derived).read_text(encoding="utf-8")
 
-    def structure_header(self, name: str) -> str:
-        """C header of a structure that it changes, for the kernel; derived on first use."""
+    def structure_header(self, name: str, tangent: bool = False) -> str:
+        """C header of a structure that it changes, or of its tangent, for the kernel; derived on first use."""
         source = self.source
 
         def derived() -> str:
             from ..derive.emit.one import user_structure_header_text  # imports sympy
 
-            return user_structure_header_text(source, self.name, name)
+            return user_structure_header_text(source, self.name, name, tangent)
 
-        return cached(f"{self.digest[:16]}-{name}.h", derived).read_text(encoding="utf-8")
+        kind = "tangent-" if tangent else ""
+        return cached(f"{self.digest[:16]}-{kind}{name}.h", derived).read_text(encoding="utf-8")
 
-    def law_header(self, slot: str, name: str) -> str:
-        """C header of a law as its structures call it; derived on first use."""
+    def law_header(self, slot: str, name: str, slopes: bool = False) -> str:
+        """C header of a law as its structures call it, or of its slopes; derived on first use."""
         source = self.source
 
         def derived() -> str:
             from ..derive.emit.one import user_law_header_text  # imports sympy
 
-            return user_law_header_text(source, self.name, slot, name)
+            return user_law_header_text(source, self.name, slot, name, slopes)
 
-        return cached(f"{self.digest[:16]}-{slot}_{name}.h", derived).read_text(encoding="utf-8")
+        kind = "slopes-" if slopes else ""
+        return cached(f"{self.digest[:16]}-{kind}{slot}_{name}.h", derived).read_text(encoding="utf-8")
 
     @cached_property
     def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:

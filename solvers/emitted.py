@@ -92,8 +92,9 @@ def header(path: str) -> str:
     if committed(path):
         _verified(path)
         return (_FOLDER / path).read_text(encoding="utf-8")
-    name = Path(path).stem
-    return cached(f"kernel-{name}.h", lambda: _derived_header(name)).read_text(encoding="utf-8")
+    name, tangent = Path(path).stem, "tangent" in Path(path).parts
+    kind = "tangent" if tangent else "kernel"
+    return cached(f"{kind}-{name}.h", lambda: _derived_header(name, tangent)).read_text(encoding="utf-8")
 
 
 def committed(path: str) -> bool:
@@ -175,10 +176,10 @@ def _derived_structure(name: str) -> str:
     return structure_text(name)
 
 
-def _derived_header(name: str) -> str:
-    from ..derive.emit.one import structure_header_text  # imports sympy
+def _derived_header(name: str, tangent: bool) -> str:
+    from ..derive.emit.one import structure_header_text, structure_tangent_text  # imports sympy
 
-    return structure_header_text(name)
+    return structure_tangent_text(name) if tangent else structure_header_text(name)
 
 
 def _derived_law(slot: str, name: str) -> str:

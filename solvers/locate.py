@@ -275,7 +275,7 @@ class Locate:
 
         What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
         """
-        at_touch = not self.path.steps and flown == 0.0
+        at_touch = self.y[0] >= 1.0  # or so near that the gap has rounded to it
         after = self.model.values("reversal", self.y, self.p)
         self.path.dry_loss += self.model.values("reversal_loss", self.y, self.p)["dry_contact"]
         self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])

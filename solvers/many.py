@@ -12,6 +12,7 @@ import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -84,7 +85,7 @@ def empty(size: int, of: Sequence[str]) -> Block:
     """Result columns, nothing computed yet: outcome -2."""
     columns: Block = {"outcome": np.full(size, -2, dtype=np.int8)}
     columns["certified"] = np.zeros(size, dtype=bool)
-    columns["reason"] = np.full(size, "", dtype=object)
+    columns["reason"] = np.empty(size, dtype=object)  # None: nothing has failed
     for name in dict.fromkeys(("restitution", *of)):
         if name in QUANTITIES:
             columns[name] = np.full(size, np.nan)
@@ -235,34 +236,46 @@ def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict
 
 def as_dataset(request: Request, results: Block) -> xarray.Dataset:
     """Results as a labelled Dataset over `collision`, its impacts and varied entries as coordinates."""
+    impacts = {"stokes": request.stokes, "speed": request.speed, "angle": request.angle}
+    coordinates = {name: values for name, values in impacts.items() if values is not None} | request.vary
+    numbers = {name: results[name] for name in QUANTITIES if name in results}
+    columns = {"outcome": results["outcome"], "certified": results["certified"], "reason": as_text(results)}
+    units = tuple((name, request.scene.fields[name].unit or "1") for name in request.vary)
+    labelled = _labels(request.size, request.stokes is not None, units, tuple(numbers))
+    found = labelled.copy(data=columns | numbers | coordinates).set_coords(coordinates)
+    found.attrs = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
+    if request.scene.package is not None:
+        found.attrs["model"] = request.scene.package.text
+    return found
+
+
+@lru_cache(maxsize=32)
+def _labels(size: int, stokes: bool, varied: tuple[tuple[str, str], ...], kept: tuple[str, ...]) -> xarray.Dataset:
+    """Names, units and meanings, the numbers yet to come: xarray takes longer over them than a hundred collisions."""
     import xarray as xr
 
-    coordinates: dict[str, Any] = {}
-    if request.stokes is not None:
-        coordinates["stokes"] = ("collision", request.stokes, {"units": "1", "long_name": "Stokes number"})
-    if request.speed is not None:
-        coordinates["speed"] = ("collision", request.speed, {"units": "m/s", "long_name": "normal approach speed"})
-    coordinates["angle"] = ("collision", request.angle, {"units": "rad", "long_name": "impact angle"})
-    for name, values in request.vary.items():
-        coordinates[name] = ("collision", values, {"units": request.scene.fields[name].unit or "1"})
-    variables: dict[str, Any] = {
-        "outcome": ("collision", results["outcome"], outcome_attributes()),
-        "certified": ("collision", results["certified"], {"long_name": "the stick is proved"}),
-        "reason": ("collision", as_text(results), {"long_name": "why it failed"}),
+    nothing = np.broadcast_to(0.0, size)  # takes no memory
+    about: dict[str, dict[str, Any]] = {
+        "outcome": outcome_attributes(),
+        "certified": {"long_name": "the stick is proved"},
+        "reason": {"long_name": "why it failed"},
     }
-    for name, (unit, meaning) in QUANTITIES.items():
-        if name in results:
-            variables[name] = ("collision", results[name], {"units": unit, "long_name": meaning})
-    attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
-    if request.scene.package is not None:
-        attributes["model"] = request.scene.package.text
-    return xr.Dataset(variables, coordinates, attributes)
+    about |= {name: {"units": QUANTITIES[name][0], "long_name": QUANTITIES[name][1]} for name in kept}
+    if stokes:
+        about["stokes"] = {"units": "1", "long_name": "Stokes number"}
+    else:
+        about["speed"] = {"units": "m/s", "long_name": "normal approach speed"}
+    about["angle"] = {"units": "rad", "long_name": "impact angle"}
+    about |= {name: {"units": unit} for name, unit in varied}
+    return xr.Dataset({name: ("collision", nothing, attributes) for name, attributes in about.items()})
 
 
 def as_text(results: Block) -> np.ndarray:
-    """The reasons as numpy's own text, which costs little where nothing failed."""
+    """The reasons as numpy's own text, empty where nothing failed."""
     failed = results["outcome"] == FAILED
-    return results["reason"].astype(str) if failed.any() else np.zeros(failed.size, "<U1")
+    if not failed.any():
+        return np.zeros(failed.size, "<U1")
+    return np.where(failed, results["reason"], "").astype(str)
 
 
 def outcome_attributes() -> dict[str, Any]:

@@ -92,7 +92,10 @@ def requested(
     for name, length in lengths.items():
         if length != size:
             raise InputError(name, f"{length} values", f"{size} values, or one", "differs in length from the others")
-    full = {name: np.broadcast_to(array.reshape(-1), size).copy() for name, array in arrays.items()}
+    full = {
+        name: array.reshape(-1).copy() if array.size == size else np.full(size, array.item())
+        for name, array in arrays.items()
+    }
     request = Request(
         scene=loaded,
         stokes=full.pop("impact.stokes", None),

@@ -126,7 +126,7 @@ class Scene:
 
     def to_toml(self) -> str:
         """Return the scene file: units as they were given, and the comments on what is assumed."""
-        return scenefile.write(self.name, dict(self.given), dict(self.comments))
+        return _written(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the nested tables as a scene file has them (text carries units)."""
@@ -297,6 +297,12 @@ def _read(text: str, origin: str) -> Scene:
     return Scene.from_toml(text, origin)
 
 
+@lru_cache(maxsize=32)
+def _written(scene: Scene) -> str:
+    """The scene file of a scene: written once for all results that carry it."""
+    return scenefile.write(scene.name, dict(scene.given), dict(scene.comments))
+
+
 def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[str, Raw]]:
     """Return the entries with their tables in the order of `tables` (dotted names), and [impact] in the schema's."""
     order = list(dict.fromkeys(name.partition(".")[0] for name in tables))
@@ -314,6 +320,7 @@ def _shared(ratio: float | None) -> float:
     return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
 
 
+@lru_cache(maxsize=64)
 def _scaled(group: str, scene: Scene, speed: float | None = None) -> float:
     """Return a group by its emitted formula; inf where a double overflows."""
     from .numbers import formulas, si_values

@@ -27,6 +27,7 @@ from .validity import warn
 if TYPE_CHECKING:
     import xarray
 
+Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], Path]
 _TIGHTEST = 1e-13
 _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
 
@@ -75,25 +76,32 @@ def collide(
     v0, theta0 = loaded.need_impact()
     dimensionless = numbers(loaded, v0, theta0)
     said = warn(loaded)
-    by = _by_kernel if plugin == "taylor" else _by_casadi
+    by = _by_kernel if plugin == "taylor" else by_casadi
     result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory)
     return replace(result, warnings=said) if said else result
 
 
-def _by_casadi(scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool) -> Collision:
+def by_casadi(
+    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find = locate
+) -> Collision:
+    """By CVODES or Rosenbrock: what `collide` does with one of them.
+
+    Arguments:
+        find: what locates the flight; it is the same for both engines.
+    """
     with LOCK:
-        found = _compute(scene, n, rtol, plugin, ledger, trajectory)
+        found = _compute(scene, n, rtol, plugin, ledger, trajectory, find)
         return _result(scene, n, *found, trajectory)
 
 
 def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool, trajectory: bool) -> Collision:
     """By the Taylor kernel; what it hands over is Rosenbrock's."""
     found = collision(scene, n, rtol, ledger, trajectory)
-    return found or _by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)
+    return found or by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)
 
 
 def _compute(
-    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool
+    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find = locate
 ) -> tuple[Path, Flown, Flow, str, float]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
 
@@ -106,7 +114,7 @@ def _compute(
     tolerance = rtol
     while True:
         try:
-            located = locate(small, n.groups, tolerance)
+            located = find(small, n.groups, tolerance, ())
         except ComputationError as error:
             raise n.in_si(error) from None
         start = flow.model.start(flow.model.group_values(n.groups))
@@ -114,10 +122,10 @@ def _compute(
             flown = fly(located, plugin, told(tolerance, plugin, n.groups), flow, start)
         except Stopped as failure:
             if failure.missed and tolerance > _TIGHTEST:
-                tolerance = max(tolerance * 1e-2, _TIGHTEST)
+                tolerance = tolerance * 1e-2 if tolerance > 200 * _TIGHTEST else _TIGHTEST
                 continue
             try:
-                located = locate(flow.model, n.groups, tolerance, flow.extras)
+                located = find(flow.model, n.groups, tolerance, flow.extras)
             except ComputationError:
                 raise n.in_si(_failure(failure, flow.model, plugin)) from None
             return located, as_located(located, choice), flow, "rosenbrock", tolerance

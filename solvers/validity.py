@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import warnings
+from functools import lru_cache
 
 from .errors import ModelWarning
 from .numbers import law_module
 from .scene import Scene
 
 
+@lru_cache(maxsize=64)
 def remarks(scene: Scene) -> tuple[str, ...]:
     """Return what of the scene lies outside the range its laws were made for, a sentence each.
 

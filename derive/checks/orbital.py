@@ -8,7 +8,7 @@ import sympy as sp
 
 from ..laws import LAWS
 from ..model import derive
-from ..orbital import exchanged, lag, midgap, rigid_share, surface
+from ..orbital import exchanged, lag, midgap, midgap_within, rigid_share, surface
 from ..quantities import aspect, gap, obliquity, orbit, spin
 from ..scaling import DISTANCE
 from ..structure import Structure
@@ -17,6 +17,7 @@ from .closed import emitted_rates, filled
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 _P, _Q = sp.symbols("root_J root_xi", positive=True)  # square roots of momentum and spin: all is rational in them
+_EDGE = sp.Symbol("edge", positive=True)  # centre distance over a beyond which no shear acts
 _CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
 _FULL = Structure(oblique=True, bridge=True, strings=False)
 _REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <= 1 and phi <= pi/2
@@ -67,6 +68,23 @@ def midgap_takes() -> Check:
     return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
 
 
+def midgap_ends() -> Check:
+    """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and above zero before."""
+    within = midgap_within(_FAR, _EDGE, _P**2, _Q**2)
+    left = [
+        _settled(_change("midgap", within) - _change("midgap", _midgap())),
+        _settled(within.subs(_P, _EDGE * _Q)),
+    ]
+    # one way to the edge: J grows while xi > J/e^2, and what it takes a step is xi - J/d^2
+    to_spin = 1 / exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
+    ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
+    top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
+    falls = _no_negative(top) and _no_negative(bottom)
+    same = vanishing("exchange ends, midgap", "nothing is left once omega = xi at the edge of the shear", left)
+    return replace(same, ok=same.ok and falls)
+
+
 def surface_takes() -> Check:
     """Surface: the same sign at every distance r <= d of the exchange, for rho between 4 and d, d - rho <= 4.
 
@@ -113,4 +131,4 @@ def as_emitted() -> Check:
 
 def orbital() -> tuple[Check, ...]:
     """Every check of the proof."""
-    return (exchange(), stationary(), midgap_takes(), surface_takes(), as_emitted())
+    return (exchange(), stationary(), midgap_takes(), midgap_ends(), surface_takes(), as_emitted())

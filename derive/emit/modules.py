@@ -180,23 +180,19 @@ def law_kernel(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     return law_header(law, law_digest(law), _PROVENANCE, groups)
 
 
-def structure_kernel(
-    model: Model, own: Own | None = None, definitions: Mapping[sp.Symbol, sp.Expr] | None = None
-) -> str:
-    """The C header of a structure, for the Taylor kernel; `own` and `definitions` are of a user's groups."""
-    meanings = {name: meaning for name, (_, meaning) in (own or {}).items()}
-    beside = Beside(definitions or {}, meanings)
+def structure_kernel(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
+    """The C header of a structure, for the Taylor kernel; `own` and `beside` are a user's."""
     return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
 
 
-def law_slopes(law: Law) -> str:
-    """The C header with the slopes of a law, for the kernel's derivatives."""
-    return slopes_header(law, law_digest(law), _PROVENANCE)
+def law_slopes(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header with the slopes of a law, for the kernel's derivatives; `groups` are a user's."""
+    return slopes_header(law, law_digest(law), _PROVENANCE, groups)
 
 
-def structure_tangent(model: Model) -> str:
-    """The C header of a structure's tangent, for the kernel's derivatives."""
-    return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, {}))
+def structure_tangent(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
+    """The C header of a structure's tangent, for the kernel's derivatives; `own` and `beside` are a user's."""
+    return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
 
 
 def scaling_digest() -> str:

@@ -14,8 +14,10 @@ from ..model import derive
 from ..modelfile import read
 from ..quantities import opening
 from ..structure import Structure, known
-from .modules import law_kernel, law_module, structure_kernel, structure_module
+from .modules import law_kernel, law_module, law_slopes, structure_kernel, structure_module, structure_tangent
 from .printer import EmissionError
+from .taylor import Beside
+from .taylor_slopes import UNUSED
 from .user import own_names
 
 
@@ -48,26 +50,41 @@ def structure_header_text(name: str) -> str:
         return _none(error)
 
 
-def user_structure_header_text(source: str, model: str, name: str) -> str:
-    """The same with the calls and groups of a user's model."""
-    found = read(Path(f"{model}.py"), source, model)
-    definitions = {group.symbol: group.definition for group in found.groups}
+def structure_tangent_text(name: str) -> str:
+    """Text of the C header of a structure's tangent; `#error` and a sentence where it has none."""
     try:
-        return structure_kernel(found.extended(derive(named(name))), own_names(found), definitions)
+        return structure_tangent(derive(named(name)))
     except EmissionError as error:
         return _none(error)
 
 
-def user_law_header_text(source: str, model: str, slot: str, name: str) -> str:
-    """Text of a law's C header as the structures of a user's model call it, of a law of the model or the library."""
+def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
+    """The same of a structure, or of its tangent, with the calls and groups of a user's model."""
+    found = read(Path(f"{model}.py"), source, model)
+    own = own_names(found)
+    meanings = {name: meaning for name, (_, meaning) in own.items()}
+    beside = Beside({group.symbol: group.definition for group in found.groups}, meanings, found.extra)
+    try:
+        made = structure_tangent if tangent else structure_kernel
+        return made(found.extended(derive(named(name))), own, beside)
+    except EmissionError as error:
+        return _none(error)
+
+
+def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: bool = False) -> str:
+    """Text of a law's C header, or of that with its slopes, as the structures of a user's model call it.
+
+    Of a law of the model or the library.
+    """
     found = read(Path(f"{model}.py"), source, model)
     groups = {group.symbol for group in found.groups}
+    made = law_slopes if slopes else law_kernel
     try:
         for law in found.laws:
             if (law.slot, law.name) == (slot, name):
-                return law_kernel(law, groups)
+                return made(law, groups)
         law, beside = _wide(LAWS[slot][name], found)
-        return law_kernel(law, groups | beside)
+        return made(law, groups | beside)
     except EmissionError as error:
         return _none(error, f"law {slot} {name}: ")
 
@@ -78,7 +95,7 @@ def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
     functions = []
     for each in law.functions:
         passed = model.extra.get(f"{law.slot}.{each.name}", ())
-        unused = tuple(sp.Symbol(f"unused_{symbol.name}", real=True) for symbol in passed)
+        unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in passed)
         still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol != opening}
         functions.append(replace(each, arguments=(*each.arguments, *unused)))
     return replace(law, functions=tuple(functions)), still

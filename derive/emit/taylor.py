@@ -32,10 +32,12 @@ class Beside:
     Arguments:
         definitions: its groups in SI quantities.
         meanings: of groups and quantities, by name.
+        extra: what its calls of a slot's function take beside that one's own arguments.
     """
 
     definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
+    extra: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict)
 
 
 class Header:
@@ -57,7 +59,9 @@ class Header:
             before = len(self.flow.operations)
             self.work_rate = self._more(self.flow, (("capillary", sp.Add(*wanted)),))["capillary"]
             self._work_operations = {operation.name for operation in self.flow.operations[before:]}
-        self.made = Recurrences(self.flow, self.constants, lambda name: f"s->{name}")
+        self.made = Recurrences(
+            self.flow, self.constants, lambda name: f"s->{name}", passing=self.flow.passing(self._work_operations)
+        )
         self.ledger = Ledger(model, self.flow, self.made, self.constants)
 
     # ---- programs
@@ -111,6 +115,10 @@ class Header:
             lines.append("#define CAPILLARY_STATE 0")
         lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
         lines += self.ledger.enumerations()
+        lines += [
+            "/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */",
+            "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)",
+        ]
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
         lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
@@ -217,7 +225,7 @@ class Header:
 
     def _rate(self, rate: str | sp.Expr) -> str:
         if isinstance(rate, str):
-            return f"{self.made.array(rate)}[k]"
+            return self.made.coefficient(rate)
         return f"(k == 0 ? {self.constants.text.vector(rate)} : splat(0.0))"
 
     # ---- plain values

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from collections.abc import Set as AbstractSet
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -188,6 +189,7 @@ class Recurrences:
     Arguments:
         where: C text of a series that the program does not make itself.
         local: whether a series of its own is a variable of the function and no field of `s`.
+        passing: series that only sums are made of: PASSING(k) is where their coefficient k lies.
     """
 
     def __init__(
@@ -196,8 +198,10 @@ class Recurrences:
         constants: Constants,
         where: Callable[[str], str],
         local: Callable[[str], bool] = lambda name: False,
+        passing: AbstractSet[str] = frozenset(),
     ) -> None:
         self.program, self.constants, self._where, self._local = program, constants, where, local
+        self._passing = passing
         self._own = {operation.name for operation in program.operations}
         self._calls = {operation.name for operation in program.operations if operation.kind == "call"}
         for symbol, expression in program.named.items():
@@ -215,6 +219,10 @@ class Recurrences:
         if name in self._calls:
             return f"s->{name}.result"
         return f"{self._place(name)}{name}" if name in self._own else self._where(name)
+
+    def coefficient(self, name: str) -> str:
+        """C text of coefficient k of a series."""
+        return f"{self.array(name)}[{'PASSING(k)' if name in self._passing else 'k'}]"
 
     def _place(self, name: str) -> str:
         return "" if self._local(name) else "s->"
@@ -234,7 +242,8 @@ class Recurrences:
                 arrays.append(f"slope_of_{operation.series[0]}")
             if operation.kind == "log":
                 arrays.append(f"slope_of_{operation.name}")
-            lines.append("vec " + ", ".join(f"{name}[TERMS]" for name in arrays) + ";")
+            size = "PASSING(ORDER) + 1" if operation.name in self._passing else "TERMS"
+            lines.append("vec " + ", ".join(f"{name}[{size}]" for name in arrays) + ";")
             if operation.kind in ("quotient", "sqrt", "log", "power"):
                 lines.append(f"vec over_{operation.name};")
         return list(dict.fromkeys(lines))
@@ -249,9 +258,9 @@ class Recurrences:
         factors = self.factors[name]
         place = self._place(name)
         whole = f"{place}{name}"
-        target = f"{whole}[k]"
+        target = f"{whole}[{'PASSING(k)' if name in self._passing else 'k'}]"
         if kind == "linear":
-            terms = _terms(factors[:-1], [f"{part}[k]" for part in series])
+            terms = _terms(factors[:-1], [self.coefficient(part) for part in operation.series])
             offset = factors[-1]
             if offset == "0.0":
                 return f"{target} = {terms};"

@@ -59,7 +59,10 @@ def _recurrence(tangent: Tangent) -> list[str]:
 
 def _contraction(tangent: Tangent) -> list[str]:
     """The trace of the matrix, out of what the flow's series begin with."""
-    trace = sum((tangent.diagonal(state) for state in tangent.model.states), sp.Integer(0))
+    slopes = [_diagonal(tangent, state) for state in tangent.model.states]
+    # a law that depends on a rate itself has its slope in the tangent only
+    known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
+    trace = sum(known, sp.Integer(0))
     calls = {node: tangent.header.flow.series(node) for node in trace.atoms(AppliedUndef) if is_slot_call(node)}
     shown = {node: sp.Symbol(f"{name}.result", real=True) for node, name in calls.items()}
     moving = {f"{name}.result" for name in calls.values()} | tangent.flow
@@ -74,3 +77,13 @@ def _contraction(tangent: Tangent) -> list[str]:
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
     doc = "The rate at which a volume of states shrinks where a step starts: that of its fast modes."
     return [*comment(doc), *function(head, body), ""]
+
+
+def _diagonal(tangent: Tangent, state: sp.Symbol) -> sp.Expr:
+    """How a state's rate changes with the state itself, in series of the flow and constants."""
+    slope = tangent.chain.by(dict(tangent.rates())[state.name], state)
+    known = dict(tangent.model.definitions) | dict(tangent.chain.named)
+    own = {symbol: value for symbol, value in known.items() if symbol.name not in tangent.flow}
+    while own.keys() & slope.free_symbols:
+        slope = slope.xreplace(own)
+    return slope

@@ -7,6 +7,7 @@ walks a whitelist of sympy nodes, as the CasADi printer does.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import sympy as sp
@@ -69,6 +70,17 @@ class Program:
     def cost(self) -> float:
         """Products of series."""
         return sum(COST[operation.kind] for operation in self.operations)
+
+    def passing(self, beside: AbstractSet[str] = frozenset()) -> frozenset[str]:
+        """Series that only linear combinations are made of, so that nothing asks for a coefficient once it is past.
+
+        Arguments:
+            beside: operations that do not count.
+        """
+        counted = [operation for operation in self.operations if operation.name not in beside]
+        kept = {part for operation in counted if operation.kind != "linear" for part in operation.series}
+        plain = ("linear", "product", "square")  # of the others a coefficient is made of those before
+        return frozenset(each.name for each in self.operations if each.kind in plain and each.name not in kept)
 
     def give(self, symbol: sp.Symbol) -> None:
         """Let `symbol` be a series that is made elsewhere."""

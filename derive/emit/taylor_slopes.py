@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
 
 import sympy as sp
 
@@ -15,25 +16,36 @@ from .taylor_layout import comment, each_term, function
 from .taylor_program import Program, cheapest
 from .text import needed
 
+UNUSED = "unused_"  # before the name of an argument that a law takes no notice of
 
-def arguments(slot: str, name: str, count: int) -> tuple[str, ...]:
-    """Names of a slot function's arguments, as the laws that take so many have them."""
+
+def arguments(slot: str, name: str, count: int, extra: tuple[sp.Symbol, ...] = ()) -> tuple[str, ...]:
+    """Names of a slot function's arguments as the laws that take so many have them.
+
+    Arguments:
+        extra: the last of them, which a user's model passes beside.
+    """
     for law in LAWS[slot].values():
         for each in law.functions:
-            if each.name == name and len(each.arguments) == count:
-                return tuple(argument.name for argument in each.arguments)
+            if each.name == name and len(each.arguments) + len(extra) == count:
+                return tuple(argument.name for argument in (*each.arguments, *extra))
     raise LookupError(f"no law of {slot} has {name}")
 
 
-def slopes_header(law: Law, digest: str, provenance: str) -> str:
-    """The C header with the slopes of a law."""
+def _by(argument: sp.Symbol) -> str:
+    return f"by_{argument.name.removeprefix(UNUSED)}"
+
+
+def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header with the slopes of a law; `groups` are a user's."""
     lines = comment(f"{provenance}\nEquations sha256 {digest}")
     lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
     for each in law.functions:
         if each.for_proof or each.name in ("suction", "potential"):  # no force, and the work of one
             continue
         name = f"{law.slot}_{each.name}"
-        moving = tuple(argument for argument, moved in zip(each.arguments, moves(each.arguments), strict=True) if moved)
+        moved = moves(each.arguments, groups)
+        moving = tuple(argument for argument, own in zip(each.arguments, moved, strict=True) if own)
         if (law.slot, each.name) in compared():
             lines += _clearance(name, each)
         elif moving:
@@ -53,9 +65,7 @@ def _plain(name: str, each: LawFunction) -> list[str]:
         kept, _ = needed([slope], (*each.definitions, *chain.named))
         body = [f"(void){other.name};" for other in each.arguments]
         body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
-        lines += function(
-            f"static inline vec {name}_by_{argument.name}({head})", [*body, f"return {text.vector(slope)};"]
-        )
+        lines += function(f"static inline vec {name}_{_by(argument)}({head})", [*body, f"return {text.vector(slope)};"])
         lines += [""]
     return lines
 
@@ -104,18 +114,18 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
     found = {}
     for argument, slope in slopes.items():
         forms = (slope, sp.factor(slope))
-        found[argument] = shortest(program, forms, f"by_{argument.name}")
+        found[argument] = shortest(program, forms, _by(argument))
     given = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
     constants = Constants(given)
     made = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
     ending, fields = [], made.fields()
     for argument, result in found.items():
-        target = f"by_{argument.name}"
+        target = _by(argument)
         if isinstance(result, str):
             if result != target:
                 ending.append(each_term(f"s->{target}[k] = {made.array(result)}[k];"))
         else:
-            level = constants.factor(result, f"level_by_{argument.name}")
+            level = constants.factor(result, f"level_{_by(argument)}")
             level = level if level.startswith(("c->", "v->")) else f"splat({level})"
             ending.append(each_term(f"s->{target}[k] = k == 0 ? {level} : splat(0.0);"))
         if not isinstance(result, str) or result != target:

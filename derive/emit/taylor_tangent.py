@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 from ..forces import FILM, SHEAR
 from ..laws.base import is_slot_call
 from ..model import Model
+from .printer import EmissionError
 from .taylor import Beside, Header
 from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
@@ -32,16 +33,18 @@ Entry: TypeAlias = str | sp.Expr
 class Tangent:
     """Text of one structure's tangent header."""
 
-    def __init__(self, model: Model, digest: str, provenance: str, doc: str) -> None:
-        self.model = model
-        self.header = Header(model, Beside())
+    def __init__(self, model: Model, digest: str, provenance: str, doc: str, beside: Beside) -> None:
+        if beside.extra.get("glass.pressure"):
+            raise EmissionError("no slopes of a glass law with quantities of its own")
+        self.model, self.beside = model, beside
+        self.header = Header(model, beside)
         self.header.text(digest, provenance, doc)  # fills in its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
         self._flow = {operation.name for operation in flow.operations}
         self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
         self.program = flow.continued()
-        self._slopes: dict[str, str] = {}  # name of a law's slope -> its array
+        self.slopes: dict[str, str] = {}  # name of a law's slope -> its array
         self.chain = Chain(model.definitions, self._slope, (*model.groups, FILM, SHEAR))
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
@@ -57,34 +60,38 @@ class Tangent:
     def _slope(self, node: AppliedUndef, position: int) -> sp.Symbol:
         slot, name = node.func.__name__.split(".")
         call = self.header.flow.series(node) if self.header.flow.moves(node) else None
-        assert call in self._calls, f"{node} is no series of the flow"
-        argument = arguments(slot, name, len(node.args))[position]
+        if call not in self._calls:
+            raise EmissionError(f"no slopes of {node}: it is no series of the flow")
+        argument = self._arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
-        if symbol.name not in self._slopes:
-            self._slopes[symbol.name] = f"{call}.by_{argument}"
+        if symbol.name not in self.slopes:
+            self.slopes[symbol.name] = f"{call}.by_{argument}"
             self.program.give(symbol)
         return symbol
 
+    def _arguments(self, slot: str, name: str, count: int) -> tuple[str, ...]:
+        return arguments(slot, name, count, self.beside.extra.get(f"{slot}.{name}", ()))
+
     def _where(self, series: str) -> str:
-        if series in self._slopes:
-            return self._law_place(self._slopes[series].split(".")[0]) + self._slopes[series]
+        if series in self.slopes:
+            return self._law_place(self.slopes[series].split(".")[0]) + self.slopes[series]
         return f"of->{series}.result" if series in self._calls else f"of->{series}"
 
     def _law_place(self, call: str) -> str:
         """A law's slopes are local unless one is itself an entry."""
-        entries = {self._slopes[entry].split(".")[0] for entry in self._kept if entry in self._slopes}
+        entries = {self.slopes[entry].split(".")[0] for entry in self._kept if entry in self.slopes}
         return "s->" if call in entries else ""
 
-    def _rates(self) -> list[tuple[str, sp.Expr]]:
+    def rates(self) -> list[tuple[str, sp.Expr]]:
+        """What the states' rates are, by name."""
         rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
-        shape = self.model.structure
-        if shape.oblique and not shape.strings:
+        if self.header.turning is not None:
             rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
         return rows
 
     def _differentiate(self) -> None:
         found: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
-        for row, rate in self._rates():
+        for row, rate in self.rates():
             for into, variables in ((self.matrix, self.model.states), (self.sources, self.model.groups)):
                 for variable in variables:
                     slope = self.chain.by(rate, variable)
@@ -105,15 +112,6 @@ class Tangent:
         """Names of the series that the flow has, the states among them."""
         return self._flow | set(self.states)
 
-    def diagonal(self, state: sp.Symbol) -> sp.Expr:
-        """How a state's rate changes with the state itself, in series of the flow and constants."""
-        slope = self.chain.by(dict(self._rates())[state.name], state)
-        known = dict(self.model.definitions) | dict(self.chain.named)
-        own = {symbol: value for symbol, value in known.items() if symbol.name not in self.flow}
-        while own.keys() & slope.free_symbols:
-            slope = slope.xreplace(own)
-        return slope
-
     # ---- text
 
     def text(self, digest: str, provenance: str, doc: str) -> str:
@@ -133,7 +131,7 @@ class Tangent:
             *back,
             *source,
             *self._values(),
-            *scale_slopes(self.model),
+            *scale_slopes(self.model, self.beside.definitions),
         ]
         return "\n".join(lines).rstrip() + "\n"
 
@@ -242,7 +240,7 @@ class Tangent:
 
     def _row(self) -> list[str]:
         body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
-        for row, _ in self._rates():
+        for row, _ in self.rates():
             terms = []
             for state in self.states:
                 entry = self.matrix.get((row, state), sp.Integer(0))
@@ -328,7 +326,7 @@ class Tangent:
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)
         body = ["(void)v;", "switch (group) {"]
-        for argument, own in zip(arguments(slot, name, len(call.args)), call.args, strict=True):
+        for argument, own in zip(self._arguments(slot, name, len(call.args)), call.args, strict=True):
             body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
@@ -344,6 +342,6 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
 
 
-def tangent_header(model: Model, digest: str, provenance: str, doc: str) -> str:
+def tangent_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
     """The C header of a structure's tangent."""
-    return Tangent(model, digest, provenance, doc).text(digest, provenance, doc)
+    return Tangent(model, digest, provenance, doc, beside or Beside()).text(digest, provenance, doc)

@@ -35,6 +35,8 @@
 #else
 #define LEDGER_STATES 0
 #endif
+/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, OPENING, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
@@ -137,12 +139,12 @@ typedef struct {
     vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
 #endif
     film_resistance_series film_resistance_law;
-    vec film_force[TERMS];
-    vec gap_squared[TERMS];
+    vec film_force[PASSING(ORDER) + 1];
+    vec gap_squared[PASSING(ORDER) + 1];
     vec offset_squared[TERMS];
     strings_stiffness_series strings_stiffness_law;
-    vec string_pull[TERMS];
-    vec rate_of_opening[TERMS];
+    vec string_pull[PASSING(ORDER) + 1];
+    vec rate_of_opening[PASSING(ORDER) + 1];
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
 #endif
@@ -157,15 +159,16 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 {
     (void)film; (void)shear;
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[k] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result, k);
-    s->gap_squared[k] = square(s->gap, k);
-    s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[k];
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
+        k);
+    s->gap_squared[PASSING(k)] = square(s->gap, k);
+    s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[PASSING(k)];
     strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
-    s->string_pull[k] = c->string_pull_factor*product(s->gap, s->strings_stiffness_law.result, k);
-    s->rate_of_opening[k] = -s->film_force[k] - s->string_pull[k];
+    s->string_pull[PASSING(k)] = c->string_pull_factor*product(s->gap, s->strings_stiffness_law.result, k);
+    s->rate_of_opening[PASSING(k)] = -s->film_force[PASSING(k)] - s->string_pull[PASSING(k)];
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[k];
+    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
     s->opening[k + 1] = only(moving, s->acceleration[k]*next);
 #if WITH_LEDGER
     s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);

@@ -47,6 +47,8 @@
 #else
 #define LEDGER_STATES 0
 #endif
+/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, OPENING, ORBIT, SPIN, ROTATION, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
@@ -225,31 +227,31 @@ typedef struct {
     shear_log_factor_series shear_log_factor_law;
     vec shear_force[TERMS];
     vec orbital_rate_squared[TERMS];
-    vec centrifugal_force[TERMS];
+    vec centrifugal_force[PASSING(ORDER) + 1];
     film_resistance_series film_resistance_law;
-    vec film_force[TERMS];
+    vec film_force[PASSING(ORDER) + 1];
     vec scaled_gap[TERMS];
     bridge_force_series bridge_force_law;
-    vec bridge_force[TERMS];
-    vec gap_squared[TERMS];
+    vec bridge_force[PASSING(ORDER) + 1];
+    vec gap_squared[PASSING(ORDER) + 1];
     vec scaled_rotation[TERMS];
     vec sine_of_scaled_rotation[TERMS], slope_of_scaled_rotation[TERMS];
     vec cosine_of_scaled_rotation[TERMS];
     vec sine_of_scaled_rotation_squared[TERMS];
-    vec distance_by_sine_of_scaled_rotation_squared[TERMS];
+    vec distance_by_sine_of_scaled_rotation_squared[PASSING(ORDER) + 1];
     vec offset_squared[TERMS];
     vec combination[TERMS];
     strings_stiffness_series strings_stiffness_law;
-    vec string_pull[TERMS];
+    vec string_pull[PASSING(ORDER) + 1];
     vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
-    vec string_sideways[TERMS];
+    vec string_sideways[PASSING(ORDER) + 1];
     arm_lever_series arm_lever_law;
-    vec rate_of_opening[TERMS];
+    vec rate_of_opening[PASSING(ORDER) + 1];
     vec combination_2[TERMS];
-    vec rate_of_orbit[TERMS];
-    vec rate_of_spin[TERMS];
-    vec rate_of_rotation[TERMS];
-    vec rate_of_capillary[TERMS];
+    vec rate_of_orbit[PASSING(ORDER) + 1];
+    vec rate_of_spin[PASSING(ORDER) + 1];
+    vec rate_of_rotation[PASSING(ORDER) + 1];
+    vec rate_of_capillary[PASSING(ORDER) + 1];
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
     vec distance_by_orbital_rate[TERMS];
@@ -274,48 +276,50 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
     s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
     s->orbital_rate_squared[k] = square(s->orbital_rate, k);
-    s->centrifugal_force[k] = c->centrifugal_force_factor*product(s->distance, s->orbital_rate_squared, k);
+    s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
+        s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[k] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result, k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
+        k);
     s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
     bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
-    s->bridge_force[k] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
-    s->gap_squared[k] = square(s->gap, k);
+    s->bridge_force[PASSING(k)] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
+    s->gap_squared[PASSING(k)] = square(s->gap, k);
     s->scaled_rotation[k] = 0.5*s->rotation[k];
     circular(s->scaled_rotation, s->slope_of_scaled_rotation, s->sine_of_scaled_rotation,
         s->cosine_of_scaled_rotation, k);
     /* cosine_of_scaled_rotation comes with its sine */
     s->sine_of_scaled_rotation_squared[k] = square(s->sine_of_scaled_rotation, k);
-    s->distance_by_sine_of_scaled_rotation_squared[k] = product(s->distance,
+    s->distance_by_sine_of_scaled_rotation_squared[PASSING(k)] = product(s->distance,
         s->sine_of_scaled_rotation_squared, k);
-    s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[k] +
-        4.0*s->distance_by_sine_of_scaled_rotation_squared[k];
+    s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[PASSING(k)] +
+        4.0*s->distance_by_sine_of_scaled_rotation_squared[PASSING(k)];
     s->combination[k] = c->aspect*s->gap[k] + 8.0*s->sine_of_scaled_rotation_squared[k];
     strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
-    s->string_pull[k] = c->weight*product(s->combination, s->strings_stiffness_law.result, k);
+    s->string_pull[PASSING(k)] = c->weight*product(s->combination, s->strings_stiffness_law.result, k);
     s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] = 2.0*product(s->sine_of_scaled_rotation,
         s->cosine_of_scaled_rotation, k);
-    s->string_sideways[k] = c->string_sideways_factor*product(s->strings_stiffness_law.result,
+    s->string_sideways[PASSING(k)] = c->string_sideways_factor*product(s->strings_stiffness_law.result,
         s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
     arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
-    s->rate_of_opening[k] = s->centrifugal_force[k] - s->bridge_force[k] - s->film_force[k] -
-        s->string_pull[k];
-    s->combination_2[k] = s->shear_force[k] + s->string_sideways[k];
-    s->rate_of_orbit[k] = -product(s->distance, s->combination_2, k);
-    s->rate_of_spin[k] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
-    s->rate_of_rotation[k] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
+    s->rate_of_opening[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->bridge_force[PASSING(k)] -
+        s->film_force[PASSING(k)] - s->string_pull[PASSING(k)];
+    s->combination_2[k] = s->shear_force[k] + s->string_sideways[PASSING(k)];
+    s->rate_of_orbit[PASSING(k)] = -product(s->distance, s->combination_2, k);
+    s->rate_of_spin[PASSING(k)] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
+    s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[k] = product(s->opening, s->bridge_force, k);
+    s->rate_of_capillary[PASSING(k)] = product(s->opening, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[k];
+    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
     s->opening[k + 1] = only(moving, s->acceleration[k]*next);
-    s->orbit[k + 1] = s->rate_of_orbit[k]*next;
-    s->spin[k + 1] = s->rate_of_spin[k]*next;
-    s->rotation[k + 1] = s->rate_of_rotation[k]*next;
+    s->orbit[k + 1] = s->rate_of_orbit[PASSING(k)]*next;
+    s->spin[k + 1] = s->rate_of_spin[PASSING(k)]*next;
+    s->rotation[k + 1] = s->rate_of_rotation[PASSING(k)]*next;
 #if CAPILLARY_STATE
-    s->capillary_work[k + 1] = s->rate_of_capillary[k]*next;
+    s->capillary_work[k + 1] = s->rate_of_capillary[PASSING(k)]*next;
 #endif
 #if WITH_LEDGER
     s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);

@@ -7,13 +7,15 @@ import signal
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
 from ..many import OUTCOMES
 from ..model import choose
+from ..taylor.library import kernel
 from .environment import environment
-from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, judge, runs
+from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, fast_kernel, judge, runs
 from .stress_sample import SEED, Case, sample
 
 DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate")
@@ -81,7 +83,7 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
     """
     start, where = time.perf_counter(), environment()
     tell(0, count)
-    cases = sample(count, seed)
+    cases = _prepared(count, seed)
     verdicts: dict[int, Verdict] = {}
     try:
         for block, found in _judged(cases):
@@ -91,13 +93,37 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
         if not verdicts:
             raise
     done = tuple(verdicts[k] for k in sorted(verdicts))
-    return Stress(done, time.perf_counter() - start, where, count)
+    return Stress(done, time.perf_counter() - start, where, len(cases))
+
+
+def _prepared(count: int, seed: int) -> list[Case]:
+    """The sample, with all kernels that it asks for: each is compiled once, while boundaries are traced."""
+    compiling = ThreadPoolExecutor(_cores())  # compilers are processes of their own
+
+    def compile_for(cases: Sequence[Case]) -> None:
+        if FAST == "taylor":
+            for wanted in dict.fromkeys(fast_kernel(case.scene) for case in cases):
+                compiling.submit(kernel, wanted)
+
+    try:
+        cases = sample(count, seed, compile_for)
+        compile_for(cases)
+    except BaseException:
+        compiling.shutdown(cancel_futures=True)
+        raise
+    compiling.shutdown()
+    return cases
+
+
+def _cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
     """Blocks of cases by number, and their verdicts, as they are finished."""
     blocks = _blocks(cases)
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    cores = _cores()
     if len(cases) < _ALONE or cores == 1:
         for block in blocks:
             yield block, _block([cases[k] for k in block])

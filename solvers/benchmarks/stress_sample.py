@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,10 +41,21 @@ class Case:
     change: str = ""
 
 
-def sample(count: int, seed: int = SEED) -> list[Case]:
-    """`count` cases, the same for the same count and seed. InputError without scipy, whose sequence it is."""
-    beside = list(_limited(count)) if count else []
-    return beside + list(_drawn(count - len(beside), seed))
+def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:
+    """`count` cases, the same for the same count and seed. InputError without scipy, whose sequence it is.
+
+    Arguments:
+        drawn: is told of the drawn ones before boundaries are traced for the others, which takes longer.
+    """
+    beside = _wanted(count)
+    cases = list(_drawn(count - beside, seed))
+    drawn(cases)
+    return [*_limited(beside), *cases]
+
+
+def _wanted(count: int) -> int:
+    """How many of `count` cases lie beside boundaries."""
+    return max(1, int(_BESIDE * count)) if count else 0
 
 
 def _drawn(count: int, seed: int) -> Iterator[Case]:
@@ -135,11 +146,10 @@ def _ends(share: float) -> float:
     return min(max(share, 0.0), 1.0)
 
 
-def _limited(count: int) -> Iterator[Case]:
-    """Points beside boundaries, for a fifth of the sample."""
-    wanted = max(1, int(_BESIDE * count))
+def _limited(wanted: int) -> Iterator[Case]:
+    """So many points beside boundaries."""
     made = 0
-    for name, scene, stokes, before, after, change in _changes(max(1, wanted // PER_CHANGE)):
+    for name, scene, stokes, before, after, change in _changes(math.ceil(wanted / PER_CHANGE)):
         for distance in DISTANCES:
             for side, expected in ((-1, before), (1, after)):
                 st = stokes * (1 + side * distance)

@@ -1,4 +1,4 @@
-"""An attraction beside a film, where nothing turns: energy, or the film that stops the approach."""
+"""Attractions beside a film, where nothing turns: energy, or the film that stops the approach."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .panels import panels
 
 
 class AttractedProof(BarrierProof):
-    """Head-on or beside a wall, film and attraction without a bridge: energy, or the film that stops the approach.
+    """Head-on or beside a wall, a film and what attracts: energy, or the film that stops the approach.
 
     An attraction too weak to show in the energy still holds what the film has stopped. What would close at w under
     the film alone closes at most at w + g with the attraction, g^2/2 being its work from x = x0 on: where v = w + g,
@@ -29,6 +29,8 @@ class AttractedProof(BarrierProof):
 
     def _stopped(self, y: np.ndarray, phase: Phase) -> bool:
         film, gap, opening = self._film, float(y[0]), float(y[1])
+        if gap > 1:
+            return False
         grid = np.geomspace(gap, max(film.contact, gap * np.exp(-100.0)), 801)
         if phase.motion == CLOSING:
             speed = film.slowed(-opening, grid)
@@ -38,12 +40,19 @@ class AttractedProof(BarrierProof):
             if not film.held(gap, opening):
                 return False
             speed = np.zeros(grid.size)
-        work = self._fallen(np.geomspace(1.0, gap, 65))[-1] + self._fallen(grid)
-        fastest = np.maximum(speed[:-1], 0.0) + np.sqrt(2 * work[1:])
+        above, below = self._fallen(np.geomspace(1.0, gap, 65)), self._fallen(grid)
+        if not self._pulls(above, below):
+            return False
+        fastest = np.maximum(speed[:-1], 0.0) + np.sqrt(2 * (above[-1] + below[1:]))
         if phase.motion != CLOSING:  # it may rise up to x0 before it falls
             grid = np.geomspace(1.0, grid[-1], 801)
             fastest = np.sqrt(2 * self._fallen(grid)[1:])
         return film.clear(grid[1:], fastest)
+
+    @staticmethod
+    def _pulls(*works: np.ndarray) -> bool:
+        """Whether none of the works ever falls: a law of one's own may push."""
+        return all(bool(np.all(np.diff(work) >= 0)) for work in works)
 
     def _fallen(self, grid: np.ndarray) -> np.ndarray:
         """Work of the attraction from the first gap on, cumulative; the slope of the potential is nothing else here."""

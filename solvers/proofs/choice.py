@@ -29,13 +29,11 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Proof:
         return HeldProof(model, p, rtol, None if model.strings else BarrierProof(model, p, rtol))
     if turning and (model.strings or not model.works):
         return NoProof()
-    if model.works == ("attraction",) and not turning and not model.strings:
+    if model.works and not turning and not model.strings and model.edged and _momentum(model):
         return AttractedProof(model, p, rtol)
     if model.works or model.strings:
         return BarrierProof(model, p, rtol)
-    if any(str(symbol) in model.state for symbol in model.extra("film", "resistance")):
-        return NoProof()  # a film whose force is not proportional to u has no momentum integral
-    return FilmProof(model, p, rtol)
+    return FilmProof(model, p, rtol) if _momentum(model) else NoProof()
 
 
 def energy_proof(proof: Proof) -> BarrierProof | None:
@@ -50,6 +48,11 @@ def _holds(model: Model) -> bool:
     attracting = [getattr(model.laws, slot) for slot in ("bridge", "attraction") if model.choice.law(slot)]
     falling = all(getattr(law, "FALLS", False) for law in attracting)
     return model.has("held") and falling and model.choice.law("arm") in (None, "midgap")
+
+
+def _momentum(model: Model) -> bool:
+    """Whether the film has a momentum integral: not if its force is not proportional to u."""
+    return not any(str(symbol) in model.state for symbol in model.extra("film", "resistance"))
 
 
 def _integrable(model: Model) -> bool:

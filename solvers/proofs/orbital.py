@@ -41,6 +41,8 @@ class OrbitalProof:
         self.end = groups.get("rupture_gap", 1.0)
         self.aspect, self.obliquity = groups["aspect"], groups["obliquity"]
         self.lever = model.choice.law("arm") or "midgap"
+        more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
+        self.edge = float(model.laws.shear.edge(self.aspect, *more))
         self.theorem = beside.theorem
         self.watches = None if self._drifts else beside.watches
         self._maxima: list[float] = []
@@ -82,12 +84,29 @@ class OrbitalProof:
         edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
         inward, attraction = self._work(edges, y, orbit), self._work(edges, y, 0.0)
         found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbit), self.p).full())
-        names = self.model.names("orbital")
-        slips, energy = found[names.index("slip")], found[names.index(self.lever)]
-        needed = opening**2 / 2 - inward + np.where(slips < 0, energy, 0.0)
+        slips = found[self.model.names("orbital").index("slip")]
+        needed = opening**2 / 2 - inward + self._exchange(edges[1:], y, found)
         turned = (self.obliquity**2 / 16) * abs(orbit) * np.maximum(-slips, 0.0)
         error = opening**2 + abs(opening) + 2 * np.abs(attraction) + np.abs(inward) + turned
         return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
+
+    def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray) -> np.ndarray:
+        """What the shear can still turn of the spin into motion of the orbit, as far as each of these gaps.
+
+        Beyond the edge of the shear only what it does before omega = xi there.
+        """
+        names = self.model.names("orbital")
+        slips, energy = found[names.index("slip")], found[names.index(self.lever)]
+        possible: np.ndarray = np.where(slips < 0, energy, 0.0)
+        beyond = gaps > self.edge
+        if self._drifts or self.model.strings or not beyond.any():
+            return possible
+        rigid = self.model.values("rigid_rotation", np.array([self.edge, *y[1:]]), self.p)
+        if y[2] >= rigid["orbit"]:
+            return np.where(beyond, 0.0, possible)
+        settled = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbit, and spin where it is a state
+        left = np.asarray(self.model.function("orbital")(self._states(gaps, settled, rigid["orbit"]), self.p).full())
+        return np.where(beyond, energy - left[names.index(self.lever)], possible)
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
         """Work against what pulls inward from the first gap to each of the others, the orbit's momentum as given."""

@@ -55,7 +55,7 @@ def _once(
         z, shifts = evaluate(whole.function, p, durations)
         return z.ravel(), shifts.ravel(), np.zeros((z.size, p.size))
     z, shifts, slopes = evaluate(forward(whole, seeds.shape[1]), p, durations, seeds)
-    return z.ravel(), shifts.ravel(), slopes @ np.linalg.pinv(seeds)
+    return z.ravel(), shifts.ravel(), slopes @ inverse(seeds)
 
 
 def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
@@ -72,13 +72,24 @@ def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
     return own
 
 
+def inverse(seeds: np.ndarray) -> np.ndarray:
+    """Left inverse of directions, whatever their sizes: a group that is 1e-15 of another is no less one."""
+    rows = np.abs(seeds).max(axis=1, initial=0.0)
+    rows[rows == 0] = 1.0
+    sized = seeds / rows[:, None]
+    columns = np.linalg.norm(sized, axis=0)
+    columns[columns == 0] = 1.0
+    found: np.ndarray = np.linalg.pinv(sized / columns) / columns[:, None] / rows
+    return found
+
+
 def bent(
     whole: Flight, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, along: np.ndarray, active: Active
 ) -> np.ndarray:
     """Second derivatives of the quantities between directions `dp` (groups, n) and `along` (groups, m): (q, n, m)."""
     along = along * np.array(active)[:, None]
     seeds = spanning(p, along, active)
-    back = np.linalg.pinv(seeds) @ along
+    back = inverse(seeds) @ along
     found = []
     for weights in np.eye(len(whole.of)):
         product = np.zeros((p.size, seeds.shape[1]))

@@ -147,7 +147,8 @@ def ending(course: Course, plugin: str, tolerance: Tolerance) -> Flight:
 def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
     """What is integrated along: the rotation where it is not a state, the terms of the ledger that the model has."""
     wanted = [QUANTITIES[name].extra for name in of]
-    has = {*model.names("energy_rates"), *(("rotation",) if model.oblique and not model.strings else ())}
+    turns = model.has("turning_rate") and not model.strings
+    has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
     return tuple(name for name in wanted if name is not None and name in has)
 
 

@@ -12,6 +12,7 @@ from ..errors import InputError, did_you_mean
 from ..scene import Scene
 from ..settings import check_engine, check_rtol
 from . import kernel
+from .choice import chosen
 from .parameters import check_hold, check_wrt
 from .problem import Along, Problem, Slopes
 from .quantities import SPENT, check_of, computed
@@ -52,7 +53,8 @@ def sensitivities(
         method: "forward" costs with the parameters asked, "adjoint" with the results.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is rosenbrock's); None:
-            rosenbrock, which needs no compiler and is more accurate than cvodes.
+            taylor where its kernel is compiled already, else rosenbrock, which needs no compiler and is more accurate
+            than cvodes.
         hold: what of the impact stays when another parameter varies, its "speed" or its "stokes" number.
         hessian: second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) asks only for
             the Hessian times that vector, at the price of one direction.
@@ -71,15 +73,18 @@ def sensitivities(
         True
     """
     of, method, hold = check_of(of), check_method(method), check_hold(hold)
-    rtol, plugin = check_rtol(rtol), check_engine(engine) or _BEST
-    if plugin == "taylor" and method != "forward":
+    rtol, asked = check_rtol(rtol), check_engine(engine)
+    if asked == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
-    if hessian is not False and plugin != "rosenbrock":
-        raise InputError("engine", plugin, "rosenbrock", "has no second derivatives")
+    if hessian is not False and asked not in (None, "rosenbrock"):
+        raise InputError("engine", asked, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     names = check_wrt(loaded, wrt)
     along = _along(hessian, names)
     v0, angle_ = loaded.need_impact()
+    plugin = asked or _BEST
+    if asked is None and method == "forward" and hessian is False:
+        plugin = chosen(loaded, of, (angle_ > 0,), rtol)
     with LOCK:
         problem = Problem.of(loaded, v0, angle_, names, hold)
         path, near = problem.located(of, rtol)

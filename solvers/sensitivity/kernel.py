@@ -12,7 +12,7 @@ from ..locate import Path
 from ..numbers import numbers, si_values
 from ..scene import Scene
 from ..taylor.along import CHATTERS, COLUMNS, Carried, carried, differentiates
-from ..taylor.engine import BUDGET, Impacts
+from ..taylor.engine import BUDGET, Impacts, order_for
 from .parameters import SCALES, Kind, references, way
 from .problem import Problem, Slopes, sharpened
 from .quantities import QUANTITIES
@@ -91,7 +91,7 @@ def along(
         elif quantity == "angle":
             paces[:, k] = impacts.angle / angle
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
-    separated = found.answers["outcome"] > 0
+    separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
     scales = _Scales(scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
@@ -101,6 +101,8 @@ def along(
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
         first[place] = np.einsum("ck,kp->cp", found.slopes[:, :, column] * paces, rows)  # small: no BLAS, no threads
+        if name == "final_spin":  # it parted as it touched: the spin is what rounding leaves
+            plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if QUANTITIES[name].scale is not None:
             scale, relative = scales.of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
@@ -115,7 +117,7 @@ def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Ne
     if odd_head_on or not path.separated or not offers(problem.scene, of):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near))
+    found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
     if found is None:
         return None
     answer = found.flown.answers[0]

@@ -14,11 +14,12 @@ from ..errors import WetDoubletError
 from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
-from ..settings import RTOL
+from ..settings import RTOL, check_engine
 from ..taylor.along import DISTANCES, Carried, carried
 from ..taylor.engine import PATIENT, Impacts, order_for
 from ..validity import warn
 from . import kernel
+from .choice import chosen
 from .gradients import sensitivities
 from .nearness import LOOK, limit, refused
 from .parameters import Kind, check_hold, check_wrt, kind_of, references, way
@@ -92,6 +93,7 @@ def gradients_many(
     of: Sequence[str] | str = ("restitution",),
     rtol: float = RTOL,
     hold: str = "speed",
+    engine: str | None = None,
 ) -> xarray.Dataset:
     """Derivatives of many collisions of one scene, through their events.
 
@@ -103,6 +105,8 @@ def gradients_many(
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
         hold: what of the impact stays when another parameter varies, its "speed" or its "stokes" number.
+        engine: "taylor" (default for more than 100 collisions, and where its kernel is compiled already), "rosenbrock"
+            or "cvodes", which take them one after another.
 
     Returns:
         Dataset: value (quantity, collision); gradient and elasticity (quantity, collision, parameter), SI; outcome and
@@ -119,7 +123,8 @@ def gradients_many(
         (2,)
     """
     names, held = check_of(of), check_hold(hold)
-    request = requested(scene, stokes, speed, angle, {}, rtol, "taylor", ())
+    by = check_engine(engine)
+    request = requested(scene, stokes, speed, angle, {}, rtol, "rosenbrock", ())
     loaded = request.scene
     warn(loaded)
     velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
@@ -127,10 +132,12 @@ def gradients_many(
         loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
     )
     left = np.arange(request.size)
-    if kernel.offers(loaded, names):
+    if by is None:
+        by = chosen(loaded, names, set((request.angle > 0).tolist()), request.rtol, request.size)
+    if by == "taylor" and kernel.offers(loaded, names):
         left = _by_kernel(asked)
     for k in left:
-        _alone(asked, int(k), held)
+        _alone(asked, int(k), held, by)
     return _dataset(asked, held)
 
 
@@ -239,12 +246,14 @@ def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bo
     return sticks
 
 
-def _alone(asked: _Asked, k: int, hold: str) -> None:
+def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
     speed, angle = float(asked.speed[k]), float(asked.angle[k])
+    method = "adjoint" if engine != "taylor" and len(asked.of) < len(asked.wrt) else "forward"
     try:
         found = sensitivities(
-            asked.scene, asked.of, asked.wrt, speed=speed, angle=angle, rtol=asked.rtol, engine="taylor", hold=hold
-        )
+            asked.scene, asked.of, asked.wrt, speed=speed, angle=angle, method=method, rtol=asked.rtol, engine=engine,
+            hold=hold,
+        )  # fmt: skip
     except WetDoubletError as error:
         asked.reason[k] = str(error)
         return

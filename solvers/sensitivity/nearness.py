@@ -192,9 +192,10 @@ def _passing(finder: Locate, step: Step, y: np.ndarray) -> Iterator[Near]:
 def _leaving(finder: Locate, step: Step, y: np.ndarray) -> Iterator[Near]:
     """How fast the doublet still is where it separates."""
     model = finder.model
-    if step.event != "rupture" or (model.oblique and not model.bridge and not model.strings):
-        return  # an oblique doublet with a film alone always separates
-    yield Near(RIM, float(y[1, -1]) ** (2 if model.bridge or model.strings else 1), _HINT)
+    held = model.bridge or model.strings or model.choice.law("attraction") is not None
+    if step.event != "rupture" or (model.oblique and not model.wall and not held):
+        return  # what turns, with a film alone, always separates
+    yield Near(RIM, float(y[1, -1]) ** (2 if held else 1), _HINT)
     if model.strings and model.oblique:
         names = list(model.state)
         yield Near("half turn at separation", 1 - float(y[names.index("rotation"), -1]) / math.pi, "rotation")

@@ -24,7 +24,7 @@ from ..phases import Flow, expressions
 from ..scene import Scene
 from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
-from .directions import landed, spanning
+from .directions import inverse, landed, spanning
 from .flight import Course, course_of, ending, flown, influential, symbols
 from .parameters import check_hold, check_wrt, way
 from .problem import Problem
@@ -124,7 +124,7 @@ def _pieces(
     seeds = spanning(p, dp, active)
     if not seeds.shape[1]:
         seeds = np.zeros((p.size, 1))
-    back = np.linalg.pinv(seeds) @ dp
+    back = inverse(seeds) @ dp
     durations = np.array([step.duration for step in path.steps])
     pieces: list[Piece] = []
     events: list[tuple[str, float, np.ndarray]] = []
@@ -167,7 +167,7 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
     the former along the directions (at a fixed time since the leg began), its end's time, and that one's.
     """
     model = course.model
-    extras = ("rotation",) if model.oblique and not model.strings else ()
+    extras = ("rotation",) if model.has("turning_rate") and not model.strings else ()
     p, durations = symbols(course)
     seeds = MX.sym("seeds", p.numel(), count)
     last = course.legs[-1]

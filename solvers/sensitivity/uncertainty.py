@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import ComputationError, InputError
-from ..many import collide_many
+from ..many import OUTCOMES, collide_many
 from ..requests import QUANTITIES as MANY
 from ..scene import Scene
 from ..schema import FIELDS
-from .gradients import sensitivities
+from .many import gradients_many
 from .parameters import check_wrt
 from .result import Sensitivities
 
@@ -109,35 +109,25 @@ def band(
     impacts = [one.need_impact() for one in at]
     sigma = deviations(at[0], uncertainty)
     relative = {name: str(given).strip().endswith("%") for name, given in uncertainty.items()}
-    middle, first, reasons, outcomes = [], [], [], []
-    for one, (speed, _) in zip(at, impacts, strict=True):
-        held = one.with_impact(speed=speed)
-        here = deviations(held, uncertainty) if any(relative.values()) else sigma
-        try:
-            found = sensitivities(held, [of], tuple(here), method="adjoint", rtol=rtol)
-        except ComputationError as error:
-            middle.append(np.nan)
-            first.append(np.nan)
-            reasons.append(str(error))
-            outcomes.append("")
-            continue
-        value, spread = found.value[of], first_order(found, here)[of]
-        middle.append(np.nan if value is None else value)
-        first.append(np.nan if spread is None else spread)
-        reasons.append("")
-        outcomes.append(found.outcome)
+    speeds, angles = np.array(impacts).T
+    found = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol)
+    spreads = np.tile(list(sigma.values()), (len(at), 1))
+    for k, (one, (speed, _)) in enumerate(zip(at, impacts, strict=True)):
+        if any(relative.values()):
+            spreads[k] = list(deviations(one.with_impact(speed=speed), uncertainty).values())
+    known = found.outcome.values >= 0
     drawn = _sampled(at, impacts, uncertainty, of, samples, rtol)
     low, high = np.nanquantile(drawn, _LEVELS, axis=1)
     unit = FIELDS[over].unit or "1"
     return xr.Dataset(
         {
-            of: (over, np.array(middle), {"units": MANY[of][0], "long_name": MANY[of][1]}),
-            "first_order": (over, np.array(first)),
+            of: (over, found.value.values[0], {"units": MANY[of][0], "long_name": MANY[of][1]}),
+            "first_order": (over, np.sqrt(((found.gradient.values[0] * spreads) ** 2).sum(axis=1))),
             "low": (over, low),
             "high": (over, high),
             "sampled": (over, np.nanstd(drawn, axis=1)),
-            "reason": (over, np.array(reasons)),
-            "outcome": (over, np.array(outcomes)),
+            "reason": (over, np.where(known, "", found.reason.values)),
+            "outcome": (over, np.array([OUTCOMES[code] if code >= 0 else "" for code in found.outcome.values])),
         },
         {over: (over, np.array([float(value) for value in values]), {"units": unit})},
         {"uncertainty": ", ".join(f"{name}: {given}" for name, given in uncertainty.items()), "samples": samples},

@@ -16,7 +16,7 @@ from .headers import tangents
 from .library import ANSWER, Variant, kernel, knows
 
 RESULTS = 8  # as runtime/along.h has them
-COLUMNS = {"time": 4, "smallest_gap": 5, "turned": 6}  # after the outputs
+COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # the boundary of a flight that rested on the solids
 DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
     6: ("tie of roughness and elastic length", "particles.roughness"),
@@ -99,15 +99,18 @@ def carried(
 
 
 def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool) -> ctypes.CDLL | None:
-    if not differentiates(scene):
-        return None
-    return kernel(Variant(choose(scene, oblique), order, rotation, gradients=True, backward=backward))
+    return kernel(variant_of(scene, oblique, order, rotation, backward)) if differentiates(scene) else None
+
+
+def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False) -> Variant:
+    """What the kernel that differentiates a scene's collisions is compiled for."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(choose(scene, oblique), order, rotation, own, gradients=True, backward=backward)
 
 
 def differentiates(scene: Scene) -> bool:
-    """Whether the kernel differentiates a scene's collisions: its tangent is emitted, and there is a compiler."""
-    own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return knows(scene) and not own and all(tangents(choose(scene, oblique)) for oblique in (True, False))
+    """Whether the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler."""
+    return knows(scene) and all(tangents(choose(scene, oblique)) for oblique in (True, False))
 
 
 def _names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:

@@ -88,29 +88,31 @@ def answers(
         few: by a kernel that is compiled sooner and flies a little slower.
     """
     found = np.zeros(impacts.angle.size, ANSWER)
-    for oblique in (True, False):
-        which = np.flatnonzero((impacts.angle > 0) == oblique)
-        if which.size and not _fill(
-            found, impacts, which, _plain(impacts, oblique, rtol, rotation, budget, few), threads
+    turns = impacts.angle > 0
+    for oblique, those in ((True, turns), (False, ~turns)):
+        count = int(np.count_nonzero(those))
+        if count and not _fill(
+            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, few), threads
         ):
             return None
     return found
 
 
-def _fill(found: np.ndarray, impacts: Impacts, which: np.ndarray, fly: Fly | None, threads: int) -> bool:
+def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fly: Fly | None, threads: int) -> bool:
     if fly is None:
         return False
-    whole = which.size == found.size  # then nothing is copied
+    whole = count == found.size  # then nothing is copied
+    which = those if whole else np.flatnonzero(those)
 
     def chunk(first: int) -> None:
-        last = min(first + _CHUNK, which.size)
+        last = min(first + _CHUNK, count)
         part = slice(first, last) if whole else which[first:last]
         made = found[first:last] if whole else np.zeros(last - first, ANSWER)
         fly(impacts.part(part), made, None)
         if not whole:
             found[part] = made
 
-    firsts = range(0, which.size, _CHUNK)
+    firsts = range(0, count, _CHUNK)
     if threads == 1 or len(firsts) == 1:
         for first in firsts:
             chunk(first)

@@ -150,24 +150,55 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     return "\n".join(parts)
 
 
+def _emitted(variant: Variant) -> tuple[str, ...] | None:
+    """The emitted headers of a variant; None where a law has no recurrence."""
+    plain = headers(variant.choice)
+    if plain is None or not variant.gradients:
+        return plain
+    tangent = tangents(variant.choice)
+    return None if tangent is None else plain + tangent
+
+
+def _flags(variant: Variant) -> tuple[str, ...]:
+    return FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+
+
+def _stem(variant: Variant) -> str:
+    package = variant.choice.package
+    own = f"-{package.digest[:8]}" if package is not None else ""
+    return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{own}"
+
+
+def _place(variant: Variant, text: str, version: str, flags: tuple[str, ...]) -> Path:
+    """Where the library of a source lies, if it has been compiled."""
+    machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
+    content = "\0".join([text, version, " ".join(flags), machine])
+    return cache_folder() / f"{_stem(variant)}-{hashlib.sha256(content.encode()).hexdigest()[:32]}.so"
+
+
+def at_hand(variant: Variant) -> bool:
+    """Whether the library of a variant has been compiled before; nothing is derived or compiled to see."""
+    if not any(cache_folder().glob(f"{_stem(variant)}-*.so")):
+        return False  # its headers need not even have been derived
+    place = _expected(variant, _flags(variant))
+    return place is not None and place.is_file()
+
+
+@cache
+def _expected(variant: Variant, flags: tuple[str, ...]) -> Path | None:
+    found, emitted = compiler(), _emitted(variant)
+    return None if found is None or emitted is None else _place(variant, source(variant, emitted), found[1], flags)
+
+
 @cache
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
-    found, emitted = compiler(), headers(variant.choice)
+    found, emitted = compiler(), _emitted(variant)
     if found is None or emitted is None:
         return None
-    if variant.gradients:
-        tangent = tangents(variant.choice)
-        if tangent is None:
-            return None
-        emitted += tangent
     path, version = found
-    text = source(variant, emitted)
-    machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
-    flags = FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
-    content = "\0".join([text, version, " ".join(flags), machine])
-    key = hashlib.sha256(content.encode()).hexdigest()[:32]
-    library = cache_folder() / f"taylor-{variant.choice.structure}-{key}.so"
+    text, flags = source(variant, emitted), _flags(variant)
+    library = _place(variant, text, version, flags)
     if not library.is_file() and not _built(path, flags, text, library):
         return None
     loaded = ctypes.CDLL(str(library))

@@ -59,6 +59,7 @@ def main() -> None:
         parts["kernel"] = lambda: script("kernel.py")
         parts["kinds"] = lambda: script("kinds.py")
         parts["kernel_gradients"] = lambda: script("kernel_gradients.py")
+        parts["gradient_engine"] = lambda: script("gradient_engine.py")
     parts["page"] = lambda: script("page.py", str(folder))
     failed = []
     for name, measure in parts.items():

@@ -7,7 +7,10 @@ import random
 
 import pytest
 import sympy as sp
+from wetdoublet.derive.emit.printer import EmissionError
+from wetdoublet.derive.emit.taylor import Beside
 from wetdoublet.derive.emit.taylor_chain import Chain
+from wetdoublet.derive.emit.taylor_tangent import tangent_header
 from wetdoublet.derive.forces import FILM, SHEAR
 from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.laws.base import Law, fill
@@ -77,3 +80,11 @@ def test_functions_of_a_law(law: Law) -> None:
                 found = found.subs(symbol, value)
             expected = _slope(each(*each.arguments), argument, at)
             assert math.isclose(_value(found, at), expected, rel_tol=1e-6, abs_tol=1e-8), (each.name, argument)
+
+
+def test_a_glass_law_with_quantities_of_its_own_has_no_slopes() -> None:
+    """The event's surface would move with them, which the runtime does not know: an error that says so, no header."""
+    model = derive(next(structure for structure in structures() if structure.name == "head_on"))
+    beside = Beside(extra={"glass.pressure": (sp.Symbol("steepness"),)})
+    with pytest.raises(EmissionError, match="no slopes of a glass law with quantities of its own"):
+        tangent_header(model, "0", "by a test", "", beside)

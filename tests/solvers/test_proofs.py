@@ -13,6 +13,7 @@ from wetdoublet.solvers import ComputationError, Scene, collide, locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 from wetdoublet.solvers.proofs import BarrierProof, NoProof, energy_proof
+from wetdoublet.solvers.proofs.attracted import AttractedProof
 
 from .independent import Spheres
 
@@ -28,6 +29,36 @@ def flight(scene: Scene, stokes: float, angle: float, rtol: float = 1e-9) -> loc
 def film_loss(s: float) -> float:
     """Lf(s): loss of u/v0 times St between x0 and s x0, by the film alone."""
     return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
+
+
+@pytest.mark.parametrize(("wall", "angle"), [(False, 0.0), (True, 0.0), (True, 0.6)])
+def test_a_bridge_that_vanishes_leaves_the_film(wall: bool, angle: float) -> None:
+    """With lambert at phi = 90 deg a rebound escapes at e_n = e - (1 + e) Lf/St if that is above zero, or it sticks."""
+    kept = {
+        name: value
+        for name, value in Scene.load("granulation").given
+        if name[10:] not in ("youngs_modulus", "poisson_ratio")
+    }
+    kept |= {"bridge.law": "lambert", "bridge.contact_angle": "90 deg", "liquid.glass_transition_pressure": "1e6 GPa"}
+    scene = Scene("", tuple((kept | ({"partner.wall": True} if wall else {})).items()))
+    loss = film_loss(0.2 / 8)
+    critical = 1.99 / 0.99 * loss
+    for stokes in (0.3 * loss, 0.999 * critical):
+        assert collide(scene, stokes=stokes, angle=angle, ledger=False).certified
+    free = collide(scene, stokes=1.001 * critical, angle=angle, ledger=False)
+    assert free.restitution == pytest.approx(0.99 * (1 - 1 / 1.001), abs=1e2 * 1e-9)  # a hundred rtol
+
+
+def test_a_bridge_that_pushes_proves_nothing() -> None:
+    """What the film has stopped is not held by a force outward, however small."""
+    one = flight(
+        Scene.load("granulation").with_entries({"bridge.law": "lambert", "bridge.contact_angle": "90 deg"}), 0.05, 0
+    )
+    proof = energy_proof(one.proof)
+    assert isinstance(proof, AttractedProof)
+    assert proof.decided(one.y, one.phase)
+    proof._slope = lambda gaps, _: np.full(gaps.size, -1e-18)
+    assert not proof.decided(one.y, one.phase)
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -9,13 +9,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, boundary, collide, collide_many
+from wetdoublet.solvers import Scene, boundary, collide, collide_many, simulate
 from wetdoublet.solvers.benchmarks import stress as stress_test
 from wetdoublet.solvers.benchmarks import stress_check as checking
 from wetdoublet.solvers.benchmarks.stress_check import FAST, RTOL, Found, judge
+from wetdoublet.solvers.benchmarks.stress_flights import Flights
 from wetdoublet.solvers.benchmarks.stress_sample import DISTANCES, SEED, Case, sample
+from wetdoublet.solvers.chain import Stopped
 from wetdoublet.solvers.cli import main
 from wetdoublet.solvers.errors import ComputationError, InputError
+from wetdoublet.solvers.locate import locate
+from wetdoublet.solvers.numbers import numbers
 
 pytest.importorskip("scipy")
 
@@ -162,6 +166,47 @@ def test_a_weak_glass_just_after_first_touch() -> None:
             found = collide(scene, **impact, engine=engine)
             assert found.reversal == "glass"
             assert found.restitution == pytest.approx(located, rel=1e3 * RTOL)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5])
+def test_a_weak_glass_within_rounding_of_first_touch(angle: float) -> None:
+    """Without a bridge, reversed before the gap has moved by a rounding error: apart at once, with e_n = e_dry."""
+    scene = Scene.load("granulation-dry-bridge").with_entries(
+        {"model.glass": "film-corrected", "liquid.glass_transition_pressure": "1e-12 Pa"}
+    )
+    found = collide(scene, stokes=3.0, angle=angle, engine="rosenbrock")
+    assert [event.kind for event in found.events] == ["glass", "rupture"]
+    assert found.restitution == pytest.approx(scene.particles.dry_restitution, rel=1e3 * RTOL)
+
+
+def test_a_flight_is_located_once_for_both_engines(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the second engine is spared it is charged with, and its answer is that of `collide`."""
+    flights = Flights()
+    monkeypatch.setattr(checking, "_FLIGHTS", flights)
+    scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
+    checking.chained(scene, RTOL, "rosenbrock")
+    assert flights.spared == 0.0
+    assert checking.chained(scene, RTOL).cpu == flights.spared > 0.0
+    assert checking.chained(scene, RTOL).restitution == collide(scene, rtol=RTOL).restitution
+
+
+def test_no_tolerance_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where an engine never meets its events: a hundred times tighter down to 1e-13, then the located flight itself."""
+    asked: list[tuple[float, bool]] = []
+
+    def find(model: Any, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Any:
+        asked.append((rtol, bool(extras)))
+        return locate(model, groups, rtol, extras)
+
+    def missed(path: Any, *_: Any) -> Any:
+        raise Stopped("misses", path.steps[0], 0.0, path.y, missed=True)
+
+    monkeypatch.setattr(simulate, "fly", missed)
+    scene = Scene.load("granulation")
+    n = numbers(scene, *scene.need_impact())
+    found = simulate.by_casadi(scene, n, RTOL, "cvodes", False, False, find)
+    assert found.engine == "rosenbrock"
+    assert asked == [(pytest.approx(10.0**-k), False) for k in (9, 11)] + [(1e-13, False), (1e-13, True)]
 
 
 def test_what_chatter_takes_is_booked() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.compiled import compiler
 from wetdoublet.solvers.numbers import si_values
 from wetdoublet.solvers.sensitivity import many
+from wetdoublet.solvers.sensitivity.choice import chosen
 from wetdoublet.solvers.sensitivity.kernel import KNOWN
 from wetdoublet.solvers.sensitivity.many import STICK
 from wetdoublet.solvers.taylor import library
@@ -48,7 +50,7 @@ def of_granulation() -> tuple[xr.Dataset, np.ndarray, np.ndarray]:
     """Random impacts of the preset, all results and parameters."""
     draw = np.random.default_rng(5)
     stokes, angle = np.exp(draw.uniform(np.log(0.01), np.log(0.4), 24)), draw.uniform(0.1, 1.4, 24)
-    return gradients_many("granulation", stokes=stokes, angle=angle, of=OF), stokes, angle
+    return gradients_many("granulation", stokes=stokes, angle=angle, of=OF, engine="taylor"), stokes, angle
 
 
 @pytest.mark.parametrize("name", ["glass", "head-on", "no bridge, turned", "strings, glass"])
@@ -136,7 +138,7 @@ def test_backward_is_forward(name: str, stokes: tuple[float, float], changes: di
 @given(st.floats(0.02, 0.4), st.floats(0.1, 1.4), st.sampled_from(["speed", "stokes"]))
 def test_units_make_no_difference(stokes: float, angle: float, hold: str) -> None:
     """Euler: a change of the unit of mass, length or time moves a result by its own dimension and nothing else."""
-    found = gradients_many("granulation", stokes=stokes, angle=angle, of=OF, hold=hold)
+    found = gradients_many("granulation", stokes=stokes, angle=angle, of=OF, hold=hold, engine="taylor")
     if found.outcome.values[0] < 1:
         return
     dimensions = {  # mass, length, time
@@ -159,7 +161,7 @@ def test_a_subset_is_columns_of_the_whole() -> None:
     """Whichever parameters are asked for, each has the derivative that it has among all."""
     whole, stokes, angle = of_granulation()
     some = ["impact.angle", "liquid.viscosity", "particles.dry_restitution"]
-    part = gradients_many("granulation", stokes=stokes, angle=angle, of=OF, wrt=some)
+    part = gradients_many("granulation", stokes=stokes, angle=angle, of=OF, wrt=some, engine="taylor")
     assert part.parameter.values.tolist() == some
     for k in range(stokes.size):
         for name in OF:
@@ -174,14 +176,14 @@ def test_neighbours_do_not_matter() -> None:
     """Derivatives are the same alone and in a lane among others, but for rounding on the way to the parameters."""
     whole, stokes, angle = of_granulation()
     for k in (2, 11, 17):
-        alone = gradients_many("granulation", stokes=stokes[k], angle=angle[k], of=OF)
+        alone = gradients_many("granulation", stokes=stokes[k], angle=angle[k], of=OF, engine="taylor")
         np.testing.assert_allclose(alone.gradient.values[:, 0], whole.gradient.values[:, k], rtol=1e-14)
 
 
 def test_sticks_and_boundaries() -> None:
     """A stick has e_n = 0 with the gradient 0 and nothing else; at a boundary there is none, and it is named."""
     stokes = SEPARATRIX * np.array([0.5, 1 - 1e-7, 1 + 1e-7, 1.3])
-    found = gradients_many("granulation", stokes=stokes, angle="45 deg", of=OF, wrt="liquid.viscosity")
+    found = gradients_many("granulation", stokes=stokes, angle="45 deg", of=OF, wrt="liquid.viscosity", engine="taylor")
     assert found.outcome.values.tolist() == [0, -1, -1, 1]
     assert found.reason.values[0] == STICK
     assert found.reason.values[3] == ""
@@ -213,7 +215,7 @@ def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.Mon
     except ComputationError as error:
         said = str(error)
     monkeypatch.setattr(many, "sensitivities", None)  # that nothing is done alone
-    found = gradients_many(scene, speed=speed, angle=angle, wrt=names, rtol=rtol)
+    found = gradients_many(scene, speed=speed, angle=angle, wrt=names, rtol=rtol, engine="taylor")
     assert found.reason.values[0] == said
     if distance > 1e-4:
         assert one is not None
@@ -226,10 +228,36 @@ def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.Mon
 
 def test_what_the_kernel_does_not_know() -> None:
     """A term of the ledger, or a law that the kernel has not, is computed one by one: the same numbers as alone."""
-    found = gradients_many("granulation", stokes=0.03, angle="65 deg", of=["energy.capillary"], wrt="bridge.volume")
+    found = gradients_many(
+        "granulation", stokes=0.03, angle="65 deg", of=["energy.capillary"], wrt="bridge.volume", engine="taylor"
+    )
     alone = sensitivities("granulation", "energy.capillary", "bridge.volume", stokes=0.03, angle="65 deg")
     assert found.gradient.values.item() == alone.gradient["energy.capillary"]["bridge.volume"]
     assert found.engine.values.tolist() == ["rosenbrock"]
+
+
+def test_the_engine_that_is_chosen(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Where none is asked for: the kernel if it is compiled already or collisions are many; else Rosenbrock, at once.
+
+    Whatever is not the kernel's is Rosenbrock's: backwards, second derivatives, the ledger.
+    """
+    of_granulation()
+    scene, asked = Scene.load("granulation"), {"stokes": 0.02, "angle": 1.3, "wrt": "liquid.viscosity"}
+    assert chosen(scene, OF, (True,), 1e-9) == "taylor"
+    found = sensitivities(scene, OF, **asked)
+    assert found.engine == "taylor"
+    assert gradients_many(scene, **asked, of=OF).engine.values.tolist() == ["taylor"]
+    assert sensitivities(scene, OF, **asked, method="adjoint").engine == "rosenbrock"
+    assert sensitivities(scene, **asked, hessian={"liquid.viscosity": 1.0}).engine == "rosenbrock"
+    assert chosen(scene, (*OF, "energy.capillary"), (True,), 1e-9, 1000) == "rosenbrock"
+    monkeypatch.setattr(library, "cache_folder", lambda: tmp_path)
+    assert chosen(scene, OF, (True,), 1e-9, 100) == "rosenbrock"
+    assert chosen(scene, OF, (True,), 1e-9, 101) == "taylor"
+    plain = gradients_many(scene, **asked, of=OF)
+    assert plain.engine.values.tolist() == ["rosenbrock"]
+    for of in OF:
+        own = plain.gradient.sel(quantity=of).values.item()
+        assert found.gradient[of]["liquid.viscosity"] == pytest.approx(own, rel=1e-6)
 
 
 def test_bad_input() -> None:

@@ -268,7 +268,11 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
         slope[BY_STRING_RATIO] = -v->string_ratio/q[SI_REDUCED_RADIUS];
         slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
         slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
+#if OWN_RUPTURE
         slope[BY_RUPTURE_GAP] = v->rupture_gap/q[SI_REDUCED_RADIUS];
+#else
+        slope[BY_RUPTURE_GAP] = v->rupture_gap/q[SI_REDUCED_RADIUS];
+#endif
         break;
     case SI_REDUCED_MASS:
         slope[BY_STOKES] = v->stokes/q[SI_REDUCED_MASS];
@@ -301,7 +305,11 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
         slope[BY_GLASS_NUMBER] = 2.0*v->glass_number/q[SI_FILM_THICKNESS];
         slope[BY_ELASTIC_GAP] = -v->elastic_gap/q[SI_FILM_THICKNESS];
         slope[BY_ROUGH_GAP] = -v->rough_gap/q[SI_FILM_THICKNESS];
+#if OWN_RUPTURE
         slope[BY_RUPTURE_GAP] = -v->rupture_gap/q[SI_FILM_THICKNESS];
+#else
+        slope[BY_RUPTURE_GAP] = -v->rupture_gap/q[SI_FILM_THICKNESS];
+#endif
         break;
     case SI_GLASS_TRANSITION_PRESSURE:
         slope[BY_GLASS_NUMBER] = v->glass_number/q[SI_GLASS_TRANSITION_PRESSURE];
@@ -324,12 +332,23 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
         break;
     case SI_VOLUME:
         slope[BY_VOLUME] = splat(1.0);
+#if OWN_RUPTURE
+        slope[BY_RUPTURE_GAP] = 2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance_by_volume(q[SI_VOLUME],
+        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
+#else
         slope[BY_RUPTURE_GAP] = 0.3333333333333333*v->rupture_gap/q[SI_VOLUME];
+#endif
         break;
     case SI_CONTACT_ANGLE:
         slope[BY_CONTACT_ANGLE] = splat(1.0);
+#if OWN_RUPTURE
+        slope[BY_RUPTURE_GAP] =
+        2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance_by_contact_angle(q[SI_VOLUME],
+        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
+#else
         slope[BY_RUPTURE_GAP] =
         q[SI_REDUCED_RADIUS]*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
+#endif
         break;
     }
 }

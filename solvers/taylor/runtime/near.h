@@ -124,9 +124,9 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
     if (event == TURNED_KIND && saddle)
         along_near(a, lane, off, PASSAGE);
 #endif
-    if (event == RUPTURE && (BRIDGE || STRINGS))
+    if (event == RUPTURE && (BRIDGE || STRINGS || ATTRACTION))
         along_near(a, lane, opening*opening, RIM);
-    else if (event == RUPTURE && !OBLIQUE)
+    else if (event == RUPTURE && (!OBLIQUE || WALL))
         along_near(a, lane, opening, RIM);
 #if OBLIQUE && STRINGS
     if (event == RUPTURE) {

@@ -9,6 +9,7 @@ enum { BEGUN, REVERSED, ENDED }; /* what a tape notes of a lane between steps */
 #endif
 static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
+static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
 /* What comes back of a collision. */
@@ -125,7 +126,8 @@ static void note(queue *q, long index, int kind, double time)
 static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;
-    f->tolerance = splat(q->rtol);
+    double rtol = q->rtol < SHARP ? 0.5*q->rtol : q->rtol;
+    f->tolerance = splat(rtol);
     f->rest = splat(SLOW);
 #if OBLIQUE
     vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
@@ -138,7 +140,7 @@ static unsigned set_tolerance(const queue *q, fixed *f)
         if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
             f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
         if (net[lane] > 1.0)
-            f->tolerance[lane] = fmax(q->rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(q->rtol, TIGHTEST));
+            f->tolerance[lane] = fmax(rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(rtol, TIGHTEST));
         if (of > MOST_OBLIQUE)
             beyond |= 1u << lane;
     }
