@@ -29,6 +29,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
     "rotation": (COLUMNS["turned"], "turned"),
 }
 KNOWN = tuple(_WHERE)
+BACKWARD = ("restitution",)  # what is taken back along flights
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 
@@ -60,12 +61,14 @@ def along(
     rtol: float,
     order: int | None = None,
     budget: int = BUDGET,
+    backward: bool = False,
 ) -> Along | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
 
     Arguments:
         impacts: of one scene; nothing but speed and angle differs among them.
         order: of the series; None: the cheapest for the tolerance.
+        backward: of the restitution alone, taken back along the flights (`carried`).
     """
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
@@ -74,8 +77,9 @@ def along(
         slopes = np.asarray(way(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
     by_quantity = dict(zip(names, slopes, strict=False))
     found = carried(
-        impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget
-    )
+        impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
+        backward,
+    )  # fmt: skip
     if found is None:
         return None
     # quantities change with the parameters as those of the first collision do, but for its speed and angle

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
 from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.numbers import si_values
 from wetdoublet.solvers.sensitivity import many
 from wetdoublet.solvers.sensitivity.choice import chosen
 from wetdoublet.solvers.sensitivity.kernel import KNOWN
@@ -101,6 +102,38 @@ def test_contact_by_differences() -> None:
         assert own == pytest.approx(slope, rel=1e-7)
 
 
+@pytest.mark.parametrize(
+    ("name", "stokes", "changes"),
+    [
+        ("granulation", (0.01, 0.4), {}),
+        ("granulation", (0.8, 2.0), {"liquid.glass_transition_pressure": 1e12, "particles.roughness": 4e-7}),
+        ("pendulum", (1.3, 3.0), {}),
+    ],
+)
+def test_backward_is_forward(name: str, stokes: tuple[float, float], changes: dict[str, float]) -> None:
+    """Taken back along the flight, derivatives of e_n by all quantities are those carried along it.
+
+    Both at 1e-12, where either is exact to some 1e-10 of the largest elasticity (1e-9 beside a boundary).
+    """
+    scene = Scene.load(name).with_entries(changes)
+    draw = np.random.default_rng(8)
+    impacts = Impacts(scene, scene.speed_of(np.exp(draw.uniform(*np.log(stokes), 12))), draw.uniform(0.1, 1.3, 12), {})
+    forward, backward = (carried(impacts, True, 1e-12, True, order=10, backward=back) for back in (False, True))
+    assert forward is not None
+    assert backward is not None
+    done = backward.answers["status"] <= 1  # the others are too long for a tape
+    np.testing.assert_array_equal(forward.answers["outcome"][done], backward.answers["outcome"][done])
+    both = done & (forward.answers["outcome"] > 0)
+    assert both.sum() >= 4
+    values = si_values(scene, None, None)
+    unit = np.array([values.get(quantity) or 0.0 for quantity in forward.quantities])
+    units = np.tile(unit, (12, 1))
+    units[:, forward.quantities.index("speed")] = impacts.speed
+    units[:, forward.quantities.index("angle")] = impacts.angle
+    along, back = (each.slopes[both, :, 0] * units[both] for each in (forward, backward))
+    assert (np.abs(along - back).max(axis=1) < 1e-9 * np.abs(along).max(axis=1)).all()
+
+
 @settings(max_examples=25, deadline=None)
 @given(st.floats(0.02, 0.4), st.floats(0.1, 1.4), st.sampled_from(["speed", "stokes"]))
 def test_units_make_no_difference(stokes: float, angle: float, hold: str) -> None:
@@ -172,7 +205,7 @@ def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.Mon
     rtol, angle, names = 1e-8, 0.3554, "liquid.viscosity"
     scene = Scene.load("granulation")
     probe = 0.2356 / scene.stokes_per_speed
-    seen = carried(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False)
+    seen = carried(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False, backward=True)
     assert seen is not None
     assert seen.near[0, 1] == 7
     speed = probe * np.exp(distance - seen.near[0, 0])
