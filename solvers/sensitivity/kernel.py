@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,9 +33,9 @@ BACKWARD = ("restitution",)  # what is taken back along flights
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 
-def offers(scene: Scene, of: Sequence[str]) -> bool:
-    """Whether the kernel differentiates these results of a scene here."""
-    return all(name in KNOWN for name in of) and differentiates(scene)
+def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
+    """Whether the kernel differentiates these results of a scene here, of oblique collisions and of those head-on."""
+    return all(name in KNOWN for name in of) and differentiates(scene, oblique)
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def along(
 def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
     """Derivatives of the collision of a located flight; None where the kernel has none, or sees another flight."""
     odd_head_on = not problem.n.oblique and problem.odd(of)
-    if odd_head_on or not path.separated or not offers(problem.scene, of):
+    if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
     found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))

@@ -132,9 +132,10 @@ def gradients_many(
         loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
     )
     left = np.arange(request.size)
+    oblique = set((request.angle > 0).tolist())
     if by is None:
-        by = chosen(loaded, names, set((request.angle > 0).tolist()), request.rtol, request.size)
-    if by == "taylor" and kernel.offers(loaded, names):
+        by = chosen(loaded, names, oblique, request.rtol, request.size)
+    if by == "taylor" and kernel.offers(loaded, names, oblique):
         left = _by_kernel(asked)
     for k in left:
         _alone(asked, int(k), held, by)

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..compiled import compiler
 from ..model import choose
 from ..numbers import si_values
 from ..scene import Scene
 from .engine import BUDGET, RIGID, Impacts, order_for
-from .headers import tangents
-from .library import ANSWER, Variant, kernel, knows
+from .headers import headers, tangents
+from .library import ANSWER, Variant, kernel
 
 RESULTS = 8  # as runtime/along.h has them
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
@@ -99,7 +100,8 @@ def carried(
 
 
 def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool) -> ctypes.CDLL | None:
-    return kernel(variant_of(scene, oblique, order, rotation, backward)) if differentiates(scene) else None
+    variant = variant_of(scene, oblique, order, rotation, backward)
+    return kernel(variant) if differentiates(scene, (oblique,)) else None
 
 
 def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False) -> Variant:
@@ -108,9 +110,14 @@ def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward
     return Variant(choose(scene, oblique), order, rotation, own, gradients=True, backward=backward)
 
 
-def differentiates(scene: Scene) -> bool:
-    """Whether the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler."""
-    return knows(scene) and all(tangents(choose(scene, oblique)) for oblique in (True, False))
+def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
+    """Whether the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler.
+
+    Arguments:
+        oblique: of oblique ones, of those head-on: what is not asked about is not derived.
+    """
+    choices = [choose(scene, own) for own in oblique]
+    return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 
 def _names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:
