@@ -22,6 +22,7 @@ REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/ph
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
 _MAX_STEPS = 2_000  # phases of one flight
+_STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 
 
@@ -147,7 +148,7 @@ class Locate:
     def _fly(self) -> bool:
         """Integrate to the next event and act on it; True if the flight is over."""
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
-        flown, stretch = 0.0, FIRST_STRETCH
+        flown, stretch = 0.0, self._first_stretch()
         for _ in range(STRETCHES):
             level = self._level()
             stop = self._advance(find, stretch, -np.inf if level is None else level)
@@ -172,6 +173,11 @@ class Locate:
             f"no event within {flown:.3g} x0/v0",
             "it is within its tolerance of a boundary or creeps beyond bounds: try a smaller --rtol, or another impact",
         )
+
+    def _first_stretch(self) -> float:
+        """No longer than 1e5 times what the force at hand takes to close the film: integrators start at a share."""
+        force = abs(self.model.values("inward_force", self.y, self.p)["inward_force"])
+        return FIRST_STRETCH * min(1.0, _STRONG / np.sqrt(force)) if force > 0 else FIRST_STRETCH
 
     def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
         # an unreachable level is a large negative number: infinities would spoil the integrator's arithmetic
