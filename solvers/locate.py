@@ -186,7 +186,7 @@ class Locate:
             stop = find(self.y, self.p, stretch, self.phase.motion, level)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
-            return self._overshot(find, stop, level) if stop.event == "turning" else stop
+            return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
         except IntegrationFailed as error:
             if self._loosened():
                 find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
@@ -207,12 +207,13 @@ class Locate:
     def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
         """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
 
-        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once.
+        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. And whatever is
+        below zero where nothing was found was lost beside another function's minimum in the same step.
         """
         ahead = "contact" if self.phase.motion == CLOSING else "rupture"
         crossed = [
             self._refined(find, stop, name, level)
-            for name in (ahead, "film_edge", "tangential_edge")
+            for name in (ahead, "film_edge", "tangential_edge", "half_turn")
             if name in find.events and find.value(name, stop.y, self.p, self.phase.motion, level) < 0
         ]
         return min(crossed, key=lambda found: found.time, default=stop)
