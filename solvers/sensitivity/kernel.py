@@ -31,6 +31,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
 }
 KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # what is taken back along flights
+DIRECTIONS = 4  # parameters by which carrying along costs no more (docs/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 

@@ -157,8 +157,9 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 
 
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
-    # for a few the kernel that carries directions will do, which others ask for as well
-    order, back = order_for(asked.rtol), asked.of == kernel.BACKWARD and asked.angle.size > FEW
+    # of a few collisions, or by a few parameters, directions cost no more
+    back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
+    order = order_for(asked.rtol)
 
     def flown(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
         return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward)
