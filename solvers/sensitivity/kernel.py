@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -30,6 +31,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
 }
 KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # what is taken back along flights
+DIRECTIONS = 4  # parameters by which carrying along costs no more (docs/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 
@@ -92,7 +94,7 @@ def along(
             paces[:, k] = impacts.angle / angle
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
-    scales = _Scales(scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
+    scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
         if angle == 0 and name in _TURNS:
@@ -104,7 +106,7 @@ def along(
         if name == "final_spin":  # it parted as it touched: the spin is what rounding leaves
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if QUANTITIES[name].scale is not None:
-            scale, relative = scales.of(name)
+            scale, relative = scales().of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]

@@ -14,7 +14,7 @@ from ..errors import WetDoubletError
 from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
-from ..settings import RTOL, check_engine
+from ..settings import FEW, RTOL, check_engine
 from ..taylor.along import DISTANCES, Carried, carried
 from ..taylor.engine import PATIENT, Impacts, order_for
 from ..validity import warn
@@ -158,7 +158,9 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 
 
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
-    order, back = order_for(asked.rtol), asked.of == kernel.BACKWARD
+    # of a few collisions, or by a few parameters, directions cost no more
+    back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
+    order = order_for(asked.rtol)
 
     def flown(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
         return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward)
