@@ -6,6 +6,7 @@ Without a compiler everything runs interpreted; that is said once.
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import os
 import shutil
@@ -25,22 +26,23 @@ _COMPILERS = ("cc", "gcc", "clang")
 
 @lru_cache(maxsize=1)
 def compiler() -> tuple[str, str] | None:
-    """Path and version line of the machine's C compiler; None, said once on standard error, if there is none."""
+    """Path and version line of the machine's C compiler, $CC before others; None, said once, if there is none."""
     wanted = os.environ.get("CC", "").split()[:1]
     for name in (*wanted, *_COMPILERS):
         path = shutil.which(name)
-        if path is None:
-            continue
-        asked = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
-        if asked.returncode == 0:
-            return path, asked.stdout.splitlines()[0]
+        if path is not None:
+            asked = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
+            if asked.returncode == 0 and asked.stdout.strip():
+                return path, asked.stdout.splitlines()[0]
+        if name in wanted:
+            sys.stderr.write(f"CC={name} is no compiler here: another is looked for\n")
     sys.stderr.write("no C compiler (cc, gcc, clang): integrators run interpreted, about five times slower\n")
     return None
 
 
 @lru_cache(maxsize=1)
 def cache_folder() -> Path:
-    """The user's cache folder, or a fresh private one for this process where that cannot be had.
+    """The user's cache folder, or a fresh private one for this process where that cannot be had: said once.
 
     WETDOUBLET_CACHE names another.
     """
@@ -52,7 +54,10 @@ def cache_folder() -> Path:
             return folder
     except OSError:
         pass
-    return Path(tempfile.mkdtemp(prefix="wetdoublet-"))
+    sys.stderr.write(f"{folder} is not writable by this user alone: what is compiled is kept for this process only\n")
+    private = Path(tempfile.mkdtemp(prefix="wetdoublet-"))
+    atexit.register(shutil.rmtree, private, ignore_errors=True)
+    return private
 
 
 def _private(folder: Path) -> bool:
@@ -95,6 +100,8 @@ def build(path: str, flags: tuple[str, ...], source: Path, library: Path) -> str
     if built.returncode:
         said = built.stderr.strip().splitlines() or ["no message"]
         return next((line for line in said if "error" in line), said[-1])
+    if not fresh.is_file():
+        return "no library came of it"
     beside = library.with_suffix(f".{os.getpid()}")
     shutil.copyfile(fresh, beside)
     beside.replace(library)

@@ -22,6 +22,7 @@ REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/ph
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
 _MAX_STEPS = 2_000  # phases of one flight
+_STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 
 
@@ -147,7 +148,7 @@ class Locate:
     def _fly(self) -> bool:
         """Integrate to the next event and act on it; True if the flight is over."""
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
-        flown, stretch = 0.0, FIRST_STRETCH
+        flown, stretch = 0.0, self._first_stretch()
         for _ in range(STRETCHES):
             level = self._level()
             stop = self._advance(find, stretch, -np.inf if level is None else level)
@@ -173,6 +174,11 @@ class Locate:
             "it is within its tolerance of a boundary or creeps beyond bounds: try a smaller --rtol, or another impact",
         )
 
+    def _first_stretch(self) -> float:
+        """No longer than 1e5 times what the force at hand takes to close the film: integrators start at a share."""
+        force = abs(self.model.values("inward_force", self.y, self.p)["inward_force"])
+        return FIRST_STRETCH * min(1.0, _STRONG / np.sqrt(force)) if force > 0 else FIRST_STRETCH
+
     def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
         # an unreachable level is a large negative number: infinities would spoil the integrator's arithmetic
         level = max(level, -1e30)
@@ -180,7 +186,7 @@ class Locate:
             stop = find(self.y, self.p, stretch, self.phase.motion, level)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
-            return self._overshot(find, stop, level) if stop.event == "turning" else stop
+            return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
         except IntegrationFailed as error:
             if self._loosened():
                 find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
@@ -201,12 +207,13 @@ class Locate:
     def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
         """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
 
-        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once.
+        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. And whatever is
+        below zero where nothing was found was lost beside another function's minimum in the same step.
         """
         ahead = "contact" if self.phase.motion == CLOSING else "rupture"
         crossed = [
             self._refined(find, stop, name, level)
-            for name in (ahead, "film_edge", "tangential_edge")
+            for name in (ahead, "film_edge", "tangential_edge", "half_turn")
             if name in find.events and find.value(name, stop.y, self.p, self.phase.motion, level) < 0
         ]
         return min(crossed, key=lambda found: found.time, default=stop)

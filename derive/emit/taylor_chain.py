@@ -31,7 +31,7 @@ class Chain:
         self._constant = constant
         self._definitions = dict(definitions)
         self._slope = slope
-        self._known: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = {}
+        self._known: dict[tuple[sp.Basic, sp.Symbol], sp.Expr] = {}
         self.named: list[Definition] = []  # derivatives with more than one term, under a name of their own
 
     def by(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
@@ -43,24 +43,37 @@ class Chain:
         for symbol in sorted(hidden.free_symbols & self._definitions.keys(), key=str):
             total += sp.diff(hidden, symbol) * self._of(symbol, variable)
         for node, dummy in calls.items():
-            outer = sp.diff(hidden, dummy)
-            for position, argument in enumerate(node.args):
-                inner = self.by(argument, variable)
-                if inner != 0:
-                    assert self._slope is not None, f"{node} is called, and nothing is known of its slopes"
-                    total += outer * self._slope(node, position) * inner
+            total += sp.diff(hidden, dummy) * self._of_call(node, variable)
         return _expanded(total).xreplace(shown)
 
     def _of(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
         key = symbol, variable
         if key not in self._known:
-            found = self._short(symbol, variable)
-            if isinstance(found, sp.Add):
-                name = sp.Symbol(f"{symbol.name}_by_{variable.name}", real=True)
-                self.named.append((name, found))
-                found = name
-            self._known[key] = found
+            self._known[key] = self._name(self._short(symbol, variable), f"{symbol.name}_by_{variable.name}")
         return self._known[key]
+
+    def _of_call(self, node: AppliedUndef, variable: sp.Symbol) -> sp.Expr:
+        key = node, variable
+        if key not in self._known:
+            total = sp.Integer(0)
+            for position, argument in enumerate(node.args):
+                inner = self.by(argument, variable)
+                if inner != 0:
+                    assert self._slope is not None, f"{node} is called, and nothing is known of its slopes"
+                    total += self._slope(node, position) * inner
+            call = node.func.__name__.replace(".", "_")
+            self._known[key] = self._name(_expanded(total), f"{call}_by_{variable.name}")
+        return self._known[key]
+
+    def _name(self, found: sp.Expr, name: str) -> sp.Expr:
+        """A derivative that is a sum, or a product of several that move, under a name of its own; quotients cancel."""
+        moving = [part for part in sp.Mul.make_args(found) if part.free_symbols - set(self._constant)]
+        several = len(moving) > 1 and not any(part.is_Pow and part.exp.is_negative for part in moving)
+        if not (isinstance(found, sp.Add) or several):
+            return found
+        symbol = sp.Symbol(name, real=True)
+        self.named.append((symbol, found))
+        return symbol
 
     def _short(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
         """The derivative of a definition; of a power in a product by the product itself, where that cannot be zero."""

@@ -84,6 +84,25 @@ def shortest(program: Program, expressions: Iterable[sp.Expr], name: str) -> str
     return program.series(min(forms, key=cost), name)
 
 
+def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) -> None:
+    """Let a symbol stand for the cheapest form of an expression."""
+
+    def cost(form: sp.Expr) -> float:
+        trial = program.continued()
+        trial.define(symbol, form)
+        return trial.cost
+
+    program.define(symbol, min(dict.fromkeys((expression, *factored(expression))), key=cost))
+
+
+def factored(expression: sp.Expr) -> list[sp.Expr]:
+    """Other forms of a sum: what all its terms share before it, and what most of them do."""
+    forms = [sp.factor(expression)]
+    if isinstance(expression, sp.Add):
+        forms += [sp.collect(expression, symbol) for symbol in sorted(expression.free_symbols, key=str)]
+    return forms
+
+
 def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
     kept, _ = needed([each.result], each.definitions)
     value, _ = cheapest(each.result, kept, moving)

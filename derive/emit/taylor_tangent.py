@@ -20,9 +20,10 @@ from .printer import EmissionError
 from .taylor import Beside, Header
 from .taylor_c import Constants, Recurrences, Text
 from .taylor_chain import Chain
+from .taylor_cotangent import cotangent
 from .taylor_layout import comment, each_term, function
 from .taylor_scale import scale_slopes
-from .taylor_slopes import arguments, shortest
+from .taylor_slopes import arguments, define_shortest, factored, shortest
 
 _IN = "    "
 Entry: TypeAlias = str | sp.Expr
@@ -43,8 +44,8 @@ class Tangent:
         self._flow = {operation.name for operation in flow.operations}
         self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
         self.program = flow.continued()
-        self._slopes: dict[str, str] = {}  # name of a law's slope -> its array
-        self.chain = Chain(model.definitions, self._slope, model.groups)
+        self.slopes: dict[str, str] = {}  # name of a law's slope -> its array
+        self.chain = Chain(model.definitions, self._slope, (*model.groups, FILM, SHEAR))
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
         self._differentiate()
@@ -63,8 +64,8 @@ class Tangent:
             raise EmissionError(f"no slopes of {node}: it is no series of the flow")
         argument = self._arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
-        if symbol.name not in self._slopes:
-            self._slopes[symbol.name] = f"{call}.by_{argument}"
+        if symbol.name not in self.slopes:
+            self.slopes[symbol.name] = f"{call}.by_{argument}"
             self.program.give(symbol)
         return symbol
 
@@ -72,16 +73,17 @@ class Tangent:
         return arguments(slot, name, count, self.beside.extra.get(f"{slot}.{name}", ()))
 
     def _where(self, series: str) -> str:
-        if series in self._slopes:
-            return self._law_place(self._slopes[series].split(".")[0]) + self._slopes[series]
+        if series in self.slopes:
+            return self._law_place(self.slopes[series].split(".")[0]) + self.slopes[series]
         return f"of->{series}.result" if series in self._calls else f"of->{series}"
 
     def _law_place(self, call: str) -> str:
         """A law's slopes are local unless one is itself an entry."""
-        entries = {self._slopes[entry].split(".")[0] for entry in self._kept if entry in self._slopes}
+        entries = {self.slopes[entry].split(".")[0] for entry in self._kept if entry in self.slopes}
         return "s->" if call in entries else ""
 
-    def _rates(self) -> list[tuple[str, sp.Expr]]:
+    def rates(self) -> list[tuple[str, sp.Expr]]:
+        """What the states' rates are, by name."""
         rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
         if self.header.turning is not None:
             rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
@@ -89,27 +91,33 @@ class Tangent:
 
     def _differentiate(self) -> None:
         found: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
-        for row, rate in self._rates():
+        for row, rate in self.rates():
             for into, variables in ((self.matrix, self.model.states), (self.sources, self.model.groups)):
                 for variable in variables:
                     slope = self.chain.by(rate, variable)
                     if slope != 0:
                         found.append((into, (row, variable.name), slope))
         for symbol, expression in self.chain.named:
-            self.program.define(symbol, expression)
+            define_shortest(self.program, symbol, expression)
         for into, (row, by), slope in found:
-            into[row, by] = shortest(self.program, (slope, sp.factor(slope)), f"{row}_by_{by}")
+            into[row, by] = shortest(self.program, (slope, *factored(slope)), f"{row}_by_{by}")
 
     @property
     def flowing(self) -> list[str]:
         """Groups that the rates depend on."""
         return [group.name for group in self.model.groups if any(by == group.name for _, by in self.sources)]
 
+    @property
+    def flow(self) -> set[str]:
+        """Names of the series that the flow has, the states among them."""
+        return self._flow | set(self.states)
+
     # ---- text
 
     def text(self, digest: str, provenance: str, doc: str) -> str:
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
+        back = cotangent(self)
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction."
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
@@ -120,6 +128,7 @@ class Tangent:
             *self._structs(),
             *coefficients,
             *row,
+            *back,
             *source,
             *self._values(),
             *scale_slopes(self.model, self.beside.definitions),
@@ -170,7 +179,7 @@ class Tangent:
     def _coefficients(self) -> list[str]:
         body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
         for name, (slot, call, given) in self._laws().items():
-            passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+            passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
             into = f"{self._law_place(name)}{name}"
             body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
         body += self._guarded()
@@ -191,8 +200,10 @@ class Tangent:
         for (_, by), entry in self.sources.items():
             if isinstance(entry, str):
                 needs[entry].add(by)
+        sines = {each.series: each.name for each in self.program.operations if each.kind == "sine"}
         for operation in reversed(self.program.operations):
-            for part in operation.series:
+            made_with = (sines[operation.series],) if operation.kind == "cosine" and operation.series in sines else ()
+            for part in (*operation.series, *made_with):
                 if operation.name in always:
                     always.add(part)
                 needs.setdefault(part, set()).update(needs.get(operation.name, ()))
@@ -219,7 +230,8 @@ class Tangent:
     def _groups(self) -> list[str]:
         return [group.name for group in self.model.groups]
 
-    def _array(self, name: str) -> str:
+    def array(self, name: str) -> str:
+        """Where emitted C has a series."""
         return self.made.array(name)
 
     def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
@@ -228,13 +240,13 @@ class Tangent:
 
     def _row(self) -> list[str]:
         body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
-        for row, _ in self._rates():
+        for row, _ in self.rates():
             terms = []
             for state in self.states:
                 entry = self.matrix.get((row, state), sp.Integer(0))
                 column = f"t[{state.upper()}]"
                 if isinstance(entry, str):
-                    terms.append(f"product({self._array(entry)}, {column}, k)")
+                    terms.append(f"product({self.array(entry)}, {column}, k)")
                 elif entry == 1:
                     terms.append(f"{column}[k]")
                 elif entry != 0:
@@ -257,7 +269,7 @@ class Tangent:
             lines = []
             for (row, by), entry in self.sources.items():
                 if by == group:
-                    array = self._array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
+                    array = self.array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
                     line = f"source[{row.upper()}] = {array};"
                     lines += ["#if TURNING_STATE", _IN + line, "#endif"] if row == "turned" else [_IN + line]
             body += [*lines, _IN + "break;"]

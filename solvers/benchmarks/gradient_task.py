@@ -19,6 +19,7 @@ from ..sensitivity.parameters import Kind, kind_of, known, references, way
 from .tasks import Impact, Task
 
 COUNT = 12  # parameters
+SEPARATING = 25  # collisions
 RTOL = 1e-12  # of the derivatives that errors are measured against
 _HOLD = "speed"
 
@@ -35,14 +36,17 @@ class Gradients:
     names: tuple[str, ...]
 
     @classmethod
-    def of(cls, task: Task) -> Gradients:
-        """Of the collisions of a task, those that separate; the last twelve of its parameters."""
-        scene, impacts = task.scene, task.impacts()
-        stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
-        outcome = collide_many(scene, stokes=stokes, angle=angle)["outcome"].values
+    def of(cls, task: Task, count: int = SEPARATING) -> Gradients:
+        """The first `count` collisions that separate, drawn on until there are so many; the last of its parameters."""
+        scene, kept = task.scene, list[Impact]()
+        for impacts in task.drawn():
+            stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
+            outcome = collide_many(scene, stokes=stokes, angle=angle)["outcome"].values
+            kept += [each for each, found in zip(impacts, outcome, strict=True) if found > 0 and each.angle > 0]
+            if len(kept) >= count:
+                break
         names = [name for name in known(scene) if name != "impact.stokes"]
-        kept = tuple(each for each, found in zip(impacts, outcome, strict=True) if found > 0 and each.angle > 0)
-        return cls(scene, kept, tuple(names[-COUNT:]))
+        return cls(scene, tuple(kept[:count]), tuple(names[-COUNT:]))
 
     @cached_property
     def kind(self) -> Kind:

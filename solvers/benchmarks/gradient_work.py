@@ -19,13 +19,16 @@ from ..sensitivity.many import gradients_many
 from ..taylor.engine import Impacts
 from .gradient_task import COUNT, Gradients
 from .markdown import table, us
+from .peer_diffrax_gradient import MISSING as NO_DIFFRAX
+from .peer_diffrax_gradient import TOLERANCES as DIFFRAX
+from .peer_diffrax_gradient import of_task as diffrax_forward
 from .tasks import TASKS, Task
 from .work import OFTEN, REPEATS, SETS, Tell
 
 Record = dict[str, Any]
 Run = Callable[[], np.ndarray]
 
-FINE = tuple(10.0**-k for k in range(6, 14))
+FINE = tuple(10.0**-k for k in (6, 7, 7.5, 8, 8.5, *range(9, 14)))
 COARSE = (1e-8, 1e-10)
 DIFFERENCES = 1e-13  # tolerance of collisions whose differences are taken; then steps take the part of tolerances
 STEPS = (1e-3, 1e-4, 1e-5)
@@ -60,6 +63,7 @@ def methods() -> tuple[Method, ...]:
         Method("rosenbrock, forward", partial(_casadi, "forward")),
         Method("rosenbrock, adjoint", partial(_casadi, "adjoint")),
         Method("heyoka, variational equations", _heyoka, SETS, FINE, heyoka),
+        Method("diffrax, forward derivatives", diffrax_forward, 1, DIFFRAX, NO_DIFFRAX),
         Method("central differences of taylor", _differences, SETS, STEPS, no_compiler),
     )
 
@@ -71,7 +75,13 @@ def _gradients_many(asked: Gradients, copies: int, rtol: float) -> Run:
 
     def run() -> np.ndarray:
         found = gradients_many(
-            asked.scene, stokes=stokes, angle=angle, wrt=list(asked.names), of="restitution", rtol=rtol
+            asked.scene,
+            stokes=stokes,
+            angle=angle,
+            wrt=list(asked.names),
+            of="restitution",
+            rtol=rtol,
+            engine="taylor",
         )
         rows: np.ndarray = found["gradient"].values[0] * units
         return rows
@@ -85,7 +95,7 @@ def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
     impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
 
     def run() -> np.ndarray:
-        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol)
+        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol, backward=True)
         assert found is not None  # there is a compiler
         rows: np.ndarray = found.first[0]
         return rows
@@ -189,11 +199,14 @@ def _number(value: float) -> float | None:
 
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error
 NOTE = """\
-Derivatives of e_n in theta, p = p_ref (1 + theta), of the collisions of both tasks that separate. The error of a
-collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's are
-its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our own;
-it need prove no stick, and is given the derivatives of the groups in the parameters. Differences are of collisions at
-rtol 1e-13; what is listed as their tolerance is the relative step."""
+Derivatives of e_n in theta, p = p_ref (1 + theta), of 25 collisions of each task that separate, drawn on from its
+sequence until there are so many; the set is repeated 20 times in one call. `gradients_many` has some 2 ms a call
+beside the kernel (checks, boundaries too near, the labelled Dataset), so smaller calls cost more. The error of a
+collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's
+are its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our
+own; it need prove no stick, and is given the derivatives of the groups in the parameters. So is diffrax, whose
+derivatives are forward mode through its own events, the set once in a call (twenty times in one: half the price).
+Differences are of collisions at rtol 1e-13; what is listed as their tolerance is the relative step."""
 
 
 def gradient_work_text(found: Sequence[Record]) -> str:

@@ -9,15 +9,18 @@ from typing import Any
 
 import numpy as np
 
+from ..compiled import compiler
 from ..many import collide_many
 from ..scene import Scene
 from ..sensitivity.gradients import sensitivities
+from ..sensitivity.many import gradients_many
 from ..settings import ENGINES, RTOL
 from ..simulate import collide
 from .engines import in_bulk
 
 Record = dict[str, Any]
 
+MANY = 1000  # collisions in a call of the kernel whose gradients are asked for
 COUNT, REPEATS = 120, 3  # collisions in a call; the best of so many calls counts
 STOKES, DEGREES = (0.2, 2.0), (45.0, 80.0)  # all of them separate, with or without bridge and strings
 STRINGS = {"pendulum.length": 0.05, "pendulum.gravity": 9.81}
@@ -68,7 +71,10 @@ def structures() -> list[Record]:
 
 
 def gradients() -> list[Record]:
-    """CPU time of a gradient of e_n by number of parameters, over the collision's on the same engine."""
+    """CPU time of a gradient of e_n by number of parameters, over the collision's on the same engine.
+
+    One collision by Rosenbrock; many in a call by the kernel.
+    """
     asked: dict[str, Any] = {"stokes": 0.05, "angle": math.radians(75.0), "engine": "rosenbrock"}
     found: list[Record] = []
     value = _best(lambda: collide("granulation", **asked, ledger=False))
@@ -85,6 +91,18 @@ def gradients() -> list[Record]:
     impact = {name: asked[name] for name in ("stokes", "angle")}
     cpu = _best(lambda: differences(PARAMETERS, **impact))
     found.append({"method": "central differences", "parameters": len(PARAMETERS), "cpu": cpu, "ratio": cpu / value})
+    return found + (_by_kernel(**impact) if compiler() else [])
+
+
+def _by_kernel(stokes: float, angle: float) -> list[Record]:
+    """The kernel's, MANY collisions in a call, over the same without derivatives."""
+    many: dict[str, Any] = {"stokes": np.full(MANY, stokes), "angle": angle, "engine": "taylor"}
+    value = _best(lambda: collide_many("granulation", **many)) / MANY
+    found: list[Record] = [{"method": f"{MANY} by the kernel: value", "parameters": 0, "cpu": value, "ratio": 1.0}]
+    for count in GRADIENTS:
+        wrt = list(PARAMETERS[:count])
+        cpu = _best(lambda wrt=wrt: gradients_many("granulation", **many, wrt=wrt)) / MANY  # type: ignore[misc]
+        found.append({"method": f"{MANY} by the kernel", "parameters": count, "cpu": cpu, "ratio": cpu / value})
     return found
 
 

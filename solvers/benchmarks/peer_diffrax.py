@@ -21,7 +21,7 @@ from .tasks import Impact
 from .translated import translated
 
 _HORIZON, _STEPS, _PHASES = 1e10, 20_000, 12
-_RUNNING, _SEPARATED, _STUCK, _FAILED = range(4)
+_RUNNING, SEPARATED, _STUCK, _FAILED = range(4)
 
 
 def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
@@ -38,7 +38,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     begun = starts(flights, numbers, names)
     states, parameters = (np.array([getattr(each, name) for each in begun]) for name in ("state", "parameters"))
     reversed_ = np.array([each.reversed for each in begun])
-    run = jax.jit(jax.vmap(_flight(choice, names, flights[0].watch.certificate, rtol)))
+    run = jax.jit(jax.vmap(flight(choice, names, flights[0].watch.certificate, rtol)))
 
     def every() -> list[np.ndarray]:
         return [np.asarray(each) for each in run(states, parameters, reversed_)]
@@ -47,8 +47,8 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
         ended, e_n, met = found
         outcomes = np.where(ended == _STUCK, "stick", np.where(met, "bounce", "stick-rotate-separate"))
         return [
-            Answer(str(outcome), float(value) if code == _SEPARATED else 0.0)
-            if code in (_SEPARATED, _STUCK)
+            Answer(str(outcome), float(value) if code == SEPARATED else 0.0)
+            if code in (SEPARATED, _STUCK)
             else "failed"
             for code, outcome, value in zip(ended, outcomes, e_n)
         ]
@@ -56,7 +56,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     return Bulk(every, read)
 
 
-def _flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:
+def flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:
     """The flight of one collision as a function that jax can transform."""
     import diffrax
     import jax
@@ -124,13 +124,13 @@ def _flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float
         if proved:
             stuck = stuck | (reverses & (events(y, args)["certified"] < 0))
         any_hit = jnp.any(jnp.stack(list(hit.values())))
-        ended = jnp.where(hit["rupture"], _SEPARATED, jnp.where(stuck, _STUCK, jnp.where(any_hit, _RUNNING, _FAILED)))
+        ended = jnp.where(hit["rupture"], SEPARATED, jnp.where(stuck, _STUCK, jnp.where(any_hit, _RUNNING, _FAILED)))
         args = args.at[-2].set(jnp.where(ended == _RUNNING, 1.0, 0.0))
         return y, args, met | reverses, ended, count + 1
 
-    def flight(y: Any, args: Any, met: Any) -> Any:
+    def whole(y: Any, args: Any, met: Any) -> Any:
         going = lambda carry: (carry[3] == _RUNNING) & (carry[4] < _PHASES)  # noqa: E731 # as jax asks for it
         y, args, met, ended, _ = jax.lax.while_loop(going, phase, (y, args, met, jnp.asarray(_RUNNING), jnp.asarray(0)))
         return ended, y[1], met
 
-    return flight
+    return whole

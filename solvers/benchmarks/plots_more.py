@@ -23,6 +23,7 @@ _GRADIENTS = {
     "rosenbrock, forward": ("#D55E00", "s", "-"),
     "rosenbrock, adjoint": ("#0072B2", "o", "-"),
     "heyoka, variational equations": ("#56B4E9", "P", "--"),
+    "diffrax, forward derivatives": ("#7F7F7F", "<", "--"),
     "central differences of taylor": ("#CC79A7", "^", "--"),
 }
 _OTHER = ("#202020", ".", ":")

@@ -56,6 +56,8 @@ def worst(found: Stress, folder: Path) -> list[Path]:
     take("error", [(one, f"e_n differs by {one.error:.2e} between engines") for one in by_error[:5]])
     by_cost = sorted(found.verdicts, key=lambda one: -max(each.cpu for each in one.found.values()))
     take("cost", [(one, f"{_dearest(one)}") for one in by_cost[:5]])
+    for earlier in folder.glob("*-[0-9][0-9].toml"):
+        earlier.unlink()
     files = []
     for one, why in picked.values():
         name, said = why.split("\n", 1)

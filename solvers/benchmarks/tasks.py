@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,11 +41,16 @@ class Task:
 
     def impacts(self) -> list[Impact]:
         """The impacts, the same in every run."""
+        return next(self.drawn())
+
+    def drawn(self) -> Iterator[list[Impact]]:
+        """The impacts, then as many again, without end."""
         draw = np.random.default_rng(SEED)
         low, high = self.stokes
-        stokes = np.exp(draw.uniform(math.log(low), math.log(high), self.count))
-        angles = np.radians(draw.uniform(0.0, self.degrees, self.count))
-        return [Impact(float(st), float(theta)) for st, theta in zip(stokes, angles)]
+        while True:
+            stokes = np.exp(draw.uniform(math.log(low), math.log(high), self.count))
+            angles = np.radians(draw.uniform(0.0, self.degrees, self.count))
+            yield [Impact(float(st), float(theta)) for st, theta in zip(stokes, angles)]
 
     def __str__(self) -> str:
         low, high = self.stokes

@@ -20,6 +20,8 @@ class HeldProof:
         self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside or NoProof()
         self.theorem = True  # a model with a conserving arm; `beside` is then one as well, or proves nothing
         self.watches: str | None = self.beside.watches
+        groups = dict(zip(model.groups, p, strict=True))
+        self._nearest = max(groups["elastic_gap"], groups["rough_gap"]) * (1 - self.margin)
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self.beside.level(y, phase)
@@ -28,6 +30,8 @@ class HeldProof:
         return self.beside.decided(y, phase) or self._held(y)
 
     def _held(self, y: np.ndarray) -> bool:
+        if not y[0] >= self._nearest:
+            return False  # the margins take the solids for the nearest it gets; first touch may lie inside them
         found = self.model.values("held", y, self.p)
         hold = found["hold"]
         # each by more than the error of what it is made of; a NaN proves nothing

@@ -24,7 +24,7 @@ def chosen(scene: Scene, of: Sequence[str], oblique: Collection[bool], rtol: flo
     if not all(name in kernel.KNOWN for name in of):
         return "rosenbrock"
     if count > FEW:
-        return "taylor" if kernel.offers(scene, of) else "rosenbrock"
+        return "taylor" if kernel.offers(scene, of, oblique) else "rosenbrock"
     order, rotation = order_for(rtol), "rotation" in of
     there = all(at_hand(variant_of(scene, own, order, rotation)) for own in oblique)
     return "taylor" if there else "rosenbrock"

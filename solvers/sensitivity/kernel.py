@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -29,12 +30,14 @@ _WHERE: dict[str, tuple[int, str | int]] = {
     "rotation": (COLUMNS["turned"], "turned"),
 }
 KNOWN = tuple(_WHERE)
+BACKWARD = ("restitution",)  # what is taken back along flights
+DIRECTIONS = 4  # parameters by which carrying along costs no more (docs/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 
-def offers(scene: Scene, of: Sequence[str]) -> bool:
-    """Whether the kernel differentiates these results of a scene here."""
-    return all(name in KNOWN for name in of) and differentiates(scene)
+def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
+    """Whether the kernel differentiates these results of a scene here, of oblique collisions and of those head-on."""
+    return all(name in KNOWN for name in of) and differentiates(scene, oblique)
 
 
 @dataclass(frozen=True)
@@ -60,12 +63,14 @@ def along(
     rtol: float,
     order: int | None = None,
     budget: int = BUDGET,
+    backward: bool = False,
 ) -> Along | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
 
     Arguments:
         impacts: of one scene; nothing but speed and angle differs among them.
         order: of the series; None: the cheapest for the tolerance.
+        backward: of the restitution alone, taken back along the flights (`carried`).
     """
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
@@ -74,8 +79,9 @@ def along(
         slopes = np.asarray(way(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
     by_quantity = dict(zip(names, slopes, strict=False))
     found = carried(
-        impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget
-    )
+        impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
+        backward,
+    )  # fmt: skip
     if found is None:
         return None
     # quantities change with the parameters as those of the first collision do, but for its speed and angle
@@ -88,7 +94,7 @@ def along(
             paces[:, k] = impacts.angle / angle
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
-    scales = _Scales(scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
+    scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
         if angle == 0 and name in _TURNS:
@@ -100,7 +106,7 @@ def along(
         if name == "final_spin":  # it parted as it touched: the spin is what rounding leaves
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if QUANTITIES[name].scale is not None:
-            scale, relative = scales.of(name)
+            scale, relative = scales().of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
@@ -110,7 +116,7 @@ def along(
 def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
     """Derivatives of the collision of a located flight; None where the kernel has none, or sees another flight."""
     odd_head_on = not problem.n.oblique and problem.odd(of)
-    if odd_head_on or not path.separated or not offers(problem.scene, of):
+    if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
     found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))

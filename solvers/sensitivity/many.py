@@ -14,7 +14,7 @@ from ..errors import WetDoubletError
 from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
-from ..settings import RTOL, check_engine
+from ..settings import FEW, RTOL, check_engine
 from ..taylor.along import DISTANCES, Carried, carried
 from ..taylor.engine import PATIENT, Impacts, order_for
 from ..validity import warn
@@ -132,9 +132,10 @@ def gradients_many(
         loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
     )
     left = np.arange(request.size)
+    oblique = set((request.angle > 0).tolist())
     if by is None:
-        by = chosen(loaded, names, set((request.angle > 0).tolist()), request.rtol, request.size)
-    if by == "taylor" and kernel.offers(loaded, names):
+        by = chosen(loaded, names, oblique, request.rtol, request.size)
+    if by == "taylor" and kernel.offers(loaded, names, oblique):
         left = _by_kernel(asked)
     for k in left:
         _alone(asked, int(k), held, by)
@@ -157,15 +158,24 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 
 
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
+    # of a few collisions, or by a few parameters, directions cost no more
+    back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
     order = order_for(asked.rtol)
 
-    def flown(part: np.ndarray, rtol: float, budget: int) -> kernel.Along | None:
-        return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget)
+    def flown(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
+        return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward)
 
-    found = flown(which, asked.rtol, _SOON)
+    found = flown(which, asked.rtol, _SOON, back)
     if found is None:
         return which
     answers, measures = found.flown.answers, found.flown.near
+    late = np.flatnonzero(answers["status"] > 1)
+    if back and late.size:  # long flights have directions that hold the step
+        held = flown(which[late], asked.rtol, _SOON, False)
+        if held is None:
+            return which
+        answers[late], measures[late] = held.flown.answers, held.flown.near
+        found.value[:, late], found.first[:, late] = held.value, held.first
     near, least = measures[:, 0], limit(asked.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(asked, which, found, far)
@@ -180,9 +190,14 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
-        again = flown(part, min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST)), PATIENT)
-        if again is not None:
-            _keep(asked, part, again, again.flown.answers["outcome"] > 0)
+        sharper = min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST))
+        for backward in (True, False) if back else (False,):
+            again = flown(part, sharper, PATIENT, backward)
+            if again is not None:
+                _keep(asked, part, again, again.flown.answers["outcome"] > 0)
+                part = part[again.flown.answers["status"] > 1]
+            if not part.size:
+                break
     stuck = which[_sticks(asked, which, answers, found.flown.by_energy)]
     asked.outcome[stuck], asked.reason[stuck], asked.engine[stuck] = 0, STICK, "taylor"
     if "restitution" in asked.of:

@@ -40,8 +40,8 @@ FLAGS = (
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 _DRIVER = (
-    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h", "carry.h",
-    "near.h", "crawl.h", "trajectory.h", "lanes.h",
+    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h",
+    "meeting.h", "carry.h", "tape.h", "quantities.h", "back.h", "near.h", "crawl.h", "trajectory.h", "lanes.h",
 )  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
@@ -72,6 +72,7 @@ class Variant:
         rotation: the angle turned is integrated along where it is no state.
         own_rupture: the bridge ruptures where its own law says.
         gradients: derivatives by the groups are carried along.
+        backward: those of the restitution alone are taken back along the flight instead.
         few: few collisions will be asked of it: compiled sooner.
         ledger: what the forces take is integrated along; the structure must keep the spin.
         trajectory: every step is written as it was taken.
@@ -83,6 +84,7 @@ class Variant:
     rotation: bool = False
     own_rupture: bool = False
     gradients: bool = False
+    backward: bool = False
     few: bool = False
     ledger: bool = False
     trajectory: bool = False
@@ -126,6 +128,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "CERTIFICATE": int(variant.certificate),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
+        "BACKWARD": int(variant.backward),
         "LIBRARY_LAWS": int(variant.choice.package is None),
         "WITH_LEDGER": int(variant.ledger),
         "WITH_TRAJECTORY": int(variant.trajectory),
@@ -139,7 +142,9 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     wanted = {
         "ledger.h": variant.ledger,
         "trajectory.h": variant.trajectory,
-        **dict.fromkeys(("along.h", "carry.h", "near.h"), variant.gradients),
+        **dict.fromkeys(("along.h", "meeting.h", "quantities.h", "near.h"), variant.gradients),
+        "carry.h": variant.gradients and not variant.backward,
+        **dict.fromkeys(("tape.h", "back.h"), variant.backward),
     }
     parts += [(_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)]
     return "\n".join(parts)

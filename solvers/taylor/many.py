@@ -38,7 +38,7 @@ _NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall ju
 def collided(
     request: Request, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
-    """Collide the collisions `which` (ascending) of a request; returns those that are for other engines to do.
+    """Collide the collisions `which` of a request, in that order; returns those that are for other engines to do.
 
     Arguments:
         finished: told of every block that is done.
@@ -46,7 +46,8 @@ def collided(
     left = [which[:0]]
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
-        impacts, sound = _impacts(request if part.size == request.size else request.part(part))
+        whole = part.size == request.size and bool((part == np.arange(part.size)).all())
+        impacts, sound = _impacts(request if whole else request.part(part))
         found = answers(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
         if found is None:
             return which

@@ -1,6 +1,7 @@
 """Many collisions at once: the same as one by one, whatever the engine, the cores and the compiler."""
 
 import os
+import shutil
 import stat
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import pytest
 import xarray as xr
 from loky import process_executor
 from wetdoublet.solvers import Scene, collide, collide_many, many
-from wetdoublet.solvers.compiled import cache_folder, compiled, compiler
+from wetdoublet.solvers.compiled import build, cache_folder, compiled, compiler
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.numbers import numbers
 
@@ -187,6 +188,26 @@ def test_without_a_compiler(monkeypatch, capfd):
         assert (fast[name] == slow[name]).all()
     for name in EVERYTHING:
         np.testing.assert_allclose(fast[name], slow[name], rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.skipif(
+    compiler() is None or shutil.which("true") is None, reason="no compiler, or no program that is none"
+)
+@pytest.mark.parametrize("named", ["no-such-compiler", "true"])
+def test_a_compiler_that_is_none(named, tmp_path, monkeypatch, capfd):
+    """CC that is missing is said and another is taken; one that compiles nothing is a failure to compile, no crash."""
+    monkeypatch.setenv("CC", named)
+    compiler.cache_clear()
+    try:
+        found = compiler()
+    finally:
+        compiler.cache_clear()
+    assert found is not None
+    if named == "true":
+        (tmp_path / "empty.c").write_text("")
+        assert build(found[0], (), tmp_path / "empty.c", tmp_path / "out.so") == "no library came of it"
+    else:
+        assert "CC=no-such-compiler is no compiler here" in capfd.readouterr().err
 
 
 @pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")

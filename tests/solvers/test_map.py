@@ -57,6 +57,14 @@ def test_the_grid(data):
     assert np.isnan(data.contact_time.values[sticks.values]).all()
 
 
+def test_the_grid_by_the_kernel(data):
+    """The kernel's answers lie in the cells of their coordinates, in whatever order it was asked for them."""
+    fast = regime_map("granulation", stokes=STOKES, angle=ANGLE, vary={"liquid.viscosity": [1.0, 2.0]}, engine="taylor")
+    np.testing.assert_array_equal(fast.outcome, data.outcome)
+    np.testing.assert_allclose(fast.restitution, data.restitution, rtol=1e-7)
+    assert len(np.unique(data.outcome)) > 1
+
+
 def test_coordinates(data):
     """Axes carry units; speed goes with the Stokes number, and Ce = m omega0^2/sigma is there with a bridge only."""
     assert data.angle.attrs["units"] == "rad"

@@ -95,3 +95,41 @@ def test_what_the_hold_does_not_prove(margin: str, stokes: float, angle: float, 
     if margin == "flight":
         assert met["hold"]
         assert met["rebound"]
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_first_touch_inside_the_solids_proves_nothing(engine: str) -> None:
+    """Soft spheres whose elastic length exceeds the rupture distance: reversed at first touch, and flung apart.
+
+    The bridge would hold them if they could not come nearer than that length; they are nearer already.
+    """
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 1.57499e-05,
+                "density": 593.912,
+                "roughness": 1.07868e-10,
+                "dry_restitution": 0.0147641,
+                "youngs_modulus": 341783.0,
+                "poisson_ratio": 0.155996,
+            },
+            "liquid": {"viscosity": 5.92857, "film_thickness": 5.48097e-07, "glass_transition_pressure": 62055.1},
+            "bridge": {"surface_tension": 0.638201, "volume": 0.00527027, "contact_angle": 0.897883, "law": "constant"},
+            "pendulum": {"length": 0.000103993, "gravity": 0.215366},
+            "model": {"tangential": "film"},
+        }
+    )
+    found = collide(scene, stokes=0.0469348, angle=0.586923, engine=engine, ledger=False)
+    assert (found.outcome, found.certified) == ("bounce", False)
+    # along the line of centres only the centrifugal force and the bridge's are left: no film beyond x0, no shear
+    assert found.restitution == pytest.approx(flung(scene, found.speed), rel=1e-6)
+
+
+def flung(scene: Scene, speed: float) -> float:
+    """u/v0 at rupture, from e_dry at x = x0 with J as it was there and the bridge's constant force."""
+    a, x0, end = scene.reduced_radius, scene.liquid.film_thickness, scene.rupture_gap
+    near, far = 4 * a + x0, 4 * a + end
+    momentum = near**2 * speed * math.tan(0.586923) / (4 * a)
+    work = 4 * math.pi * a * 0.638201 * math.cos(0.897883) * (end - x0) / scene.reduced_mass
+    squared = (0.0147641 * speed) ** 2 + momentum**2 * (1 / near**2 - 1 / far**2) - 2 * work
+    return math.sqrt(squared) / speed

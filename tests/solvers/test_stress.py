@@ -179,6 +179,50 @@ def test_a_weak_glass_within_rounding_of_first_touch(angle: float) -> None:
     assert found.restitution == pytest.approx(scene.particles.dry_restitution, rel=1e3 * RTOL)
 
 
+def test_strings_that_pull_far_harder_than_the_approach() -> None:
+    """Let go almost at rest, two spheres swing together in a quarter of the pendulum's period; the film takes little.
+
+    In x0/v0 that is 5e-7, and the strings pull with 1e13 m v0^2/x0.
+    """
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 0.00278663,
+                "density": 12787.3,
+                "roughness": 3.84872e-09,
+                "dry_restitution": 0.382608,
+            },
+            "liquid": {"viscosity": 5.81449e-05, "film_thickness": 0.00184799, "glass_transition_pressure": 67044200.0},
+            "pendulum": {"length": 10.2548, "gravity": 2.76018, "law": "small-angle"},
+            "model": {"arm": "surface"},
+        }
+    )
+    found = collide(scene, stokes=0.000165219, angle=0.175441, engine="rosenbrock")
+    first = found.events[0]
+    assert first.kind == "rough"
+    assert first.time == pytest.approx(math.pi / 2 * math.sqrt(10.2548 / 2.76018), rel=1e-3)
+
+
+def test_half_a_turn_is_not_lost_beside_a_minimum() -> None:
+    """At rest on each other on strings, turned by more than half a turn in one step: the flight ends at half a turn."""
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 1.43708e-06,
+                "density": 5703.26,
+                "roughness": 6.49216e-11,
+                "dry_restitution": 0.0240052,
+            },
+            "liquid": {"viscosity": 260.591, "film_thickness": 5.19487e-08, "glass_transition_pressure": 32925200.0},
+            "bridge": {"surface_tension": 0.326788, "volume": 0.000536649, "contact_angle": 1.23736, "law": "willett"},
+            "pendulum": {"length": 0.00351029, "gravity": 5.17709, "law": "small-angle"},
+        }
+    )
+    found = collide(scene, stokes=3.57656e-06, angle=1.54463, engine="rosenbrock")
+    assert found.outcome == "stick"
+    assert [event.kind for event in found.events][-2:] == ["rests", "half turn"]
+
+
 def test_a_flight_is_located_once_for_both_engines(monkeypatch: pytest.MonkeyPatch) -> None:
     """What the second engine is spared it is charged with, and its answer is that of `collide`."""
     flights = Flights()

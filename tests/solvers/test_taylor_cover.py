@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, emitted, many
+from wetdoublet.solvers import Scene, collide, collide_many, emitted, many, sensitivities
 from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.sensitivity.result import Sensitivities
 from wetdoublet.solvers.taylor import engine, headers, library
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
@@ -151,6 +152,49 @@ def test_a_users_model_has_its_kernel(thinning: Scene, derived: Path):
     assert thick == pytest.approx(plain, rel=30 * RTOL)
     assert thin > thick  # a film that thins takes less
     assert kept() == first
+
+
+def _differentiates(scene: Scene, of: list[str], stokes: float, angle: float) -> Sensitivities:
+    """The kernel's derivatives by all parameters, which are CasADi's to the tolerance."""
+    asked = {"of": of, "stokes": stokes, "angle": angle}
+    found = sensitivities(scene, **asked, rtol=RTOL, engine="taylor")
+    expected = sensitivities(scene, **asked, rtol=1e-10, engine="rosenbrock")
+    assert (found.engine, expected.engine) == ("taylor", "rosenbrock")
+    for name, row in expected.elasticity.items():
+        own, right = (np.array(list(each.values()), dtype=float) for each in (found.elasticity[name], row))
+        np.testing.assert_allclose(own, right, atol=100 * RTOL * np.nanmax(np.abs(right)), err_msg=name)
+        assert not (right[own != 0] == 0).any()  # what is small is not nothing
+    return found
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_wall_that_attracts_has_derivatives():
+    """By the Hamaker constant as well, whose part in it is some 1e-12."""
+    found = _differentiates(_scene("wall that attracts"), ["restitution", "final_spin"], 0.05, 0.8)
+    assert found.gradient["restitution"]["attraction.hamaker"] != 0
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_users_model_has_derivatives(thinning: Scene):
+    """By quantities of its own too, of a law that knows the velocity."""
+    found = _differentiates(thinning.with_entries({"bridge.law": "mikami"}), ["restitution", "final_spin"], 0.1, 0.8)
+    assert found.gradient["restitution"]["custom.thinning"] > 0  # a film that thins takes less
+
+
+def test_what_has_no_tangent_is_named(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    """A law whose slopes are not emitted: one line says why, once, and CasADi answers."""
+    texts = headers._texts
+    none = ["#error no slopes of it\n"]
+    monkeypatch.setattr(headers, "_texts", lambda choice, tangent: none if tangent else texts(choice, tangent))
+    headers.tangents.cache_clear()
+    headers._say.cache_clear()
+    try:
+        for stokes in (0.3, 0.4):
+            found = sensitivities(Scene.load("granulation"), stokes=stokes, angle=0.5, engine="taylor")
+            assert found.engine == "rosenbrock"
+    finally:
+        headers.tangents.cache_clear()
+    assert capsys.readouterr().err == "no derivatives by the Taylor kernel (no slopes of it): other engines answer\n"
 
 
 def test_what_has_no_recurrence_is_named(thinning: Scene, capfd: pytest.CaptureFixture[str]):

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
 from wetdoublet.solvers.cli import cli
 from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.numbers import si_values
 from wetdoublet.solvers.sensitivity import many
 from wetdoublet.solvers.sensitivity.choice import chosen
 from wetdoublet.solvers.sensitivity.kernel import KNOWN
@@ -99,6 +100,47 @@ def test_contact_by_differences() -> None:
         slope = (8 * (e_n[1] - e_n[2]) - (e_n[3] - e_n[4])) / (12e-4 * at)  # to fourth order: 1e-12 of it
         own = found.slopes[0, found.quantities.index(name), 0]
         assert own == pytest.approx(slope, rel=1e-7)
+
+
+def test_backward_is_forward() -> None:
+    """Taken back along the flight, derivatives of e_n by all quantities are those carried along it.
+
+    Both at 1e-12, where either is exact to some 1e-10 of the largest elasticity.
+    """
+    scene, count = Scene.load("pendulum"), 12
+    draw = np.random.default_rng(8)
+    speed = scene.speed_of(np.exp(draw.uniform(*np.log([1.3, 3.0]), count)))
+    impacts = Impacts(scene, speed, draw.uniform(0.1, 1.3, count), {})
+    forward, backward = (carried(impacts, True, 1e-12, True, order=10, backward=back) for back in (False, True))
+    assert forward is not None
+    assert backward is not None
+    np.testing.assert_array_equal(forward.answers["outcome"], backward.answers["outcome"])
+    separated = forward.answers["outcome"] > 0
+    assert separated.sum() >= 6
+    values = si_values(scene, None, None)
+    units = np.tile([values.get(quantity) or 0.0 for quantity in forward.quantities], (count, 1))
+    units[:, forward.quantities.index("speed")] = impacts.speed
+    units[:, forward.quantities.index("angle")] = impacts.angle
+    along, back = (each.slopes[separated, :, 0] * units[separated] for each in (forward, backward))
+    assert (np.abs(along - back).max(axis=1) < 1e-9 * np.abs(along).max(axis=1)).all()
+
+
+def test_many_are_taken_back() -> None:
+    """Of more than a hundred, e_n's derivatives are taken back: those carried along where other results are asked for.
+
+    Each is within 1e-6 of its largest elasticity; the same collisions are sticks, and the same are refused.
+    """
+    draw = np.random.default_rng(6)
+    stokes, angle = np.exp(draw.uniform(np.log(0.06), np.log(0.4), 120)), draw.uniform(0.5, 1.3, 120)
+    both = gradients_many("granulation", stokes=stokes, angle=angle, of=OF)
+    back = gradients_many("granulation", stokes=stokes, angle=angle)
+    np.testing.assert_array_equal(both.outcome, back.outcome)
+    np.testing.assert_array_equal(both.reason != "", back.reason != "")
+    along, own = (np.nan_to_num(each.elasticity.values[0]) for each in (both, back))
+    separated = both.outcome.values > 0
+    assert separated.sum() > 40
+    apart = np.abs(along - own).max(axis=1)[separated]
+    assert (apart < 1e-6 * np.abs(along).max(axis=1)[separated]).all()
 
 
 @settings(max_examples=25, deadline=None)

@@ -30,16 +30,16 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 0, 0, 0, 0 };
 
 typedef struct {
-    vec opening_by_gap_factor;
-    vec opening_by_stokes_per_film_force;
+    vec film_force_by_gap_factor;
+    vec opening_by_opening_per_film_resistance_law;
     film_resistance_slope_constants film_resistance_law;
 } slope_constants;
 
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
-    c->opening_by_gap_factor = -1.0/v->stokes;
-    c->opening_by_stokes_per_film_force = 1.0/v->stokes;
+    c->film_force_by_gap_factor = 1.0/v->stokes;
+    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
     film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
 }
 
@@ -55,14 +55,17 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     *of, const constants *v, vec film, vec shear, unsigned asked)
 {
     film_resistance_slopes film_resistance_law;
+    vec film_force_by_gap[TERMS];
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
-    EACH_TERM(s->opening_by_gap[k] = film*c->opening_by_gap_factor*product(film_resistance_law.by_gap,
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
         of->opening, k);)
-    EACH_TERM(s->opening_by_opening[k] = film*c->opening_by_gap_factor*of->film_resistance_law.result[k];)
+    EACH_TERM(s->opening_by_gap[k] = -film_force_by_gap[k];)
+    EACH_TERM(s->opening_by_opening[k] =
+        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];)
+        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
     }
 }
 
@@ -75,6 +78,23 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
     t[GAP][k + 1] = (t[OPENING][k])*next;
     t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
         + source[OPENING][k])*next;
+}
+
+/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
+ * `after` over that number; what the sum gives is there. */
+INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
+    slope_constants *c, const constants *v, vec film, vec shear, int k)
+{
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k);
+    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+}
+
+/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return film*of->film_resistance_law.result[0]/v->stokes;
 }
 
 /* What drives the derivatives by a group, where it is not zero. */

@@ -40,12 +40,11 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 };
 
 typedef struct {
+    vec film_force_by_gap_factor;
     vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
-    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
-    vec opening_by_stokes_per_bridge_force;
-    vec opening_by_aspect_factor;
+    vec opening_by_opening_per_film_resistance_law;
+    vec opening_by_aspect_per_bridge_force_by_aspect;
     vec opening_by_capillary_per_bridge_force;
-    vec opening_by_volume_per_bridge_force_law_by_volume;
     film_resistance_slope_constants film_resistance_law;
     bridge_force_slope_constants bridge_force_law;
 } slope_constants;
@@ -53,12 +52,11 @@ typedef struct {
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
+    c->film_force_by_gap_factor = 1.0/v->stokes;
     c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
-    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
-    c->opening_by_stokes_per_bridge_force = 1.0/v->stokes;
-    c->opening_by_aspect_factor = -0.5/(v->capillary*v->stokes);
+    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
+    c->opening_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
     c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
-    c->opening_by_volume_per_bridge_force_law_by_volume = -1.0/(v->capillary*v->stokes);
     film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
     bridge_force_slope_prepare(&c->bridge_force_law, &v->bridge_force_law);
 }
@@ -80,36 +78,39 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 {
     film_resistance_slopes film_resistance_law;
     bridge_force_slopes bridge_force_law;
-    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec film_force_by_gap[TERMS];
+    vec bridge_force_by_aspect[TERMS];
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
     bridge_force_slopes_of(&bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
         &v->bridge_force_law, of->scaled_gap);
-    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->opening, k);)
     EACH_TERM(s->opening_by_gap[k] =
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] +
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k];)
+        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] -
+        film_force_by_gap[k];)
     EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
+        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
         EACH_TERM(s->opening_by_aspect[k] =
-        c->opening_by_aspect_factor*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
+        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k];)
     }
     if (asked & (1u << BY_CAPILLARY)) {
         EACH_TERM(s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];)
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
         EACH_TERM(s->opening_by_contact_angle[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_contact_angle[k];)
+        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
-        c->opening_by_stokes_per_bridge_force*of->film_force[k];)
+        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
+        c->film_force_by_gap_factor*of->film_force[k];)
     }
     if (asked & (1u << BY_VOLUME)) {
         EACH_TERM(s->opening_by_volume[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_volume[k];)
+        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
     }
 }
 
@@ -122,6 +123,23 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
     t[GAP][k + 1] = (t[OPENING][k])*next;
     t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
         + source[OPENING][k])*next;
+}
+
+/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
+ * `after` over that number; what the sum gives is there. */
+INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
+    slope_constants *c, const constants *v, vec film, vec shear, int k)
+{
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k);
+    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+}
+
+/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return film*of->film_resistance_law.result[0]/v->stokes;
 }
 
 /* What drives the derivatives by a group, where it is not zero. */

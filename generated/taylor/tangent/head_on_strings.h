@@ -19,7 +19,7 @@
  *
  * Law slots: film, glass, strings.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 5 and those of the laws, then 2 a
+ * Its tangent: derivatives of the states by the groups. Products of series: 4 and those of the laws, then 2 a
  * direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
@@ -36,14 +36,13 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 0, 0, 0, 0 };
 
 typedef struct {
+    vec film_force_by_gap_factor;
     vec string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
     vec string_pull_by_gap_per_strings_stiffness_law;
-    vec string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared;
+    vec strings_stiffness_by_aspect_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
     vec string_pull_by_aspect_per_string_pull;
-    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
-    vec opening_by_stokes_per_film_force;
+    vec opening_by_opening_per_film_resistance_law;
     vec opening_by_weight_per_string_pull;
-    vec opening_by_string_ratio_factor;
     film_resistance_slope_constants film_resistance_law;
     strings_stiffness_slope_constants strings_stiffness_law;
 } slope_constants;
@@ -51,16 +50,15 @@ typedef struct {
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
+    c->film_force_by_gap_factor = 1.0/v->stokes;
     c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared =
         2.0*v->aspect*v->weight;
     c->string_pull_by_gap_per_strings_stiffness_law = v->aspect*v->weight;
-    c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared =
-        2.0*v->weight;
+    c->strings_stiffness_by_aspect_per_offset_squared_by_strings_stiffness_law_by_offset_squared =
+        2.0/v->aspect;
     c->string_pull_by_aspect_per_string_pull = 1.0/v->aspect;
-    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
-    c->opening_by_stokes_per_film_force = 1.0/v->stokes;
+    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
     c->opening_by_weight_per_string_pull = -1.0/v->weight;
-    c->opening_by_string_ratio_factor = -v->aspect*v->weight;
     film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
     strings_stiffness_slope_prepare(&c->strings_stiffness_law, &v->strings_stiffness_law);
 }
@@ -81,43 +79,45 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 {
     film_resistance_slopes film_resistance_law;
     strings_stiffness_slopes strings_stiffness_law;
+    vec film_force_by_gap[TERMS];
     vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
     vec string_pull_by_gap[TERMS];
-    vec gap_by_offset_squared[TERMS];
-    vec gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
+    vec strings_stiffness_by_aspect[TERMS];
+    vec gap_by_strings_stiffness_by_aspect[TERMS];
     vec string_pull_by_aspect[TERMS];
-    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec string_pull_by_string_ratio[TERMS];
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
     strings_stiffness_slopes_of(&strings_stiffness_law, &c->strings_stiffness_law, &of->strings_stiffness_law,
         &v->strings_stiffness_law, of->offset_squared);
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->opening, k);)
     EACH_TERM(offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
         strings_stiffness_law.by_offset_squared, k);)
     EACH_TERM(string_pull_by_gap[k] =
         c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*offset_squared_by_strings_stiffness_law_by_offset_squared[k]
         + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];)
-    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
-    EACH_TERM(s->opening_by_gap[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k]
-        - string_pull_by_gap[k];)
+    EACH_TERM(s->opening_by_gap[k] = -film_force_by_gap[k] - string_pull_by_gap[k];)
     EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
+        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(gap_by_offset_squared[k] = product(of->gap, of->offset_squared, k);)
-        EACH_TERM(gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, gap_by_offset_squared, k);)
+        EACH_TERM(strings_stiffness_by_aspect[k] =
+        c->strings_stiffness_by_aspect_per_offset_squared_by_strings_stiffness_law_by_offset_squared*offset_squared_by_strings_stiffness_law_by_offset_squared[k];)
+        EACH_TERM(gap_by_strings_stiffness_by_aspect[k] = product(of->gap, strings_stiffness_by_aspect, k);)
         EACH_TERM(string_pull_by_aspect[k] =
-        c->string_pull_by_aspect_per_gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared*gap_by_offset_squared_by_strings_stiffness_law_by_offset_squared[k]
-        + c->string_pull_by_aspect_per_string_pull*of->string_pull[k];)
+        c->string_pull_by_gap_per_strings_stiffness_law*gap_by_strings_stiffness_by_aspect[k] +
+        c->string_pull_by_aspect_per_string_pull*of->string_pull[k];)
         EACH_TERM(s->opening_by_aspect[k] = -string_pull_by_aspect[k];)
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];)
+        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
-        EACH_TERM(s->opening_by_string_ratio[k] = c->opening_by_string_ratio_factor*product(of->gap,
+        EACH_TERM(string_pull_by_string_ratio[k] =
+        c->string_pull_by_gap_per_strings_stiffness_law*product(of->gap,
         strings_stiffness_law.by_string_ratio, k);)
+        EACH_TERM(s->opening_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
     }
     if (asked & (1u << BY_WEIGHT)) {
         EACH_TERM(s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];)
@@ -133,6 +133,23 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
     t[GAP][k + 1] = (t[OPENING][k])*next;
     t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
         + source[OPENING][k])*next;
+}
+
+/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
+ * `after` over that number; what the sum gives is there. */
+INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
+    slope_constants *c, const constants *v, vec film, vec shear, int k)
+{
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k);
+    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+}
+
+/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return film*of->film_resistance_law.result[0]/v->stokes;
 }
 
 /* What drives the derivatives by a group, where it is not zero. */

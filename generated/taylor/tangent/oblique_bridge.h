@@ -44,20 +44,19 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 };
 
 typedef struct {
+    vec film_force_by_gap_factor;
     vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_centrifugal_force;
+    vec centrifugal_force_by_obliquity_per_centrifugal_force;
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec opening_by_gap_per_orbital_rate_squared;
     vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
-    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
+    vec opening_by_opening_per_film_resistance_law;
     vec opening_by_orbit_per_orbital_rate_over_distance;
-    vec opening_by_stokes_per_bridge_force;
-    vec opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap;
-    vec opening_by_obliquity_per_centrifugal_force;
+    vec opening_by_aspect_per_bridge_force_by_aspect;
     vec opening_by_capillary_per_bridge_force;
-    vec opening_by_volume_per_bridge_force_law_by_volume;
     vec orbit_by_gap_per_shear_force;
     vec orbit_by_orbit_per_shear_log_factor_law_over_distance;
     vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
@@ -77,9 +76,11 @@ typedef struct {
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
+    c->film_force_by_gap_factor = 1.0/v->stokes;
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
         -0.1875*v->aspect*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
+    c->centrifugal_force_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
     c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
@@ -87,13 +88,10 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
         -2.6666666666666665*v->aspect/v->stokes;
     c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
-    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
+    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
     c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
-    c->opening_by_stokes_per_bridge_force = 1.0/v->stokes;
-    c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap = -0.5/(v->capillary*v->stokes);
-    c->opening_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
+    c->opening_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
     c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
-    c->opening_by_volume_per_bridge_force_law_by_volume = -1.0/(v->capillary*v->stokes);
     c->orbit_by_gap_per_shear_force = -v->aspect;
     c->orbit_by_orbit_per_shear_log_factor_law_over_distance = -1.3333333333333333*v->aspect/v->stokes;
     c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
@@ -113,12 +111,12 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
+    vec centrifugal_force_by_obliquity[TERMS];
     vec opening_by_gap[TERMS];
     vec opening_by_opening[TERMS];
     vec opening_by_orbit[TERMS];
     vec opening_by_stokes[TERMS];
     vec opening_by_aspect[TERMS];
-    vec opening_by_obliquity[TERMS];
     vec opening_by_capillary[TERMS];
     vec opening_by_volume[TERMS];
     vec opening_by_contact_angle[TERMS];
@@ -146,6 +144,8 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     film_resistance_slopes film_resistance_law;
     bridge_force_slopes bridge_force_law;
     arm_lever_slopes arm_lever_law;
+    vec film_force_by_gap[TERMS];
+    vec bridge_force_by_aspect[TERMS];
     vec gap_by_orbital_rate_squared[TERMS];
     vec centrifugal_force_by_aspect[TERMS];
     vec orbital_rate_by_shear_log_factor_law[TERMS];
@@ -159,10 +159,9 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     vec gap_by_orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_aspect[TERMS];
-    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec arm_lever_by_aspect[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec bridge_force_law_by_gap_over_radius_by_gap[TERMS];
     vec distance_by_shear_force_by_gap[TERMS];
     vec shear_log_factor_law_over_distance[TERMS];
     vec over_shear_log_factor_law_over_distance;
@@ -173,8 +172,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     vec arm_lever_law_by_shear_log_factor_law[TERMS];
     vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
     vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec arm_lever_law_by_distance_by_gap[TERMS];
-    vec arm_lever_law_by_distance_by_gap_by_shear_force[TERMS];
+    vec arm_lever_by_aspect_by_shear_force[TERMS];
     vec arm_lever_law_by_shear_force_by_aspect[TERMS];
     vec inverse_distance_squared[TERMS];
     vec gap_by_orbital_rate_over_distance[TERMS];
@@ -188,6 +186,8 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         &v->bridge_force_law, of->scaled_gap);
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->opening, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
         of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -199,12 +199,11 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
     EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] +
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k];)
+        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] -
+        film_force_by_gap[k];)
     EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
+        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
     EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
         orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
     EACH_TERM(s->opening_by_orbit[k] =
@@ -246,6 +245,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         c->turned_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
 #endif
     if (asked & (1u << BY_ASPECT)) {
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
         EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
         EACH_TERM(centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
@@ -264,20 +264,17 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
-        EACH_TERM(bridge_force_law_by_gap_over_radius_by_gap[k] = product(bridge_force_law.by_gap_over_radius,
-        of->gap, k);)
+        EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
         EACH_TERM(s->opening_by_aspect[k] =
-        c->opening_by_aspect_per_bridge_force_law_by_gap_over_radius_by_gap*bridge_force_law_by_gap_over_radius_by_gap[k]
-        + centrifugal_force_by_aspect[k];)
+        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
+        centrifugal_force_by_aspect[k];)
         EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
         EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
         EACH_TERM(s->orbit_by_aspect[k] = -distance_by_shear_force_by_aspect[k] - gap_by_shear_force[k];)
-        EACH_TERM(arm_lever_law_by_distance_by_gap[k] = product(arm_lever_law.by_distance, of->gap, k);)
-        EACH_TERM(arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
-        arm_lever_law_by_distance_by_gap, k);)
+        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
         EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
         shear_force_by_aspect, k);)
-        EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_law_by_distance_by_gap_by_shear_force[k] +
+        EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_by_aspect_by_shear_force[k] +
         0.3125*arm_lever_law_by_shear_force_by_aspect[k];)
         EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
         gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
@@ -292,26 +289,24 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
         EACH_TERM(s->opening_by_contact_angle[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_contact_angle[k];)
+        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
-        EACH_TERM(s->opening_by_obliquity[k] =
-        c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
+        EACH_TERM(s->centrifugal_force_by_obliquity[k] =
+        c->centrifugal_force_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
 #if TURNING_STATE
         EACH_TERM(s->turned_by_obliquity[k] = c->turned_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
 #endif
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_bridge_force*of->bridge_force[k] +
-        c->opening_by_stokes_per_bridge_force*of->film_force[k];)
-        EACH_TERM(s->orbit_by_stokes[k] =
-        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_orbit[k];)
-        EACH_TERM(s->spin_by_stokes[k] =
-        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];)
+        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
+        c->film_force_by_gap_factor*of->film_force[k];)
+        EACH_TERM(s->orbit_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_orbit[k];)
+        EACH_TERM(s->spin_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_VOLUME)) {
         EACH_TERM(s->opening_by_volume[k] =
-        c->opening_by_volume_per_bridge_force_law_by_volume*bridge_force_law.by_volume[k];)
+        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
     }
 }
 
@@ -334,6 +329,35 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 #endif
 }
 
+/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
+ * `after` over that number; what the sum gives is there. */
+INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
+    slope_constants *c, const constants *v, vec film, vec shear, int k)
+{
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k) + correlated(s->orbit_by_gap, after[ORBIT],
+        k) + correlated(s->spin_by_gap, after[SPIN], k);
+#if TURNING_STATE
+    w[GAP][k] += correlated(s->turned_by_gap, after[TURNED], k);
+#endif
+    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+    w[ORBIT][k] += correlated(s->opening_by_orbit, after[OPENING], k) + correlated(s->orbit_by_orbit,
+        after[ORBIT], k) + correlated(s->spin_by_orbit, after[SPIN], k);
+#if TURNING_STATE
+    w[ORBIT][k] += correlated(s->turned_by_orbit, after[TURNED], k);
+#endif
+    w[SPIN][k] += correlated(s->orbit_by_spin, after[ORBIT], k) + correlated(s->spin_by_spin, after[SPIN], k);
+}
+
+/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return (0.4166666666666667*of->arm_lever_law.result[0]*v->aspect*shear*of->shear_log_factor_law.result[0]
+        + 1.3333333333333333*v->aspect*shear*of->shear_log_factor_law.result[0]/of->distance[0] +
+        film*of->film_resistance_law.result[0])/v->stokes;
+}
+
 /* What drives the derivatives by a group, where it is not zero. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
@@ -353,7 +377,7 @@ static inline void sources(const slopes *s, const series *of, int group, const v
 #endif
         break;
     case BY_OBLIQUITY:
-        source[OPENING] = s->opening_by_obliquity;
+        source[OPENING] = s->centrifugal_force_by_obliquity;
 #if TURNING_STATE
         source[TURNED] = s->turned_by_obliquity;
 #endif

@@ -23,7 +23,7 @@
  *
  * Law slots: film, glass, shear, arm, strings.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 66 and those of the laws, then 13
+ * Its tangent: derivatives of the states by the groups. Products of series: 51 and those of the laws, then 13
  * a direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
@@ -41,30 +41,26 @@ const char group_names[] =
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 0, 0, 0, 0 };
 
 typedef struct {
+    vec film_force_by_gap_factor;
     vec offset_squared_by_gap_per_gap;
     vec offset_squared_by_gap_per_sine_of_scaled_rotation_squared;
-    vec string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared;
-    vec string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared;
-    vec string_pull_by_rotation_per_distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation;
-    vec string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation;
+    vec combination_3_per_gap;
+    vec combination_3_per_sine_of_scaled_rotation_squared;
     vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_centrifugal_force;
     vec offset_squared_by_aspect_per_gap_squared;
+    vec centrifugal_force_by_obliquity_per_centrifugal_force;
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
-    vec string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation;
-    vec string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation;
+    vec string_sideways_by_gap_factor;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec string_sideways_by_obliquity_factor;
     vec opening_by_gap_per_orbital_rate_squared;
-    vec opening_by_gap_per_film_resistance_law_by_gap_by_opening;
+    vec opening_by_opening_per_film_resistance_law;
     vec opening_by_orbit_per_orbital_rate_over_distance;
-    vec opening_by_stokes_per_film_force;
-    vec opening_by_obliquity_per_centrifugal_force;
     vec opening_by_weight_per_string_pull;
     vec orbit_by_gap_per_shear_force;
-    vec orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation;
     vec orbit_by_orbit_per_shear_log_factor_law_over_distance;
-    vec orbit_by_obliquity_factor;
     vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
     vec spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
     vec spin_by_spin_per_arm_lever_law_by_shear_log_factor_law;
@@ -82,40 +78,29 @@ typedef struct {
 /* What the slopes need once a collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
+    c->film_force_by_gap_factor = 1.0/v->stokes;
     c->offset_squared_by_gap_per_gap = 0.5*(v->aspect*v->aspect);
     c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared = 4.0*v->aspect;
-    c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared =
-        v->aspect*v->weight;
-    c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared
-        = 8.0*v->weight;
-    c->string_pull_by_rotation_per_distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation
-        = 4.0*v->aspect*v->weight;
-    c->string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation
-        = 32.0*v->weight;
+    c->combination_3_per_gap = v->aspect*v->weight;
+    c->combination_3_per_sine_of_scaled_rotation_squared = 8.0*v->weight;
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
         -0.1875*v->aspect*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
     c->offset_squared_by_aspect_per_gap_squared = 0.5*v->aspect;
+    c->centrifugal_force_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
     c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
-    c->string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation
-        = 64.0*v->weight/v->obliquity;
-    c->string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation =
-        16.0*v->weight/v->obliquity;
+    c->string_sideways_by_gap_factor = 16.0*v->weight/v->obliquity;
     c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*v->aspect/v->stokes;
+    c->string_sideways_by_obliquity_factor = -16.0*v->weight/(v->obliquity*v->obliquity);
     c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
-    c->opening_by_gap_per_film_resistance_law_by_gap_by_opening = -1.0/v->stokes;
+    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
     c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
-    c->opening_by_stokes_per_film_force = 1.0/v->stokes;
-    c->opening_by_obliquity_per_centrifugal_force = 2.0/v->obliquity;
     c->opening_by_weight_per_string_pull = -1.0/v->weight;
     c->orbit_by_gap_per_shear_force = -v->aspect;
-    c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation
-        = -16.0*v->weight/v->obliquity;
     c->orbit_by_orbit_per_shear_log_factor_law_over_distance = -1.3333333333333333*v->aspect/v->stokes;
-    c->orbit_by_obliquity_factor = 16.0*v->weight/(v->obliquity*v->obliquity);
     c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
     c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
         0.4166666666666667*v->aspect/v->stokes;
@@ -133,13 +118,13 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
+    vec centrifugal_force_by_obliquity[TERMS];
     vec opening_by_gap[TERMS];
     vec opening_by_opening[TERMS];
     vec opening_by_orbit[TERMS];
     vec opening_by_rotation[TERMS];
     vec opening_by_stokes[TERMS];
     vec opening_by_aspect[TERMS];
-    vec opening_by_obliquity[TERMS];
     vec opening_by_weight[TERMS];
     vec opening_by_string_ratio[TERMS];
     vec orbit_by_gap[TERMS];
@@ -170,24 +155,16 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     film_resistance_slopes film_resistance_law;
     strings_stiffness_slopes strings_stiffness_law;
     arm_lever_slopes arm_lever_law;
+    vec film_force_by_gap[TERMS];
     vec offset_squared_by_gap[TERMS];
-    vec gap_by_offset_squared_by_gap[TERMS];
-    vec gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec
-        offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[TERMS];
+    vec strings_stiffness_by_gap[TERMS];
+    vec combination_3[TERMS];
+    vec strings_stiffness_by_gap_by_combination_3[TERMS];
     vec string_pull_by_gap[TERMS];
-    vec distance_by_gap[TERMS];
-    vec distance_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[TERMS];
-    vec
-        distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
-    vec sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[TERMS];
-    vec distance_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[TERMS];
-    vec
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec distance_by_sine_of_scaled_rotation[TERMS];
+    vec offset_squared_by_rotation[TERMS];
+    vec strings_stiffness_by_rotation[TERMS];
+    vec strings_stiffness_by_rotation_by_combination_3[TERMS];
     vec strings_stiffness_law_by_sine_of_scaled_rotation[TERMS];
     vec strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_pull_by_rotation[TERMS];
@@ -195,26 +172,19 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     vec centrifugal_force_by_aspect[TERMS];
     vec gap_by_sine_of_scaled_rotation_squared[TERMS];
     vec offset_squared_by_aspect[TERMS];
-    vec gap_by_offset_squared_by_aspect[TERMS];
-    vec gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec gap_by_strings_stiffness_law[TERMS];
-    vec offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec
-        offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[TERMS];
+    vec strings_stiffness_by_aspect[TERMS];
+    vec combination_4[TERMS];
+    vec gap_by_combination_4[TERMS];
+    vec strings_stiffness_by_aspect_by_sine_of_scaled_rotation_squared[TERMS];
     vec string_pull_by_aspect[TERMS];
-    vec gap_by_strings_stiffness_law_by_string_ratio[TERMS];
-    vec strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[TERMS];
     vec string_pull_by_string_ratio[TERMS];
     vec orbital_rate_by_shear_log_factor_law[TERMS];
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
     vec shear_force_by_gap[TERMS];
-    vec distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[TERMS];
-    vec
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
-    vec
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec string_sideways_by_gap[TERMS];
+    vec strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec sine_of_rotation[TERMS], slope_of_rotation[TERMS];
     vec cosine_of_rotation[TERMS];
     vec strings_stiffness_law_by_cosine_of_rotation[TERMS];
@@ -225,32 +195,26 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     vec gap_by_orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_aspect[TERMS];
-    vec film_resistance_law_by_gap_by_opening[TERMS];
+    vec string_sideways_by_aspect[TERMS];
+    vec string_sideways_by_obliquity[TERMS];
+    vec string_sideways_by_string_ratio[TERMS];
+    vec arm_lever_by_aspect[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec distance_by_shear_force_by_gap[TERMS];
-    vec distance_by_offset_squared_by_gap[TERMS];
-    vec distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec
-        distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[TERMS];
+    vec combination_5[TERMS];
+    vec distance_by_combination_5[TERMS];
     vec shear_log_factor_law_over_distance[TERMS];
     vec over_shear_log_factor_law_over_distance;
-    vec distance_by_shear_force_by_aspect[TERMS];
-    vec distance_by_offset_squared_by_aspect[TERMS];
-    vec distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec
-        distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[TERMS];
+    vec combination_6[TERMS];
+    vec distance_by_combination_6[TERMS];
     vec gap_by_shear_force[TERMS];
     vec gap_by_string_sideways[TERMS];
-    vec distance_by_strings_stiffness_law[TERMS];
-    vec distance_by_strings_stiffness_law_by_string_ratio[TERMS];
     vec arm_lever_law_by_distance_by_shear_force[TERMS];
     vec arm_lever_law_by_shear_force_by_gap[TERMS];
     vec arm_lever_law_by_shear_log_factor_law[TERMS];
     vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
     vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec arm_lever_law_by_distance_by_gap[TERMS];
-    vec arm_lever_law_by_distance_by_gap_by_shear_force[TERMS];
+    vec arm_lever_by_aspect_by_shear_force[TERMS];
     vec arm_lever_law_by_shear_force_by_aspect[TERMS];
     vec inverse_distance_squared[TERMS];
     vec gap_by_orbital_rate_over_distance[TERMS];
@@ -264,51 +228,31 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         &v->strings_stiffness_law, of->offset_squared);
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->opening, k);)
     EACH_TERM(offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
         c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];)
-    EACH_TERM(gap_by_offset_squared_by_gap[k] = product(of->gap, offset_squared_by_gap, k);)
-    EACH_TERM(gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, gap_by_offset_squared_by_gap, k);)
-    EACH_TERM(offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, offset_squared_by_gap, k);)
-    EACH_TERM(offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
-        = product(of->sine_of_scaled_rotation_squared,
-        offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);)
-    EACH_TERM(string_pull_by_gap[k] =
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k]
-        +
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*of->strings_stiffness_law.result[k]
-        +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];)
-    EACH_TERM(distance_by_gap[k] = product(of->distance, of->gap, k);)
-    EACH_TERM(distance_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, distance_by_gap, k);)
-    EACH_TERM(distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation, distance_by_gap_by_strings_stiffness_law_by_offset_squared, k);)
-    EACH_TERM(distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        = product(of->cosine_of_scaled_rotation,
-        distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);)
-    EACH_TERM(sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation_squared, of->sine_of_scaled_rotation, k);)
-    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared[k] = product(of->distance,
-        strings_stiffness_law.by_offset_squared, k);)
-    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation[k]
-        = product(sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
-        distance_by_strings_stiffness_law_by_offset_squared, k);)
-    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        = product(of->cosine_of_scaled_rotation,
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation,
+    EACH_TERM(strings_stiffness_by_gap[k] = product(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_gap, k);)
+    EACH_TERM(combination_3[k] = c->combination_3_per_gap*of->gap[k] +
+        c->combination_3_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];)
+    EACH_TERM(strings_stiffness_by_gap_by_combination_3[k] = product(strings_stiffness_by_gap, combination_3,
         k);)
+    EACH_TERM(string_pull_by_gap[k] = c->combination_3_per_gap*of->strings_stiffness_law.result[k] +
+        strings_stiffness_by_gap_by_combination_3[k];)
+    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product(of->distance, of->sine_of_scaled_rotation, k);)
+    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product(of->cosine_of_scaled_rotation,
+        distance_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(strings_stiffness_by_rotation[k] = product(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_rotation, k);)
+    EACH_TERM(strings_stiffness_by_rotation_by_combination_3[k] = product(combination_3,
+        strings_stiffness_by_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
         of->sine_of_scaled_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
         product(of->cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation, k);)
-    EACH_TERM(string_pull_by_rotation[k] =
-        c->string_pull_by_rotation_per_distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*distance_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        +
-        c->string_pull_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation*distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
+    EACH_TERM(string_pull_by_rotation[k] = strings_stiffness_by_rotation_by_combination_3[k] +
+        c->combination_3_per_sine_of_scaled_rotation_squared*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
     EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
         of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -320,45 +264,31 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation, distance_by_strings_stiffness_law_by_offset_squared, k);)
-    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        = product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation, k);)
-    EACH_TERM(distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        = product(of->cosine_of_scaled_rotation,
-        distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
-        k);)
+    EACH_TERM(string_sideways_by_gap[k] =
+        c->string_sideways_by_gap_factor*product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
+        strings_stiffness_by_gap, k);)
+    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
+        product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, strings_stiffness_by_rotation, k);)
     EACH_TERM(circular(of->rotation, slope_of_rotation, sine_of_rotation, cosine_of_rotation, k);)
     /* cosine_of_rotation comes with its sine */
     EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
         cosine_of_rotation, k);)
     EACH_TERM(string_sideways_by_rotation[k] =
-        c->string_sideways_by_rotation_per_distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation*distance_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        +
-        c->string_sideways_by_rotation_per_strings_stiffness_law_by_cosine_of_rotation*strings_stiffness_law_by_cosine_of_rotation[k];)
-    EACH_TERM(film_resistance_law_by_gap_by_opening[k] = product(film_resistance_law.by_gap, of->opening, k);)
-    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*film_resistance_law_by_gap_by_opening[k]
-        - string_pull_by_gap[k];)
+        c->string_sideways_by_gap_factor*strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
+        + c->string_sideways_by_gap_factor*strings_stiffness_law_by_cosine_of_rotation[k];)
+    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] -
+        film_force_by_gap[k] - string_pull_by_gap[k];)
     EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->film_resistance_law.result[k];)
+        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
     EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
         orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
     EACH_TERM(s->opening_by_orbit[k] =
         c->opening_by_orbit_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(s->opening_by_rotation[k] = -string_pull_by_rotation[k];)
-    EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
-    EACH_TERM(distance_by_offset_squared_by_gap[k] = product(of->distance, offset_squared_by_gap, k);)
-    EACH_TERM(distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, distance_by_offset_squared_by_gap, k);)
-    EACH_TERM(distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        = product(sine_of_rotation,
-        distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(combination_5[k] = -shear_force_by_gap[k] - string_sideways_by_gap[k];)
+    EACH_TERM(distance_by_combination_5[k] = product(of->distance, combination_5, k);)
     EACH_TERM(s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] +
-        c->orbit_by_gap_per_shear_force*of->string_sideways[k] +
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        - distance_by_shear_force_by_gap[k];)
+        c->orbit_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_5[k];)
     EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
         shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
     EACH_TERM(s->orbit_by_orbit[k] =
@@ -398,19 +328,15 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         of->sine_of_scaled_rotation_squared, k);)
         EACH_TERM(offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k]
         + 4.0*gap_by_sine_of_scaled_rotation_squared[k];)
-        EACH_TERM(gap_by_offset_squared_by_aspect[k] = product(of->gap, offset_squared_by_aspect, k);)
-        EACH_TERM(gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, gap_by_offset_squared_by_aspect, k);)
-        EACH_TERM(gap_by_strings_stiffness_law[k] = product(of->gap, of->strings_stiffness_law.result, k);)
-        EACH_TERM(offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, offset_squared_by_aspect, k);)
-    EACH_TERM(offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k]
-        = product(of->sine_of_scaled_rotation_squared,
-        offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);)
-        EACH_TERM(string_pull_by_aspect[k] =
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*gap_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k]
-        + v->weight*gap_by_strings_stiffness_law[k] +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared[k];)
+        EACH_TERM(strings_stiffness_by_aspect[k] = product(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_aspect, k);)
+        EACH_TERM(combination_4[k] = c->combination_3_per_gap*strings_stiffness_by_aspect[k] +
+        v->weight*of->strings_stiffness_law.result[k];)
+        EACH_TERM(gap_by_combination_4[k] = product(of->gap, combination_4, k);)
+        EACH_TERM(strings_stiffness_by_aspect_by_sine_of_scaled_rotation_squared[k] =
+        product(of->sine_of_scaled_rotation_squared, strings_stiffness_by_aspect, k);)
+        EACH_TERM(string_pull_by_aspect[k] = gap_by_combination_4[k] +
+        c->combination_3_per_sine_of_scaled_rotation_squared*strings_stiffness_by_aspect_by_sine_of_scaled_rotation_squared[k];)
         EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
         of->slip, k);)
         EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
@@ -425,26 +351,20 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
+        EACH_TERM(string_sideways_by_aspect[k] =
+        c->string_sideways_by_gap_factor*product(strings_stiffness_by_aspect, sine_of_rotation, k);)
+        EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
         EACH_TERM(s->opening_by_aspect[k] = centrifugal_force_by_aspect[k] - string_pull_by_aspect[k];)
-        EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
-        EACH_TERM(distance_by_offset_squared_by_aspect[k] = product(of->distance, offset_squared_by_aspect,
-        k);)
-        EACH_TERM(distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared[k] =
-        product(strings_stiffness_law.by_offset_squared, distance_by_offset_squared_by_aspect, k);)
-    EACH_TERM(distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        = product(sine_of_rotation,
-        distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared, k);)
+        EACH_TERM(combination_6[k] = -shear_force_by_aspect[k] - string_sideways_by_aspect[k];)
+        EACH_TERM(distance_by_combination_6[k] = product(of->distance, combination_6, k);)
         EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
         EACH_TERM(gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);)
-        EACH_TERM(s->orbit_by_aspect[k] =
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*distance_by_offset_squared_by_aspect_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation[k]
-        - distance_by_shear_force_by_aspect[k] - gap_by_shear_force[k] - gap_by_string_sideways[k];)
-        EACH_TERM(arm_lever_law_by_distance_by_gap[k] = product(arm_lever_law.by_distance, of->gap, k);)
-        EACH_TERM(arm_lever_law_by_distance_by_gap_by_shear_force[k] = product(of->shear_force,
-        arm_lever_law_by_distance_by_gap, k);)
+        EACH_TERM(s->orbit_by_aspect[k] = distance_by_combination_6[k] - gap_by_shear_force[k] -
+        gap_by_string_sideways[k];)
+        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
         EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
         shear_force_by_aspect, k);)
-        EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_law_by_distance_by_gap_by_shear_force[k] +
+        EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_by_aspect_by_shear_force[k] +
         0.3125*arm_lever_law_by_shear_force_by_aspect[k];)
         EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
         gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
@@ -453,37 +373,28 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         c->rotation_by_aspect_per_orbital_rate*of->orbital_rate[k];)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
-        EACH_TERM(s->opening_by_obliquity[k] =
-        c->opening_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
-        EACH_TERM(distance_by_strings_stiffness_law[k] = product(of->distance,
-        of->strings_stiffness_law.result, k);)
-        EACH_TERM(s->orbit_by_obliquity[k] = c->orbit_by_obliquity_factor*product(sine_of_rotation,
-        distance_by_strings_stiffness_law, k);)
+        EACH_TERM(s->centrifugal_force_by_obliquity[k] =
+        c->centrifugal_force_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
+        EACH_TERM(string_sideways_by_obliquity[k] =
+        c->string_sideways_by_obliquity_factor*product(of->strings_stiffness_law.result, sine_of_rotation,
+        k);)
+        EACH_TERM(s->orbit_by_obliquity[k] = -product(of->distance, string_sideways_by_obliquity, k);)
         EACH_TERM(s->rotation_by_obliquity[k] =
         c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->opening_by_stokes_per_film_force*of->film_force[k];)
-        EACH_TERM(s->orbit_by_stokes[k] = c->opening_by_stokes_per_film_force*product(of->distance,
-        of->shear_force, k);)
-        EACH_TERM(s->spin_by_stokes[k] =
-        c->opening_by_gap_per_film_resistance_law_by_gap_by_opening*of->rate_of_spin[k];)
+        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
+        EACH_TERM(s->orbit_by_stokes[k] = c->film_force_by_gap_factor*product(of->distance, of->shear_force,
+        k);)
+        EACH_TERM(s->spin_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
-        EACH_TERM(gap_by_strings_stiffness_law_by_string_ratio[k] = product(of->gap,
-        strings_stiffness_law.by_string_ratio, k);)
-        EACH_TERM(strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k] =
-        product(strings_stiffness_law.by_string_ratio, of->sine_of_scaled_rotation_squared, k);)
-        EACH_TERM(string_pull_by_string_ratio[k] =
-        c->string_pull_by_gap_per_gap_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared*gap_by_strings_stiffness_law_by_string_ratio[k]
-        +
-        c->string_pull_by_gap_per_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_scaled_rotation_squared*strings_stiffness_law_by_string_ratio_by_sine_of_scaled_rotation_squared[k];)
+        EACH_TERM(string_pull_by_string_ratio[k] = v->weight*product(strings_stiffness_law.by_string_ratio,
+        of->combination, k);)
+        EACH_TERM(string_sideways_by_string_ratio[k] =
+        c->string_sideways_by_gap_factor*product(strings_stiffness_law.by_string_ratio, sine_of_rotation, k);)
         EACH_TERM(s->opening_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
-        EACH_TERM(distance_by_strings_stiffness_law_by_string_ratio[k] = product(of->distance,
-        strings_stiffness_law.by_string_ratio, k);)
-        EACH_TERM(s->orbit_by_string_ratio[k] =
-        c->orbit_by_gap_per_distance_by_offset_squared_by_gap_by_strings_stiffness_law_by_offset_squared_by_sine_of_rotation*product(sine_of_rotation,
-        distance_by_strings_stiffness_law_by_string_ratio, k);)
+        EACH_TERM(s->orbit_by_string_ratio[k] = -product(of->distance, string_sideways_by_string_ratio, k);)
     }
     if (asked & (1u << BY_WEIGHT)) {
         EACH_TERM(s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];)
@@ -511,6 +422,32 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
         + source[ROTATION][k])*next;
 }
 
+/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
+ * `after` over that number; what the sum gives is there. */
+INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
+    slope_constants *c, const constants *v, vec film, vec shear, int k)
+{
+    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k) + correlated(s->orbit_by_gap, after[ORBIT],
+        k) + correlated(s->spin_by_gap, after[SPIN], k) + correlated(s->rotation_by_gap, after[ROTATION], k);
+    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+    w[ORBIT][k] += correlated(s->opening_by_orbit, after[OPENING], k) + correlated(s->orbit_by_orbit,
+        after[ORBIT], k) + correlated(s->spin_by_orbit, after[SPIN], k) + correlated(s->rotation_by_orbit,
+        after[ROTATION], k);
+    w[SPIN][k] += correlated(s->orbit_by_spin, after[ORBIT], k) + correlated(s->spin_by_spin, after[SPIN], k);
+    w[ROTATION][k] += correlated(s->opening_by_rotation, after[OPENING], k) + correlated(s->orbit_by_rotation,
+        after[ORBIT], k);
+}
+
+/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return (0.4166666666666667*of->arm_lever_law.result[0]*v->aspect*shear*of->shear_log_factor_law.result[0]
+        + 1.3333333333333333*v->aspect*shear*of->shear_log_factor_law.result[0]/of->distance[0] +
+        film*of->film_resistance_law.result[0])/v->stokes;
+}
+
 /* What drives the derivatives by a group, where it is not zero. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
@@ -528,7 +465,7 @@ static inline void sources(const slopes *s, const series *of, int group, const v
         source[ROTATION] = s->rotation_by_aspect;
         break;
     case BY_OBLIQUITY:
-        source[OPENING] = s->opening_by_obliquity;
+        source[OPENING] = s->centrifugal_force_by_obliquity;
         source[ORBIT] = s->orbit_by_obliquity;
         source[ROTATION] = s->rotation_by_obliquity;
         break;

@@ -4,7 +4,8 @@
  * time is no variable of it, only a sum whose parts change with the events that end them (saltation).
  */
 
-enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED, RESULTS = 8 }; /* after the outputs; columns of a collision's derivatives */
+/* Columns of a collision's derivatives: the outputs, then these; only the restitution's are taken backwards. */
+enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED, RESULTS = BACKWARD ? 1 : 8 };
 
 /* How near a flight comes to a boundary between outcomes, by its own measures (solvers/sensitivity/nearness.py). */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
@@ -19,15 +20,35 @@ static inline vec spare(const constants *c, const vec *y)
 }
 
 typedef struct {
+#if !BACKWARD
     vec t[GROUPS][STATES];
     vec time[GROUPS], smallest[GROUPS];
     mask there[GROUPS]; /* the group has changed something by now */
     vec least; /* smallest gap at an end of a phase */
+#endif
     vec near;  /* least measure so far, and of which boundary */
     vec hint;  /* least of those that are no distances, but say that one should be measured */
     mask boundary;
 } carried;
 
+static void along_near(carried *a, int lane, double measure, int boundary)
+{
+    measure = measure == measure ? measure : 0.0; /* NaN is near */
+    if (measure < a->near[lane]) {
+        a->near[lane] = measure;
+        a->boundary[lane] = boundary;
+    }
+    if (boundary < TIE || boundary == UNWOUND)
+        a->hint[lane] = fmin(a->hint[lane], measure);
+}
+
+#if BACKWARD
+static void along_start(carried *a, int lane)
+{
+    a->near[lane] = a->hint[lane] = INFINITY;
+    a->boundary[lane] = FAR;
+}
+#else
 /* The series of a step: of each group that is carried, and by what they are measured. */
 typedef struct {
     vec t[GROUPS][STATES][TERMS];
@@ -51,17 +72,6 @@ static void along_start(carried *a, const constants *v, int lane)
     a->least[lane] = 1.0;
     a->near[lane] = a->hint[lane] = INFINITY;
     a->boundary[lane] = FAR;
-}
-
-static void along_near(carried *a, int lane, double measure, int boundary)
-{
-    measure = measure == measure ? measure : 0.0; /* NaN is near */
-    if (measure < a->near[lane]) {
-        a->near[lane] = measure;
-        a->boundary[lane] = boundary;
-    }
-    if (boundary < TIE || boundary == UNWOUND)
-        a->hint[lane] = fmin(a->hint[lane], measure);
 }
 
 /* The jump at a reversal, before it is done to the states. */
@@ -95,3 +105,4 @@ static void along_finished(const carried *a, const constants *v, const vec *y, i
 #endif
     }
 }
+#endif

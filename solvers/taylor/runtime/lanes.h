@@ -20,7 +20,7 @@ static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, doub
     return least_room;
 }
 
-#if GRADIENTS
+#if GRADIENTS && !BACKWARD
 #define ALONG , const tangents *along
 static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share ALONG)
 {
@@ -82,7 +82,7 @@ static void fly(queue *q)
     flights l;
     fixed f;
     series s;
-#if GRADIENTS
+#if GRADIENTS && !BACKWARD
     slopes d;
     tangents t;
     memset(&d, 0, sizeof d);
@@ -126,7 +126,7 @@ static void fly(queue *q)
             a[state][0] = l.y[state];
         expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
         mask creeps;
-#if GRADIENTS
+#if GRADIENTS && !BACKWARD
         if (q->asked)
             expand_slopes(&d, &f.slopes, &s, &f.c, acting(&l), l.shear, q->asked);
         expand_along(&t, &l, &f, &s, &d, q->asked);
@@ -135,6 +135,9 @@ static void fly(queue *q)
             damp(t.t[__builtin_ctz(left)], creeps);
 #else
         vec h = only(l.alive, step_size(&s, &f, &creeps));
+#endif
+#if BACKWARD
+        h = held_for_derivatives(&l, &f, &s, h, creeps);
 #endif
         if (bits(creeps))
             damp(a, creeps);
@@ -146,6 +149,10 @@ static void fly(queue *q)
         h = choose(falls, h*found.time, h);
 #if GRADIENTS
         measure(&l, &f, &s, h, falls, found.event);
+#endif
+#if BACKWARD
+        keep_on_tape(q, &l, h, creeps, falls, found.event);
+#elif GRADIENTS
         if (q->asked)
             carry(&l, &f, &s, &t, h, falls, found.event, q->asked);
 #endif
@@ -173,7 +180,10 @@ static void fly(queue *q)
         l.stride = h;
         mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
         unsigned slow_ones = bits(l.alive & ~falls & ~spent & (l.crept > PATIENCE));
-#if GRADIENTS
+#if BACKWARD
+        spent |= only_if_full(q, l.alive);
+        slow_ones = 0;
+#elif GRADIENTS
         slow_ones = q->asked ? 0 : slow_ones; /* crawl.h knows nothing of derivatives */
 #endif
 #if WITH_TRAJECTORY
@@ -237,8 +247,13 @@ int collide_along(long count, const double *const *quantities, const unsigned ch
     q.by_group = by_group;
     q.gradients = gradients;
     q.near = near;
+#if BACKWARD
+    if (!there_and_back(&q))
+        return 0;
+#else
     fly(&q);
-    in_quantities(&q);
+    in_quantities(&q, 0);
+#endif
     return (int)sizeof(answer);
 }
 #endif

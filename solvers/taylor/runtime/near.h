@@ -143,6 +143,12 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
     carried *along = &l->along;
     mask moves = l->alive & ~l->resting;
     mask close = moves & l->closing & ~(falls & (event == GLASS));
+    if (bits(close)) { /* the limit without motion falls with the gap, so where the start is far the end is */
+        vec start[STATES];
+        memcpy(start, l->y, sizeof start);
+        start[OPENING] = splat(0.0);
+        close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, start));
+    }
     if (bits(close)) {
         vec end[STATES];
         for (int state = 0; state < STATES; state++)
@@ -156,12 +162,13 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
             along_near(along, __builtin_ctz(left), least[__builtin_ctz(left)], GLASS_GRAZE);
     }
 #if PROOF_BY_ENERGY
-    vec rate = ORDER*s->opening[ORDER];
-    for (int k = ORDER - 1; k > 0; k--)
-        rate = rate*h + (double)k*s->opening[k];
-    mask slows = choose(l->closing, -s->opening[1], s->opening[1]) < 0.0;
-    mask gains = choose(l->closing, -rate, rate) > 0.0;
-    mask dips = moves & slows & gains & (vec_abs(s->opening[0]) < 0.3);
+    mask dips = moves & (choose(l->closing, -s->opening[1], s->opening[1]) < 0.0) & (vec_abs(s->opening[0]) < 0.3);
+    if (bits(dips)) {
+        vec rate = ORDER*s->opening[ORDER];
+        for (int k = ORDER - 1; k > 0; k--)
+            rate = rate*h + (double)k*s->opening[k];
+        dips &= choose(l->closing, -rate, rate) > 0.0; /* it slows first, and gains last */
+    }
     for (unsigned left = bits(dips); left; left &= left - 1) {
         int lane = __builtin_ctz(left), saddle;
         near_saddle(f, 1.0, lane, &saddle);
@@ -169,6 +176,7 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
             along_near(along, lane, slowest(s, h[lane], lane), PASSAGE);
     }
 #endif
+    falls &= (event == GLASS) | (event == ELASTIC) | (event == TURNED_KIND) | (event == RUPTURE);
     if (!bits(falls))
         return;
     vec at[STATES];

@@ -106,14 +106,16 @@ static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 #endif
 
 #if HELD
-/* What attracts holds for good by more than the error of the margins of derive/held.py; a NaN proves nothing. */
+/* What attracts holds for good by more than the error of the margins of derive/held.py; a NaN proves nothing. They take
+ * the solids for the nearest it gets: first touch may lie inside them, and there nothing is proved. */
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;
     vec hold, flight, rebound;
     held_margins(c, y, &hold, &flight, &rebound);
     vec energy = vec_larger(y[OPENING]*y[OPENING], splat(1.0));
-    return (hold > 0.0) & (rebound < -margin*hold) & (flight < -margin*energy);
+    mask outside = y[GAP] >= vec_max(c->elastic_gap, c->rough_gap)*(1.0 - margin);
+    return outside & (hold > 0.0) & (rebound < -margin*hold) & (flight < -margin*energy);
 }
 #endif
 

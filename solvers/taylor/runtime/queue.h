@@ -4,6 +4,9 @@ enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
 enum { MOST_PHASES = 400, SHOWN = 8 };
+#if BACKWARD
+enum { BEGUN, REVERSED, ENDED }; /* what a tape notes of a lane between steps */
+#endif
 static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
@@ -43,7 +46,9 @@ typedef struct {
     vec contact, end, edge;
 #if GRADIENTS
     slope_constants slopes;
+#if !BACKWARD
     vec one[GROUPS]; /* a derivative's size where its elasticity is one, of a state of one */
+#endif
 #endif
 } fixed;
 
@@ -79,7 +84,14 @@ typedef struct {
     double *near;                 /* least measure of nearness, its boundary, least of those that are no distances */
     unsigned asked;               /* groups, as bits */
 #endif
+#if BACKWARD
+    struct tape *tape;
+#endif
 } queue;
+
+#if BACKWARD
+static void note_on_tape(const queue *q, int kind, long index, int lane, const vec *y, const fixed *f);
+#endif
 
 #if WITH_TRAJECTORY
 /* Lanes whose stick may be proved, for the purpose of a flight. */
@@ -153,10 +165,12 @@ static void fill_queue(queue *q)
         prepare(&f.c);
 #if GRADIENTS
         prepare_slopes(&f.slopes, &f.c);
+#if !BACKWARD
         for (int group = 0; group < GROUPS; group++) {
             vec size = vec_abs(((const vec *)&f.c)[group]);
             f.one[group] = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
         }
+#endif
 #endif
         unsigned beyond = set_tolerance(q, &f);
         memset(y, 0, sizeof y);
@@ -265,7 +279,10 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
     l->resting[lane] = 0;
     l->steps[lane] = l->phases[lane] = l->crept[lane] = 0;
     l->reversal[lane] = -1;
-#if GRADIENTS
+#if BACKWARD
+    along_start(&l->along, lane);
+    note_on_tape(q, BEGUN, l->index[lane], lane, l->y, f);
+#elif GRADIENTS
     along_start(&l->along, &f->c, lane);
 #endif
 }
@@ -295,7 +312,11 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
         near[0] = l->along.near[lane];
         near[1] = l->along.boundary[lane];
         near[2] = l->along.hint[lane];
+#if BACKWARD
+        note_on_tape(q, ENDED, l->index[lane], lane, l->y, f);
+#else
         along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
+#endif
 #endif
     }
 #if WITH_LEDGER

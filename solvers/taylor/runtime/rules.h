@@ -27,7 +27,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
 #endif
     memcpy(after, l->y, sizeof after);
     reversal(&f->c, l->y, after);
-#if GRADIENTS
+#if BACKWARD
+    note_on_tape(q, REVERSED, l->index[lane], lane, l->y, f);
+#elif GRADIENTS
     along_reversed(&l->along, &f->c, l->y, lane);
 #endif
     l->y[OPENING][lane] = after[OPENING][lane];

@@ -6,3 +6,13 @@
     TERM_AT(4, __VA_ARGS__) TERM_AT(5, __VA_ARGS__) TERM_AT(6, __VA_ARGS__) TERM_AT(7, __VA_ARGS__) \
     TERM_AT(8, __VA_ARGS__) TERM_AT(9, __VA_ARGS__) TERM_AT(10, __VA_ARGS__) TERM_AT(11, __VA_ARGS__) \
     TERM_AT(12, __VA_ARGS__) TERM_AT(13, __VA_ARGS__) TERM_AT(14, __VA_ARGS__) TERM_AT(15, __VA_ARGS__)
+
+/* sum of a_(m-k) b_m, m = k..ORDER-1: a product's coefficients weighed by b, taken back to those of its other factor. */
+INLINE vec correlated(const vec *a, const vec *b, int k)
+{
+    vec sum = a[ORDER - 1 - k]*b[ORDER - 1];
+    UNROLL
+    for (int m = ORDER - 2; m >= k; m--)
+        sum += a[m - k]*b[m];
+    return sum;
+}

@@ -1,0 +1,56 @@
+/* What meets an event: where its function falls, how fast, and how its surface moves with the groups. */
+
+/* What an event asks of the states: its function's derivatives by the states, along the flight, and by the groups. */
+typedef struct {
+    mask gap, turned, glass;   /* lanes by what is zero */
+    mask contact, end, edge;   /* of those at a gap, which one */
+    vec rate[STATES];          /* of the states as the event is met */
+    vec by_gap, by_approach;   /* of the glass criterion */
+    vec pace;                  /* of the event's function along the flight */
+    vec at[STATES];            /* the states as it is met */
+} meeting;
+
+static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mask event)
+{
+    meeting m;
+    memset(&m, 0, sizeof m);
+    for (int state = 0; state < STATES; state++) {
+        vec rate = ORDER*a[state][ORDER];
+        for (int k = ORDER - 1; k > 0; k--)
+            rate = rate*h + k*a[state][k];
+        m.rate[state] = rate;
+        m.at[state] = sum_at(a[state], h);
+    }
+    m.contact = falls & (event == ELASTIC);
+    m.end = falls & (event == RUPTURE);
+    m.edge = falls & (event == TANGENTIAL_EDGE);
+    m.gap = m.contact | m.end | m.edge | (falls & (event == FILM_EDGE));
+    m.turned = falls & (event == TURNED_KIND);
+    m.glass = falls & (event == GLASS);
+    vec limit;
+    glass_pressure_margin_slopes(
+        m.at[GAP], -m.at[OPENING], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);
+    m.pace = choose(m.gap, m.rate[GAP], choose(m.turned, m.rate[OPENING],
+        m.by_gap*m.rate[GAP] - m.by_approach*m.rate[OPENING]));
+    return m;
+}
+
+/* The gap at which an event lies, in a direction. */
+static inline vec target_along(const fixed *f, const meeting *m, int group)
+{
+    vec zero = splat(0.0), one = splat(1.0), moved = zero;
+    mask elastic = f->c.elastic_gap >= f->c.rough_gap;
+    if (group == BY_ELASTIC_GAP)
+        moved = choose(m->contact & elastic, one, zero);
+    if (group == BY_ROUGH_GAP)
+        moved = choose(m->contact & ~elastic, one, zero);
+#if BRIDGE
+    if (group == BY_RUPTURE_GAP)
+        moved = choose(m->end, one, zero);
+#endif
+#if OBLIQUE
+    if (bits(m->edge))
+        moved = choose(m->edge, tangential_edge_along(&f->c, group), moved);
+#endif
+    return moved;
+}
