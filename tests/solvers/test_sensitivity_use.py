@@ -104,6 +104,12 @@ def test_first_order_standard_deviation() -> None:
         deviations(GRANULATION, {"liquid.viscosity": "5 kg"})
 
 
+def test_samples_at_the_edge_of_what_may_be() -> None:
+    """Samples of a value that may only move one way (a contact angle of 0, a head-on impact) lie on that side alone."""
+    for name in ("bridge.contact_angle", "impact.angle"):
+        assert uncertainty._possible(name, 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
+
+
 def test_band_against_samples(tmp_path: Path) -> None:
     """Small uncertainties away from boundaries: the samples' deviation is the first-order one; a stick has none."""
     found = band(
