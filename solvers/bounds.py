@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from .changes import Change, between, followed
+from .compiled import hush
 from .errors import ComputationError, InputError
 from .probe import Line
 from .requests import checked_numbers
@@ -169,7 +170,7 @@ def _traces(scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float]
         return
     from loky import get_reusable_executor
 
-    pool = get_reusable_executor(max_workers=len(parts))
+    pool = get_reusable_executor(max_workers=len(parts), initializer=hush)
     yield from pool.map(trace, *zip(*((scene, part, span, rtol) for part in parts), strict=True))
 
 
