@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from .changes import Change, between, followed
+from .compiled import hush
 from .errors import ComputationError, InputError
 from .probe import Line
 from .requests import checked_numbers
@@ -119,12 +120,12 @@ def boundary(
     cores = min(os.cpu_count() or 1, max(1, angles.size // worth))  # each part starts with a scan of its own
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0)
-    for part in _traces(loaded, parts, (low, high), rtol):
+    tell = progress or (lambda _done: None)
+    for part in _traces(loaded, parts, (low, high), rtol, tell):
         whole.changes += part.changes
         whole.failures += part.failures
         whole.collisions += part.collisions
-        if progress:
-            progress(len(whole.changes))
+        tell(len(whole.changes))
     back = np.argsort(order, kind="stable")
     return Boundaries(
         tuple(angles.tolist()),
@@ -163,17 +164,28 @@ def _pattern(changes: tuple[Change, ...]) -> list[tuple[str, str]]:
     return [(one.before, one.after) for one in changes]
 
 
-def _traces(scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float) -> Iterator[Traced]:
-    if len(parts) == 1:
-        yield trace(scene, parts[0], span, rtol)
-        return
-    from loky import get_reusable_executor
+def _traces(
+    scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float, tell: Callable[[int], None]
+) -> Iterator[Traced]:
+    """All parts in their order: the first in this process, which `tell` is told of, the others in one each."""
+    others = []
+    if len(parts) > 1:
+        from loky import get_reusable_executor
 
-    pool = get_reusable_executor(max_workers=len(parts))
-    yield from pool.map(trace, *zip(*((scene, part, span, rtol) for part in parts), strict=True))
+        pool = get_reusable_executor(max_workers=len(parts) - 1, initializer=hush)
+        others = [pool.submit(trace, scene, part, span, rtol) for part in parts[1:]]
+    yield trace(scene, parts[0], span, rtol, tell)
+    for other in others:
+        yield other.result()
 
 
-def trace(scene: Scene, angles: np.ndarray, span: tuple[float, float], rtol: float) -> Traced:
+def trace(
+    scene: Scene,
+    angles: np.ndarray,
+    span: tuple[float, float],
+    rtol: float,
+    tell: Callable[[int], None] = lambda _done: None,
+) -> Traced:
     """Changes at ascending angles, each line started from the ones before.
 
     A line that fails is tried again from a scan, and a hundred times sharper; then it is left out with its reason.
@@ -201,6 +213,7 @@ def trace(scene: Scene, angles: np.ndarray, span: tuple[float, float], rtol: flo
         if changes is not None:
             lines.append(tuple(changes))
             known.append(angle)
+        tell(len(traced.changes))
     return traced
 
 

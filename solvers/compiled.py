@@ -10,6 +10,7 @@ import atexit
 import hashlib
 import os
 import shutil
+import signal
 import stat
 import subprocess
 import sys
@@ -22,6 +23,8 @@ from platformdirs import user_cache_path
 
 FLAGS = ("-O1", "-fPIC", "-shared")  # -O3 takes 1.6 times as long to compile and saves a sixth (docs/performance.md)
 _COMPILERS = ("cc", "gcc", "clang")
+_INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses, the second that of a shell script
+_HUSHED = "WETDOUBLET_HUSHED"
 
 
 @lru_cache(maxsize=1)
@@ -31,13 +34,34 @@ def compiler() -> tuple[str, str] | None:
     for name in (*wanted, *_COMPILERS):
         path = shutil.which(name)
         if path is not None:
-            asked = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
+            asked = _run(path, "--version")
             if asked.returncode == 0 and asked.stdout.strip():
                 return path, asked.stdout.splitlines()[0]
         if name in wanted:
-            sys.stderr.write(f"CC={name} is no compiler here: another is looked for\n")
-    sys.stderr.write("no C compiler (cc, gcc, clang): integrators run interpreted, about five times slower\n")
+            _say(f"CC={name} is no compiler here: another is looked for")
+    _say(
+        "no C compiler (cc, gcc, clang): there is no Taylor kernel, other engines answer; "
+        "their integrators run interpreted, about five times slower"
+    )
     return None
+
+
+def hush() -> None:
+    """For a worker process: the one that started it says what compiler and cache lack."""
+    os.environ[_HUSHED] = "1"
+
+
+def _say(line: str) -> None:
+    if _HUSHED not in os.environ:
+        sys.stderr.write(f"{line}\n")
+
+
+def _run(*command: str) -> subprocess.CompletedProcess[str]:
+    """Run a compiler; KeyboardInterrupt if that is what ended it: Ctrl-C goes to this process and to it."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode in _INTERRUPTED:
+        raise KeyboardInterrupt
+    return done
 
 
 @lru_cache(maxsize=1)
@@ -54,7 +78,7 @@ def cache_folder() -> Path:
             return folder
     except OSError:
         pass
-    sys.stderr.write(f"{folder} is not writable by this user alone: what is compiled is kept for this process only\n")
+    _say(f"{folder} is not writable by this user alone: what is compiled is kept for this process only")
     private = Path(tempfile.mkdtemp(prefix="wetdoublet-"))
     atexit.register(shutil.rmtree, private, ignore_errors=True)
     return private
@@ -92,11 +116,10 @@ def build(path: str, flags: tuple[str, ...], source: Path, library: Path) -> str
     """Compile a C file beside which there is room; the first error that the compiler names if it fails, else "".
 
     The library is built under a name of its own and then moved into place: several processes may do so at once.
+    A compiler that is interrupted is an interrupt, not a failure.
     """
     fresh = source.with_suffix(".so")
-    built = subprocess.run(
-        [path, *flags, "-o", str(fresh), str(source), "-lm"], capture_output=True, text=True, check=False
-    )
+    built = _run(path, *flags, "-o", str(fresh), str(source), "-lm")
     if built.returncode:
         said = built.stderr.strip().splitlines() or ["no message"]
         return next((line for line in said if "error" in line), said[-1])

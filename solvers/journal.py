@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,25 +23,41 @@ class Journal:
 
     Arguments:
         path: the file; it need not exist yet.
-        request: everything that the results depend on, as JSON values.
+        request: everything that the results depend on, as JSON values; None: `under` says it later.
     """
 
-    def __init__(self, path: Path, request: Mapping[str, Any]) -> None:
+    def __init__(self, path: Path, request: Mapping[str, Any] | None = None) -> None:
         self.path = path
-        text = json.dumps(request, sort_keys=True)
-        self.key = hashlib.sha256(text.encode()).hexdigest()[:32]
+        self.key = b""
+        if request is not None:
+            self.under(request)
+
+    def under(self, request: Mapping[str, Any]) -> None:
+        """Make this the journal of a request."""
+        self.key = hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:32].encode()
 
     def read(self) -> list[tuple[np.ndarray, Block]]:
         """The blocks of this request that are done."""
+        return [_block(record) for key, record in self._records() if key == self.key and record is not None]
+
+    def count(self) -> int:
+        """Collisions of this request that are done."""
+        return sum(len(record["where"]) for key, record in self._records() if key == self.key and record is not None)
+
+    def others(self) -> tuple[int, int]:
+        """How much of the file is not this request's: collisions of others, and lines that are no collisions."""
+        strange = [record for key, record in self._records() if key != self.key]
+        return sum(len(one["where"]) for one in strange if one is not None), sum(one is None for one in strange)
+
+    def _records(self) -> Iterator[tuple[bytes, dict[str, Any] | None]]:
+        """Key and content of every line, None for a line that is not whole."""
         if not self.path.is_file():
-            return []
-        blocks = []
+            return
         with self.path.open("rb") as file:
             for line in file:
                 key, checksum, text = (*line.rstrip(b"\n").split(b" ", 2), b"", b"")[:3]
-                if key == self.key.encode() and checksum == _checksum(text):
-                    blocks.append(_block(json.loads(text)))
-        return blocks
+                if line.strip():
+                    yield key, json.loads(text) if text and checksum == _checksum(text) else None
 
     def add(self, where: np.ndarray, block: Block) -> None:
         """Put down a block, in a single write."""
@@ -49,32 +65,20 @@ class Journal:
         text = json.dumps({"where": where.tolist(), "columns": columns}).encode()
         with self.path.open("ab", buffering=0) as file:
             # begins a line of its own, should the last one be torn
-            file.write(b"\n%s %s %s\n" % (self.key.encode(), _checksum(text), text))
+            file.write(b"\n%s %s %s\n" % (self.key, _checksum(text), text))
 
     def remove(self) -> None:
         """Remove what is kept of this request; the file too, unless another request's work is in it."""
         if not self.path.is_file():
             return
         lines = self.path.read_bytes().split(b"\n")
-        others = [line for line in lines if line and not line.startswith(self.key.encode() + b" ")]
+        others = [line for line in lines if line and not line.startswith(self.key + b" ")]
         if not others:
             self.path.unlink(missing_ok=True)
             return
         beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
         beside.write_bytes(b"\n".join(others) + b"\n")
         beside.replace(self.path)
-
-
-def kept_in(path: Path) -> int:
-    """Collisions that a journal holds for the request that wrote its last whole line."""
-    sizes: dict[bytes, int] = {}
-    last = b""
-    for line in path.read_bytes().split(b"\n"):
-        key, checksum, text = [*line.split(b" ", 2), b"", b"", b""][:3]
-        if text and checksum == _checksum(text):
-            sizes[key] = sizes.get(key, 0) + len(json.loads(text)["where"])
-            last = key
-    return sizes.get(last, 0)
 
 
 def _checksum(text: bytes) -> bytes:

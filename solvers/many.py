@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .compiled import hush
 from .errors import ComputationError, ModelWarning, WetDoubletError
 from .locate import Path, locate
 from .model import choose, load
@@ -153,7 +154,9 @@ def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iter
 
 
 def _deaf() -> None:
+    """Interrupts and remarks are for the process that started this one."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    hush()
 
 
 @contextmanager

@@ -81,7 +81,7 @@ def regime_map(
     engine: str | None = None,
     of: Sequence[str] = tuple(QUANTITIES),
     progress: Progress | None = None,
-    journal: str | Path | None = None,
+    journal: str | Path | Journal | None = None,
 ) -> xarray.Dataset:
     """Outcomes over a grid.
 
@@ -118,7 +118,9 @@ def regime_map(
     check_some_scene(request)
     warn(grid.scene)
     results = empty(request.size, request.of)
-    kept = None if journal is None else Journal(Path(journal), _identity(grid, request))
+    kept = Journal(Path(journal)) if isinstance(journal, (str, Path)) else journal
+    if kept is not None:
+        kept.under(_identity(grid, request))
     for where, block in kept.read() if kept else ():
         fill(results, where, block)
     total = request.size

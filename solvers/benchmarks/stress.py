@@ -11,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
+from ..compiled import hush
 from ..many import OUTCOMES
 from ..model import choose
 from ..taylor.library import kernel
@@ -153,6 +154,7 @@ def _blocks(cases: Sequence[Case]) -> list[list[int]]:
 
 def _deaf() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    hush()
 
 
 def _block(cases: Sequence[Case]) -> list[Verdict]:

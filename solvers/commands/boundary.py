@@ -14,6 +14,7 @@ from ..ranges import parse_range
 from ..schema import FIELDS
 from ..settings import RTOL, check_rtol
 from . import options
+from .bar import bar
 
 if TYPE_CHECKING:
     from ..bounds import Boundaries
@@ -66,12 +67,16 @@ def command(
         raise InputError("--angle", None, "LO:HI:N in degrees, as 20:65:10")
 
     names = _names(scene, wrt)
-    found = boundary(scene, angle=angles, stokes=span, rtol=tolerance)
+    with bar("angles") as tell:
+        found = boundary(scene, angle=angles, stokes=span, rtol=tolerance, progress=lambda k: tell(k, len(angles)))
     shown: Boundaries | BoundarySensitivities = found
     if names is not None:
         from ..sensitivity.boundaries import boundary_sensitivities
 
-        shown = boundary_sensitivities(scene, wrt=names, rtol=tolerance, traced=found)
+        with bar("angles differentiated") as tell:
+            shown = boundary_sensitivities(
+                scene, wrt=names, rtol=tolerance, traced=found, progress=lambda k: tell(k, len(angles))
+            )
     options.put(json.dumps(shown.to_dict(), indent=2, allow_nan=False) if as_json else str(shown), file)
     if picture is not None:
         from ..boundary_plot import draw

@@ -133,10 +133,11 @@ def _computed(
     file: Path | None,
 ) -> xarray.Dataset:
     """Compute the map and write it; an interrupt leaves what is done and says how to go on."""
+    from ..journal import Journal
     from ..regimes import regime_map, write
     from .bar import bar
 
-    journal = None if file is None else file.with_name(file.name + ".partial")
+    journal = None if file is None else Journal(file.with_name(file.name + ".partial"))
     done = (0, 0)
     try:
         with bar("collisions") as shown:
@@ -159,14 +160,18 @@ def _computed(
             )
             if file is not None and journal is not None:
                 write(data, file)
-                journal.unlink(missing_ok=True)
+                journal.remove()
     except KeyboardInterrupt:
-        if journal is None or not journal.exists():
+        count = 0 if journal is None else journal.count()
+        if journal is None or not count:
             raise
-        from ..journal import kept_in
-
-        kept = f"{kept_in(journal)} of {done[1]} collisions are kept in {journal}"  # an interrupt may outrun a count
+        kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # an interrupt may outrun a count
         raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
+    if journal is not None and journal.path.exists():
+        collisions, lines = journal.others()
+        what = [f"{collisions} finished collisions of another request"] if collisions else []
+        what += [f"{lines} lines that are no finished collisions"] if lines else []
+        click.echo(f"{journal.path} was there already and stays: it holds {' and '.join(what)}", err=True)
     return data
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from .. import boundary
+from ..compiled import hush
 from ..errors import ComputationError
 from ..probe import Line as Probed
 from ..probe import ready
@@ -171,7 +172,7 @@ def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[
         return [function(item) for item in items]
     from loky import get_reusable_executor
 
-    pool = get_reusable_executor(max_workers=os.cpu_count() or 1)
+    pool = get_reusable_executor(max_workers=os.cpu_count() or 1, initializer=hush)
     return list(pool.map(function, items))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
@@ -92,6 +92,7 @@ def boundary_sensitivities(
     wrt: Sequence[str] | str | None = None,
     rtol: float = RTOL,
     traced: Boundaries | None = None,
+    progress: Callable[[int], None] | None = None,
 ) -> BoundarySensitivities:
     """How the Stokes and centrifugal numbers of every change of outcome move with the scene's parameters.
 
@@ -105,6 +106,7 @@ def boundary_sensitivities(
         wrt: parameters by dotted name; None: every number of the scene, and the impact's angle.
         rtol: relative tolerance of the tracing.
         traced: the boundaries, if they are known already.
+        progress: called with the number of angles done, once they are traced.
 
     Returns:
         BoundarySensitivities: gradients (SI) and elasticities, change by change.
@@ -123,12 +125,13 @@ def boundary_sensitivities(
     names = check_boundary_wrt(loaded, wrt)
     rtol = check_rtol(rtol)
     found = boundary(loaded, angle=angle, stokes=stokes, rtol=rtol) if traced is None else traced
+    lines: list[tuple[Moving, ...]] = []
     with LOCK:
-        lines = tuple(
-            tuple(moving(loaded, at, change, names, rtol) for change in line)
-            for at, line in zip(found.angles, found.changes, strict=True)
-        )
-    return BoundarySensitivities(found, lines, names)
+        for at, line in zip(found.angles, found.changes, strict=True):
+            lines.append(tuple(moving(loaded, at, change, names, rtol) for change in line))
+            if progress:
+                progress(len(lines))
+    return BoundarySensitivities(found, tuple(lines), names)
 
 
 def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:

@@ -124,7 +124,7 @@ class Sensitivities:
         if any(self._rounded(y, p) for y in names for p in self.parameters):
             notes.append("~0: what rounding leaves of contributions that cancel")
         notes += [f"nearest: {self.near}"] if self.near else []
-        return "\n\n".join([*blocks, "\n".join(notes)])
+        return "\n\n".join([*blocks, *self._bent(), "\n".join(notes)])
 
     def _block(self, names: list[str]) -> str:
         largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
@@ -134,12 +134,22 @@ class Sensitivities:
         rows = [[p, *(self._cell(y, p) for y in names)] for p in order]
         widths = [max(len(row[k]) for row in (head, units, *rows)) for k in range(len(head))]
 
-        def line(cells: list[str]) -> str:
-            padded = [cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(cells, widths))]
-            return "  ".join(padded).rstrip()
-
         title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
-        return "\n".join([line(head), line(units), "", title, *(line(row) for row in rows)])
+        return "\n".join([*_aligned([head, units], widths), "", title, *_aligned(rows, widths)])
+
+    def _bent(self) -> list[str]:
+        """A table of second derivatives a quantity, and one of the Hessian times a vector, if they were asked for."""
+        names, tables = self.parameters, []
+        for y, rows in (self.hessian or {}).items():
+            for k in range(0, len(names), _SHOWN):
+                some = names[k : k + _SHOWN]
+                cells = [["", *some], *([p, *(_number(rows[p][q], "1") for q in some)] for p in names)]
+                tables.append("\n".join([f"d2y/dp dq of y = {y} (SI units, rad)", *_aligned(cells)]))
+        if self.hessian_times is not None:
+            of = list(self.hessian_times)
+            cells = [["", *of], *([p, *(_number(self.hessian_times[y][p], "1") for y in of)] for p in names)]
+            tables.append("\n".join(["Hessian times the vector (SI units, rad)", *_aligned(cells)]))
+        return tables
 
     def _cell(self, y: str, p: str) -> str:
         elasticity, gradient = self.elasticity[y][p], self.gradient[y][p]
@@ -166,6 +176,12 @@ class Sensitivities:
         if path is not None:
             figure.savefig(path, dpi=150)
         return figure
+
+
+def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:
+    """Lines of cells, the first of each to the left; as wide as they need, or as `widths` says."""
+    widths = widths or [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]).rstrip() for row in rows]
 
 
 def _number(value: float | None, unit: str) -> str:

@@ -39,7 +39,7 @@ def numeric(scene: Scene, head_on: bool = False, budget: xarray.Dataset | None =
         ("stick certificate", lambda: stick_audit(group, scene, (0.0,) if head_on else None)),
     ]
     if not head_on:
-        laws.append(("e_n > 1", lambda: argument(group, grid(scene) if budget is None else budget)))
+        laws.append(("e_n > 1", lambda: argument(group, scene, grid(scene) if budget is None else budget)))
     for name, law in laws:
         try:
             yield from law()

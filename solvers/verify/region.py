@@ -11,6 +11,7 @@ import xarray
 from ..scene import Scene
 from .budget import LOSSES, TERMS, restitution_budget
 from .conserved import RESIDUAL
+from .edges import Above, above_one
 from .report import Finding, bounded
 from .sample import own_stokes, place
 
@@ -27,8 +28,8 @@ def grid(scene: Scene) -> xarray.Dataset:
     return restitution_budget(scene, stokes=stokes.tolist(), angle=np.radians(ANGLES).tolist(), rtol=_RTOL)
 
 
-def argument(group: str, data: xarray.Dataset) -> Iterator[Finding]:
-    """Findings on a budget."""
+def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:
+    """Findings on a budget of a scene."""
     parted = np.isfinite(data["excess"].values)
     failed = [text for text in data["reason"].values.ravel() if text]
     if failed:
@@ -48,7 +49,7 @@ def argument(group: str, data: xarray.Dataset) -> Iterator[Finding]:
     told = (f"  {int(parted.sum())} points that separate; with the ledger's residual in it: {rounding:.0e}",)
     yield bounded(group, "e_n^2 - 1: identity", statement, worst, bound, where, told)
     yield from _ceiling(group, data)
-    yield _region(group, data)
+    yield _region(group, scene, data)
 
 
 def _worst(data: xarray.Dataset, figure: np.ndarray) -> tuple[str, float]:
@@ -71,53 +72,37 @@ def _ceiling(group: str, data: xarray.Dataset) -> Iterator[Finding]:
     yield bounded(group, "e_n^2: ceiling", statement, worst, RESIDUAL * energy, where)
 
 
-def _region(group: str, data: xarray.Dataset) -> Finding:
+def _region(group: str, scene: Scene, data: xarray.Dataset) -> Finding:
     """Angles and Stokes numbers with e_n > 1, the largest e_n, and what made it up."""
-    e_n = data["restitution"].values
+    e_n, stokes = data["restitution"].values, data["stokes"].values
     j, k = np.unravel_index(int(np.nanargmax(e_n)), e_n.shape)
-    best = f"{e_n[j, k]:.4g} ({place(float(data['stokes'][k]), float(data['angle'][j]))})"
-    rows = [(int(row), int(column)) for row, column in zip(*np.nonzero(e_n > 1))]
-    lines: list[str] = []
-    if rows:
-        angles = sorted({row for row, _ in rows})
-        low, high = (math.degrees(float(data["angle"][row])) for row in (angles[0], angles[-1]))
-        stokes = [float(data["stokes"][column]) for _, column in rows]
-        figure = f"at {low:.0f}..{high:.0f} deg, St {min(stokes):.2g}..{max(stokes):.2g}; largest {best}"
-        lines += [f"  {_name(data, row)}" for row in angles]
+    found = above_one(scene, data["angle"].values.tolist(), stokes, _RTOL)
+    rim = float(stokes[0]), float(stokes[-1])
+    most = max(found, key=lambda one: one.most)
+    best = f"{most.most:.4g} ({place(most.at, most.angle)})"
+    above = [one for one in found if one.spans]
+    lines = [f"  {_name(one, rim)}" for one in above]
+    if above:
+        low, high = math.degrees(above[0].angle), math.degrees(above[-1].angle)
+        first, last = min(one.spans[0][0] for one in above), max(one.spans[-1][1] for one in above)
+        ends = f"St {first:.3g}..{last:.3g}{' (the last looked at)' * (last == rim[1])}"
+        figure = f"at {low:.0f}..{high:.0f} deg, {ends}; largest {best}"
     else:
         figure = f"nowhere; largest {best}"
-    statement = "where more energy of rotation is released than is lost, to the resolution of the grid"
+    failed = sum(one.failed for one in found)
+    if failed:
+        lines.append(f"  {failed} collisions of the scan were not completed and count as e_n < 1")
+    statement = f"where more energy of rotation is released than is lost, looked at for St {rim[0]:.3g}..{rim[1]:.3g}"
     return Finding(group, "e_n > 1", statement, figure, "", None, about=(*lines, "", *table(data, (int(j), int(k)))))
 
 
-def intervals(data: xarray.Dataset, row: int) -> list[tuple[float, float]]:
-    """Stokes intervals of one angle with e_n > 1; ends between points of the grid by interpolation of ln e_n."""
-    e_n, stokes = data["restitution"].values[row], data["stokes"].values
-    inside = e_n > 1
-    found = []
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
-    for first, after in zip(edges[::2], edges[1::2]):
-        found.append((_end(e_n, stokes, first, first - 1), _end(e_n, stokes, after - 1, after)))
-    return found
-
-
-def _end(e_n: np.ndarray, stokes: np.ndarray, inside: int, outside: int) -> float:
-    """St where e_n = 1 between two neighbours; half-way if the outer one does not separate, its own at the rim."""
-    if not 0 <= outside < stokes.size:
-        return float(stokes[inside])
-    part = 0.5
-    if e_n[outside] > 0:
-        part = math.log(e_n[inside]) / (math.log(e_n[inside]) - math.log(e_n[outside]))
-    return float(stokes[inside] * (stokes[outside] / stokes[inside]) ** part)
-
-
-def _name(data: xarray.Dataset, row: int) -> str:
-    """The intervals of an angle in words."""
-    last = float(data["stokes"][-1])
-    ends = [(low, "on" if high == last else f"to {high:.3g}") for low, high in intervals(data, row)]
-    spans = ", ".join(f"from {low:.3g} {high}" for low, high in ends)
-    most = float(np.nanmax(data["restitution"].values[row]))
-    return f"{math.degrees(float(data['angle'][row])):4.0f} deg: e_n > 1 for St {spans} (up to {most:.3f})"
+def _name(one: Above, rim: tuple[float, float]) -> str:
+    """The intervals of an angle in words; one that reaches an end of what was looked at has no end there."""
+    spans = []
+    for low, high in one.spans:
+        ends = ([f"from {low:.3g}"] if low > rim[0] else []) + ([f"to {high:.3g}"] if high < rim[1] else ["on"])
+        spans.append(" ".join(ends) if low > rim[0] or high < rim[1] else "throughout")
+    return f"{math.degrees(one.angle):4.0f} deg: e_n > 1 for St {', '.join(spans)} (up to {one.most:.3f})"
 
 
 def table(data: xarray.Dataset, best: tuple[int, int]) -> list[str]:

@@ -203,7 +203,9 @@ def test_a_line_that_fails_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
         return path(line, stokes)
 
     monkeypatch.setattr(Line, "_seen", fails)
-    found = boundary("granulation", angle=angles, stokes=(0.01, 1.0))
+    told: list[int] = []
+    found = boundary("granulation", angle=angles, stokes=(0.01, 1.0), progress=told.append)
+    assert sorted(set(told)) == [1, 2, 3]  # what fails is done as well
     ((angle, reason),) = found.failed
     assert angle == angles[1]
     assert "no luck" in reason

@@ -13,6 +13,8 @@ import xarray as xr
 from wetdoublet.solvers import Scene, many, regime_map
 from wetdoublet.solvers.journal import Journal
 
+from .command import run
+
 # slow enough to be interrupted
 LARGE = ["map", "granulation", "--stokes", "log:0.005:0.5:60", "--angle", "1:85:60", "--engine", "rosenbrock"]
 
@@ -30,6 +32,7 @@ def test_journal(tmp_path):
     with path.open("ab") as file:  # torn by a crash
         file.write(path.read_bytes().splitlines()[1][:-9])
     ours.add(np.array([7]), many.empty(1, ("restitution",)))
+    assert (ours.count(), ours.others(), theirs.others()) == (4, (1, 0), (4, 1))
     (where, back), (later, _) = ours.read()
     assert (where.tolist(), later.tolist()) == ([4, 5, 9], [7])
     for name, values in block.items():
@@ -60,6 +63,21 @@ def test_another_request_never_uses_a_journal(tmp_path):
     for changes in ({"stokes": [0.02, 0.2]}, {"angle": 1.1}, {"rtol": 1e-8}, {"engine": "cvodes"}, {"of": ()}):
         assert done(**changes) == 0, changes
     assert done() == 2
+
+
+def test_a_journal_of_another_request_stays(tmp_path):
+    """A map written beside a journal with other collisions, or with anything else, leaves it and says so."""
+    file, partial = tmp_path / "map.nc", tmp_path / "map.nc.partial"
+    theirs = Journal(partial, {"rtol": 1e-8})
+    theirs.add(np.array([1, 2]), many.empty(2, ()))
+    with partial.open("ab") as other:
+        other.write(b"\xff anything\n")
+    before = partial.read_bytes().split()
+    done = run("map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60:60:1", "-o", file)
+    assert done.exit_code == 0
+    assert "stays: it holds 2 finished collisions of another request and 1 lines" in done.stderr
+    assert partial.read_bytes().split() == before
+    assert file.exists()
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")

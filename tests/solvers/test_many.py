@@ -170,7 +170,7 @@ def test_parallel_equals_serial(monkeypatch):
 
 
 def test_without_a_compiler(monkeypatch, capfd):
-    """A machine without a C compiler gives the same results, and says once that it is slower."""
+    """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
     request = many.requested("granulation", stokes, None, angle, {}, 1e-9, None, EVERYTHING)
     fast = many.run(request, machine_code=True)
@@ -180,10 +180,17 @@ def test_without_a_compiler(monkeypatch, capfd):
     compiler.cache_clear()
     try:
         slow = many.run(request, machine_code=True)
+        compiler.cache_clear()
+        monkeypatch.setattr(many.signal, "signal", lambda *_: None)  # this process stays as it is
+        monkeypatch.setenv("WETDOUBLET_HUSHED", "")
+        monkeypatch.delenv("WETDOUBLET_HUSHED")
+        many._deaf()
+        assert compiler() is None
     finally:
         compiler.cache_clear()
         many.locate.__globals__["locator"].cache_clear()
-    assert capfd.readouterr().err.count("no C compiler") == 1
+    said = capfd.readouterr().err
+    assert said.count("no C compiler") == said.count("no Taylor kernel") == 1
     for name in ("outcome", "certified", "reason"):
         assert (fast[name] == slow[name]).all()
     for name in EVERYTHING:
@@ -208,6 +215,17 @@ def test_a_compiler_that_is_none(named, tmp_path, monkeypatch, capfd):
         assert build(found[0], (), tmp_path / "empty.c", tmp_path / "out.so") == "no library came of it"
     else:
         assert "CC=no-such-compiler is no compiler here" in capfd.readouterr().err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_compiler_that_is_interrupted(tmp_path, capfd):
+    """A compiler that Ctrl-C ends is an interrupt, not one that cannot compile; nothing is said of it."""
+    killed = tmp_path / "cc"
+    killed.write_text("#!/bin/sh\nkill -INT $$\n")
+    killed.chmod(0o700)
+    with pytest.raises(KeyboardInterrupt):
+        build(str(killed), (), tmp_path / "any.c", tmp_path / "out.so")
+    assert capfd.readouterr().err == ""
 
 
 @pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")

@@ -69,16 +69,20 @@ def test_hessian_of_a_turned_tethered_flight() -> None:
 
 
 def test_hessian_times_a_vector() -> None:
-    """One direction gives what the whole matrix gives times it; a name that is no parameter is refused."""
+    """One direction gives what the whole matrix gives times it, and both show; no parameter's name is refused."""
     vector = {"bridge.volume": 0.1, "impact.angle": 0.5}
-    whole = sensitivities(GLASS, ["contact_time"], WRT, hessian=True).hessian
-    times = sensitivities(GLASS, ["contact_time"], WRT, hessian=vector).hessian_times
+    found = sensitivities(GLASS, ["contact_time"], WRT, hessian=True)
+    along = sensitivities(GLASS, ["contact_time"], WRT, hessian=vector)
+    whole, times = found.hessian, along.hessian_times
     assert whole is not None
     assert times is not None
     for name in WRT:
         row = whole["contact_time"][name]
         expected = sum(float(row[one] or 0.0) * part for one, part in vector.items())
         assert times["contact_time"][name] == pytest.approx(expected, rel=1e-9)
+        shown = [line.split()[1:] for line in str(found).splitlines() if line.startswith(f"{name} ")]
+        assert [float(cell) for cells in shown[1:] for cell in cells] == pytest.approx(list(row.values()), rel=1e-5)
+        assert f"{times['contact_time'][name]:.6g}" in str(along)
     with pytest.raises(InputError, match="hessian"):
         sensitivities(GLASS, wrt=WRT, hessian={"bridge.volum": 1.0})
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
@@ -15,6 +15,7 @@ from wetdoublet.solvers.verify import (
     backward,
     closed,
     conserved,
+    edges,
     numeric,
     order,
     region,
@@ -83,12 +84,17 @@ def test_the_budget_adds_up() -> None:
 
 
 def test_intervals_end_where_the_restitution_is_one() -> None:
-    """Between two points ln e_n is taken as straight in ln St; next to a stick the interval ends half-way."""
-    budget = restitution_budget("granulation", stokes=[0.01, 0.02, 0.04], angle=[math.radians(75)])
-    budget["restitution"].values[:] = [[0.0, 2.0, 0.5]]
-    ((low, high),) = region.intervals(budget, 0)
-    assert low == pytest.approx(math.sqrt(0.01 * 0.02), rel=1e-12)
-    assert high == pytest.approx(math.sqrt(0.02 * 0.04), rel=1e-12)
+    """e_n passes 1, or jumps over it where the outcome changes, within 1e-4 of an end, by another engine."""
+    scene, angles = Scene.load("granulation"), np.radians([10.0, 65.0, 75.0]).tolist()
+    nothing, jumps, passes = edges.above_one(scene, angles, np.array([0.01, 0.03, 0.1, 0.3]), 1e-10)
+    assert nothing.spans == ()
+    for one in (jumps, passes):
+        ((low, high),) = one.spans
+        assert high == 0.3
+        beside = collide_many(scene, stokes=[low * (1 - 1e-4), low * (1 + 1e-4)], angle=one.angle, engine="rosenbrock")
+        below, above = beside["restitution"].values
+        assert below < 1 < above <= one.most
+        assert (above - below > 0.1) == (one is jumps)
 
 
 def test_the_picture_shows_the_terms(tmp_path) -> None:

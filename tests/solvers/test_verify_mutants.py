@@ -186,7 +186,7 @@ def test_a_budget_that_does_not_add_up_is_found(law, change, monkeypatch) -> Non
     """An open ledger, a spin or an e_n off by 1e-5 break the identity; an e_n four times too large its ceiling."""
     monkeypatch.setattr(budget, "collide", doctored(change))
     data = budget.restitution_budget(SCENE, stokes=[0.05, BAD["stokes"]], angle=[0.5, BAD["angle"]], rtol=1e-10)
-    found = by_name(region.argument("g", data))
+    found = by_name(region.argument("g", SCENE, data))
     assert law in failures(found.values())
     assert found[law].where == "St 0.12, 60 deg"
 
@@ -199,7 +199,7 @@ def test_a_budget_with_a_failed_point_still_has_its_findings(monkeypatch) -> Non
 
     monkeypatch.setattr(budget, "collide", doctored(fail))
     data = budget.restitution_budget(SCENE, stokes=[0.05, BAD["stokes"]], angle=[BAD["angle"]], rtol=1e-10)
-    found = by_name(region.argument("g", data))
+    found = by_name(region.argument("g", SCENE, data))
     assert failures(found.values()) == ["e_n^2 - 1: completed"]
     assert found["e_n^2 - 1: identity"].ok
     assert np.isnan(data["excess"].values[0, 1])
