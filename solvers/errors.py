@@ -26,12 +26,17 @@ def one_line(text: str) -> str:
 
 
 def nearest(word: object, known: Iterable[str]) -> str | None:
-    """Return the known name most like `word`, or None if none is near; the dashes of options do not count."""
+    """Return the known name most like `word`, one that begins with it before others, or None if none is near.
+
+    The dashes of options do not count.
+    """
     from difflib import get_close_matches
 
     names = {name.lower().lstrip("-"): name for name in known}
-    close = get_close_matches(str(word)[:_LONGEST].lower().lstrip("-"), names, n=1, cutoff=_NEAR)
-    return names[close[0]] if close else None
+    asked = str(word)[:_LONGEST].lower().lstrip("-")
+    close = get_close_matches(asked, names, cutoff=_NEAR)
+    begun = [name for name in close if name.startswith(asked)]
+    return names[(begun or close)[0]] if close else None
 
 
 def did_you_mean(word: object, known: Iterable[str]) -> str:

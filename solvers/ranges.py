@@ -21,17 +21,19 @@ def parse_range(text: str, label: str, read: Callable[[str], float], *, unit: st
         unit: said of LO and HI in the error (`in degrees`).
 
     Raises:
-        InputError: not a range, LO above HI, a count that is no whole number or does not fit.
+        InputError: not a range, LO above HI, a count that is no whole number, too large or does not fit.
     """
     accepted = f"LO:HI:N or log:LO:HI:N{' ' + unit if unit else ''}, LO < HI and N >= 2 (or LO = HI and N = 1)"
     parts = text.split(":")
     logarithmic = parts[0].strip() == "log"
     if logarithmic:
         parts = parts[1:]
-    if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,9}\s*", parts[2], re.ASCII):
+    if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,30}\s*", parts[2], re.ASCII):
         raise InputError(label, text, accepted, "is not a range")
     low, high, count = read(parts[0]), read(parts[1]), int(parts[2])
-    if low > high or not 1 <= count <= _MOST or (count == 1) != (low == high):
+    if count > _MOST:
+        raise InputError(label, text, f"{accepted}, N at most {_MOST}", "has too many values")
+    if low > high or count < 1 or (count == 1) != (low == high):
         raise InputError(label, text, accepted, "is not a range")
     if logarithmic and low <= 0:
         raise InputError(label, text, accepted + ", LO > 0 for log", "has no logarithm")

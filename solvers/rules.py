@@ -129,6 +129,12 @@ def check_together(scene: Scene) -> None:
     if scene.bridge is not None and not film < ruptured < math.inf:
         ratio = film / (2 * scene.reduced_radius * (1 + scene.bridge.contact_angle / 2))
         least = ratio * ratio * ratio  # ** would raise instead of becoming inf
+        if math.isinf(least):
+            name = next(each for each in ("particles.reduced_radius", "particles.radius") if each in given)
+            accepted = (
+                f"a radius that is not so small beside liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
+            )
+            raise InputError(name, given[name], accepted, "is too small for a bridge across the film")
         problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {film:.4g} m"
         accepted = f"a number V/R^3 above {least:.4g}" if scene.bridge.rupture == "common" else "a larger number V/R^3"
         raise InputError("bridge.volume", given["bridge.volume"], accepted, problem)

@@ -80,7 +80,7 @@ class Field:
         """
         label = label or self.name
         if self.flag:
-            if raw is not True and raw != "true":
+            if raw is not True and (from_file or raw != "true"):
                 raise InputError(label, raw, self.accepts)
             return "true"
         if self.choices:

@@ -35,7 +35,7 @@ def draw(found: Stress, folder: Path) -> list[Path]:
 def over_impacts(found: Stress) -> Figure:
     """Difference of e_n between engines, and cost of the fast one, a point a sampled scene."""
     figure = Figure(figsize=(10.4, 5.0), layout="constrained")
-    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
     sampled = [one for one in found.verdicts if one.case.kind == "sampled"]
     error = [max(one.error or 0.0, 1e-16) for one in sampled]
     cost = [1e3 * one.found[FAST].cpu if FAST in one.found else np.nan for one in sampled]

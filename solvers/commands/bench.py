@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import click
@@ -14,7 +15,18 @@ from .bar import bar
 _SCENES = 20_000
 
 
-@click.command("bench", short_help="Run time against error, beside the peers that are installed.")
+class _Counted(click.Command):
+    """A command whose --stress may stand alone: what follows it is its value, unless it is an option."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Judge a negative number here, which click takes for an option."""
+        for option, value in pairwise(args):
+            if option == "--stress" and value[:1] == "-" and value[1:2].isdigit():
+                _count(value)
+        return super().parse_args(ctx, args)
+
+
+@click.command("bench", cls=_Counted, short_help="Run time against error, beside the peers that are installed.")
 @click.option("--out", metavar="DIR", help="Folder for records, tables and plots [bench, or stress].")
 @click.option(
     "--stress",

@@ -1,4 +1,4 @@
-"""`wetdoublet export`: the model of a scene as LaTeX, as C, or as an FMU."""
+"""`wetdoublet export`: the model of a scene as LaTeX or as C; an FMU is refused."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ import click
 from ..errors import InputError, did_you_mean
 from . import options
 
-KINDS = ("c", "fmu", "latex")
+KINDS = ("c", "latex")
+_REFUSED = "fmu"  # with its own reason
 
 
 @click.command("export", short_help="The scene's model as LaTeX and Markdown, or as C functions.")
 @options.scene_argument
-@click.option("--to", "kind", metavar="KIND", help="c, fmu or latex.")
+@click.option("--to", "kind", metavar="KIND", help="c or latex.")
 @click.option("--out", metavar="DIR", help="Folder to write into.")
 @options.impact
 @options.changes
@@ -38,7 +39,7 @@ def command(
     Example:
       wetdoublet export granulation --to c --out build
     """  # noqa: D301 # click wants the character itself
-    if kind is not None and kind not in KINDS:
+    if kind is not None and kind not in (*KINDS, _REFUSED):
         raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
     folder = options.check_folder(out)
     scene = options.Asked.check(source, changes, stokes, speed, angle, model).scene()

@@ -34,14 +34,17 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
     check_wrt(scene, tuple(uncertainty), label)
     found = {}
     for name, given in uncertainty.items():
-        accepted = f'{name} = "5 %", or a standard deviation with its unit'
+        accepted = f'{name} = "5 %", or a standard deviation with its unit, such as {scene.fields[name].example}'
         if isinstance(given, str) and given.strip().endswith("%"):
             try:
                 value = float(given.strip()[:-1]) / 100 * _value(scene, name)
             except ValueError:
                 raise InputError(label, given, accepted, "is no percentage") from None
         else:
-            value = FIELDS[name].number(given, label=f"{label} of {name}")
+            try:
+                value = scene.fields[name].number(given, label=f"{label} of {name}")
+            except InputError as error:
+                raise InputError(error.field, given, accepted, error.problem) from None
         if not 0 < value < np.inf:
             raise InputError(label, given, accepted, f"is no standard deviation of {name}")
         found[name] = value

@@ -43,6 +43,7 @@ def test_positive_quantities(name):
         ({"impact.stokes": [1]}, "impact.stokes", "[1] is not a number"),
         ({"impact.stokes": 10**400}, "impact.stokes", "is not finite"),
         ({"particles.radius": "100 um"}, "particles.radius", 'together with particles.reduced_radius = "50 um"'),
+        ({"partner.wall": "true"}, "partner.wall", "accepted: true, for a wall"),
         ({"particles.mass": "1 g"}, "particles.mass", "together with particles.reduced_mass"),
         ({"particles.reduced_radius": None}, "particles.reduced_radius", "or particles.radius"),
         ({"particles.reduced_mass": None}, "particles.reduced_mass", "or particles.density"),
