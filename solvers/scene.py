@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, Self
 
@@ -126,7 +126,12 @@ class Scene:
 
     def to_toml(self) -> str:
         """Return the scene file: units as they were given, and the comments on what is assumed."""
-        return _written(self)
+        return self._written
+
+    @cached_property
+    def _written(self) -> str:
+        """The scene file, for all results that carry it; equal scenes may have been given in other units."""
+        return scenefile.write(self.name, dict(self.given), dict(self.comments))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the nested tables as a scene file has them (text carries units)."""
@@ -295,12 +300,6 @@ class Scene:
 def _read(text: str, origin: str) -> Scene:
     """The scene of a text: read once, since scenes do not change."""
     return Scene.from_toml(text, origin)
-
-
-@lru_cache(maxsize=32)
-def _written(scene: Scene) -> str:
-    """The scene file of a scene: written once for all results that carry it."""
-    return scenefile.write(scene.name, dict(scene.given), dict(scene.comments))
 
 
 def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[str, Raw]]:

@@ -11,42 +11,15 @@ from typing import Any
 import numpy as np
 
 from ..compiled import compiler
-from ..locate import LOOSEST, Path
+from ..locate import LOOSEST
 from ..many import OUTCOMES, collide_many
 from ..model import choose, load
-from ..numbers import Numbers, numbers
 from ..scene import Scene
 from ..settings import ENGINES
 from ..simulate import collide
+from .answers import Answer, Bulk, Collide, answer, dimensionless
 from .peers import fly
 from .tasks import Impact
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What a collision came to."""
-
-    outcome: str
-    restitution: float
-
-
-Collide = Callable[[int], Answer]
-
-
-@dataclass(frozen=True)
-class Bulk:
-    """All collisions in one call.
-
-    Arguments:
-        run: the call that is timed.
-        read: what it came to, collision by collision; text says why one has failed.
-    """
-
-    run: Callable[[], Any]
-    read: Callable[[Any], list[Answer | str]]
-
-    def __call__(self) -> list[Answer | str]:
-        return self.read(self.run())
 
 
 @dataclass(frozen=True)
@@ -101,17 +74,6 @@ def in_bulk(engine: str) -> str:
 
 def _absent(module: str, package: str = "") -> str:
     return "" if find_spec(module) else f"{package or module} is not installed (pip install wetdoublet[bench])"
-
-
-def dimensionless(scene: Scene, impact: Impact) -> Numbers:
-    """The numbers of a scene's collision."""
-    return numbers(scene, scene.speed_of(impact.stokes), impact.angle)
-
-
-def answer(path: Path) -> Answer:
-    """What a located flight came to."""
-    outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
-    return Answer(path.outcome, outputs.get("restitution", 0.0))
 
 
 def _chained(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:

@@ -55,7 +55,7 @@ class Gradients:
     @cached_property
     def numbers(self) -> list[Numbers]:
         """The collisions without dimensions."""
-        from .engines import dimensionless
+        from .answers import dimensionless
 
         return [dimensionless(self.scene, each) for each in self.impacts]
 

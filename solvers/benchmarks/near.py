@@ -15,7 +15,8 @@ from ..errors import ComputationError
 from ..locate import locate
 from ..model import choose, load
 from ..scene import Scene
-from .engines import HEYOKA, Answer, Bulk, Engine, dimensionless, engines
+from .answers import Answer, Bulk, dimensionless
+from .engines import HEYOKA, Engine, engines
 from .markdown import ms, table
 from .tasks import Impact
 

@@ -15,7 +15,7 @@ from ..errors import ComputationError
 from ..locate import Locate
 from ..model import choose, load
 from ..scene import Scene
-from .engines import Answer, Bulk, dimensionless
+from .answers import Answer, Bulk, dimensionless
 from .peer_heyoka import starts
 from .tasks import Impact
 from .translated import translated

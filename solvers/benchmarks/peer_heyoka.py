@@ -294,6 +294,6 @@ def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Seque
 
 def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False) -> Batch:
     """The batch of a scene's impacts; as `prepare`."""
-    from .engines import dimensionless
+    from .answers import dimensionless
 
     return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside)

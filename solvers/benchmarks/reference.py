@@ -11,7 +11,7 @@ from ..locate import locate
 from ..model import choose, load
 from ..scene import Scene
 from ..simulate import collide
-from .engines import Answer, answer, dimensionless
+from .answers import Answer, answer, dimensionless
 from .peers import fly
 from .tasks import Impact
 

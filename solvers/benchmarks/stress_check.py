@@ -24,7 +24,7 @@ from ..simulate import by_casadi
 from ..taylor.engine import variant
 from ..taylor.library import Variant
 from ..validity import remarks
-from .engines import answer, dimensionless
+from .answers import answer, dimensionless
 from .peers import Flight
 from .stress_flights import Flights
 from .stress_sample import Case

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,8 @@ def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = l
     beside = _wanted(count)
     cases = list(_drawn(count - beside, seed))
     drawn(cases)
-    return [*_limited(beside), *cases]
+    found = [*_limited(beside), *cases]
+    return [*found, *islice(_drawn(count, seed + 1), count - len(found))]  # where there are too few boundaries
 
 
 def _wanted(count: int) -> int:

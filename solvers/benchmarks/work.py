@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import ComputationError
 from ..scene import Scene
-from .engines import Answer, Bulk, Engine
+from .answers import Answer, Bulk
+from .engines import Engine
 from .reference import Reference
 from .tasks import Impact, Task
 

@@ -8,7 +8,7 @@ from pathlib import Path as FilePath
 import numpy as np
 
 from ..buffered import LOCK
-from ..errors import InputError, did_you_mean
+from ..errors import ComputationError, InputError, did_you_mean
 from ..scene import Scene
 from ..settings import check_engine, check_rtol
 from . import kernel
@@ -90,9 +90,16 @@ def sensitivities(
         path, near = problem.located(of, rtol)
         todo = tuple(name for name in computed(of) if problem.defined(name, path))
         slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
-        if slopes is None:
-            plugin = _BEST if plugin == "taylor" else plugin
-            slopes = problem.slopes(path, todo, method, plugin, rtol, along, near) if todo else None
+        if slopes is None and todo:
+            beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
+            try:
+                slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
+            except ComputationError:  # its flight misses what the located one met: the kernel may not
+                alone = beside or asked is not None or method != "forward" or along is not None
+                slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
+                if slopes is None:
+                    raise
+                plugin = "taylor"
         turning: dict[str, float] = {}
         if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
             if along is not None:

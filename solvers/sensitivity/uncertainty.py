@@ -181,15 +181,15 @@ def _normal(samples: int, count: int) -> np.ndarray:
 
 
 def _possible(name: str, value: float, deviation: np.ndarray) -> np.ndarray:
-    """The value and its deviations, these halved until the schema takes them."""
+    """The value and its deviations, these halved until the schema takes them; at its very edge there are none."""
     holds = FIELDS[name].range.holds
     moved = np.array(deviation)
     for _ in range(60):
         bad = np.array([not holds(float(value + each)) for each in moved])
         if not bad.any():
-            break
+            return value + moved
         moved[bad] /= 2
-    return value + moved
+    return value + np.where(bad, 0.0, moved)
 
 
 def draw(found: xarray.Dataset) -> Any:

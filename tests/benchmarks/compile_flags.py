@@ -18,7 +18,7 @@ from typing import Any
 from unittest import mock
 
 from wetdoublet.solvers import compiled, integrators
-from wetdoublet.solvers.benchmarks.engines import dimensionless
+from wetdoublet.solvers.benchmarks.answers import dimensionless
 from wetdoublet.solvers.benchmarks.environment import environment
 from wetdoublet.solvers.benchmarks.tasks import TASKS, Task
 from wetdoublet.solvers.locate import locate

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.benchmarks.engines import dimensionless
+from wetdoublet.solvers.benchmarks.answers import dimensionless
 from wetdoublet.solvers.benchmarks.environment import environment
 from wetdoublet.solvers.benchmarks.reference import reference
 from wetdoublet.solvers.benchmarks.tasks import TASKS, Impact, Task

@@ -16,8 +16,9 @@ from wetdoublet.solvers.benchmarks import growth as growing
 from wetdoublet.solvers.benchmarks import reference as references
 from wetdoublet.solvers.benchmarks import run as running
 from wetdoublet.solvers.benchmarks import work as working
+from wetdoublet.solvers.benchmarks.answers import Answer, answer
 from wetdoublet.solvers.benchmarks.cold import COMMANDS
-from wetdoublet.solvers.benchmarks.engines import Answer, Engine, answer, engines
+from wetdoublet.solvers.benchmarks.engines import Engine, engines
 from wetdoublet.solvers.benchmarks.features import HORIZON, certificate
 from wetdoublet.solvers.benchmarks.markdown import table
 from wetdoublet.solvers.benchmarks.record import write

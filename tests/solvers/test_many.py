@@ -117,6 +117,16 @@ def test_of():
     }
 
 
+def test_results_share_nothing():
+    """What is done to one result, its labels included, leaves the next as it would have been."""
+    first = collide_many("granulation")
+    first.outcome.attrs["flag_values"][:] = 7
+    first.restitution.attrs["units"] = "spoilt"
+    second = collide_many("granulation")
+    assert second.outcome.attrs["flag_values"].tolist() == [-1, 0, 1, 2]
+    assert second.restitution.attrs["units"] == "1"
+
+
 def test_sizes():
     """One number, none at all, lists of text with units, and one value for all are accepted."""
     one = collide_many("granulation")

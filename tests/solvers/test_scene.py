@@ -165,6 +165,15 @@ def test_any_scene_round_trips(scene):
     assert Scene.from_toml(scene.to_toml()) == scene
 
 
+def test_equal_scenes_keep_the_text_they_were_given():
+    """Two scenes of the same SI numbers are equal, and each is still written in its own units."""
+    scene = Scene.load("granulation")
+    first, second = (scene.with_entries({"liquid.viscosity": text}) for text in ("2 Pa s", "2000 mPa s"))
+    assert first == second
+    assert 'viscosity = "2 Pa s"' in first.to_toml()
+    assert 'viscosity = "2000 mPa s"' in second.to_toml()
+
+
 def test_an_impact_replaced_keeps_text_and_order():
     """An impact given as text stands in the file as it was given, stokes or speed before the angle."""
     scene = Scene.load("granulation").with_impact(angle="20deg").with_impact(speed="1 m/s")

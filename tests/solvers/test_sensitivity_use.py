@@ -19,6 +19,7 @@ from wetdoublet.solvers import (
     trajectory_sensitivities,
 )
 from wetdoublet.solvers.benchmarks.derivatives import gradient_table, gradients
+from wetdoublet.solvers.compiled import compiler
 from wetdoublet.solvers.sensitivity import uncertainty
 from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 
@@ -102,6 +103,12 @@ def test_first_order_standard_deviation() -> None:
     assert first_order(found, sigma)["contact_time"] == pytest.approx(expected)
     with pytest.raises(InputError, match="viscosity"):
         deviations(GRANULATION, {"liquid.viscosity": "5 kg"})
+
+
+def test_samples_at_the_edge_of_what_may_be() -> None:
+    """Samples of a value that may only move one way (a contact angle of 0, a head-on impact) lie on that side alone."""
+    for name in ("bridge.contact_angle", "impact.angle"):
+        assert uncertainty._possible(name, 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
 
 
 def test_band_against_samples(tmp_path: Path) -> None:
@@ -188,3 +195,15 @@ def test_the_scene_given_stays_as_it_is() -> None:
     found = sensitivities(Scene.load("granulation"), stokes=0.02, angle="75 deg", rtol=1e-10)
     one = collide(found.scene, rtol=1e-10, engine="rosenbrock")
     assert found.value["restitution"] == pytest.approx(one.restitution, rel=1e-9)
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+def test_the_kernel_answers_where_the_other_engine_misses(monkeypatch):
+    """Glass met within rounding of first touch: e_n = e_dry, its derivative 1, whatever the cache holds."""
+    scene = Scene.load("granulation-dry-bridge").with_entries(
+        {"model.glass": "film-corrected", "liquid.glass_transition_pressure": "1e-3 Pa"}
+    )
+    monkeypatch.setattr("wetdoublet.solvers.sensitivity.gradients.chosen", lambda *_: "rosenbrock")
+    found = sensitivities(scene, ["restitution"], ["particles.dry_restitution"], stokes=3, angle=0.5)
+    assert found.engine == "taylor"
+    assert found.gradient["restitution"]["particles.dry_restitution"] == pytest.approx(1.0, rel=1e-9)

@@ -43,6 +43,8 @@ static void along_near(carried *a, int lane, double measure, int boundary)
 }
 
 #if BACKWARD
+enum { BEGUN, REVERSED, ENDED }; /* what a tape notes of a lane between steps */
+
 static void along_start(carried *a, int lane)
 {
     a->near[lane] = a->hint[lane] = INFINITY;
