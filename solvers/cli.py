@@ -79,7 +79,7 @@ class Commands(click.Group):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("always", ModelWarning)
-                warnings.showwarning = _remarks()  # type: ignore[assignment]  # of its arguments two are of use
+                warnings.showwarning = _remarks()
                 status = super().main(arguments, prog_name or "wetdoublet", **extra)
         except WetDoubletError as error:
             status = _report(str(error), error.exit_status, error, arguments)
