@@ -7,7 +7,7 @@ import os
 import sys
 import traceback
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -79,7 +79,7 @@ class Commands(click.Group):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("always", ModelWarning)
-                warnings.showwarning = _remark  # type: ignore[assignment]  # of its arguments two are of use
+                warnings.showwarning = _remarks()
                 status = super().main(arguments, prog_name or "wetdoublet", **extra)
         except WetDoubletError as error:
             status = _report(str(error), error.exit_status, error, arguments)
@@ -105,10 +105,18 @@ def _settle_streams() -> None:
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 
-def _remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    """A warning as one line on standard error."""
-    said = "warning" if category is ModelWarning else category.__name__
-    click.echo(f"{said}: {one_line(str(message))}", err=True)
+def _remarks() -> Callable[..., None]:
+    """What writes a warning as one line on standard error, each once a command, however many collisions it is of."""
+    told: set[str] = set()
+
+    def remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
+        said = "warning" if category is ModelWarning else category.__name__
+        line = f"{said}: {one_line(str(message))}"
+        if line not in told:
+            told.add(line)
+            click.echo(line, err=True)
+
+    return remark
 
 
 def _report(line: str, status: int, error: BaseException, arguments: list[str]) -> int:

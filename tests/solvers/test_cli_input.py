@@ -4,10 +4,11 @@ import json
 import os
 import subprocess
 import sys
+import warnings
 from types import ModuleType, SimpleNamespace
 
 import pytest
-from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError
+from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.ranges import parse_range
 from wetdoublet.solvers.scene import Scene
 from wetdoublet.solvers.settings import check_engine, check_rtol
@@ -314,6 +315,20 @@ def test_ranges():
     assert parse_range("log:0.01:100:5", "--stokes", float) == pytest.approx([0.01, 0.1, 1, 10, 100])
     assert parse_range("log:0.1:0.7:3", "--stokes", float)[::2] == [0.1, 0.7]
     assert parse_range("5:5:1", "--angle", float) == [5]
+
+
+def test_a_warning_is_said_once(module):
+    """However many collisions a warning is of, it is one line; another one is another line."""
+
+    def collide(scene, **options):
+        for text in ("a law is stretched", "a law is stretched", "another one"):
+            warnings.warn(text, ModelWarning, stacklevel=2)
+        return SimpleNamespace(to_dict=dict)
+
+    module("wetdoublet.solvers.simulate", collide=collide)
+    for _ in range(2):  # each command anew
+        said = run("collide", "granulation", "--json").stderr
+        assert said == "warning: a law is stretched\nwarning: another one\n"
 
 
 def test_settings_from_python():
