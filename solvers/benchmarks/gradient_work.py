@@ -32,6 +32,7 @@ FINE = tuple(10.0**-k for k in (6, 7, 7.5, 8, 8.5, *range(9, 14)))
 COARSE = (1e-8, 1e-10)
 DIFFERENCES = 1e-13  # tolerance of collisions whose differences are taken; then steps take the part of tolerances
 STEPS = (1e-3, 1e-4, 1e-5)
+LONG = 0.5  # seconds of a call, which is then not repeated at once
 
 
 @dataclass(frozen=True)
@@ -182,6 +183,8 @@ def _of(asked: Gradients, preset: str, repeats: int, tell: Tell, which: Sequence
             run()
             cpu, wall = (time.process_time() - cpu) / count, (time.perf_counter() - wall) / count
             row["cpu"], row["wall"] = min(row["cpu"], cpu), min(row["wall"], wall)
+            if wall * count > LONG:
+                break
     return {
         "preset": preset,
         "collisions": len(asked.impacts),
