@@ -10,6 +10,8 @@ from .barrier import BarrierProof
 from .film import FilmProof
 from .panels import panels
 
+_WEAK = 1e-3  # of m v0^2; the error of a level is 3e-5 at most, that of the loosest tolerance
+
 
 class AttractedProof(BarrierProof):
     """Head-on or beside a wall, a film and what attracts: energy, or the film that stops the approach.
@@ -25,7 +27,12 @@ class AttractedProof(BarrierProof):
         self._film = FilmProof(model, p, rtol)
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        return super().decided(y, phase) or (not phase.resting and self._stopped(y, phase))
+        return super().decided(y, phase) or (not phase.resting and self._weak(y) and self._stopped(y, phase))
+
+    def _weak(self, y: np.ndarray) -> bool:
+        """Whether what rises beyond x0 is too low for the energy to decide soon; else the film's quadrature is dear."""
+        touch = self.model.values("effective_potential", np.array([1.0, *y[1:]]), self.p)["energy"]
+        return all(barrier.height - touch < _WEAK for barrier in self.barriers(y))
 
     def _stopped(self, y: np.ndarray, phase: Phase) -> bool:
         film, gap, opening = self._film, float(y[0]), float(y[1])
