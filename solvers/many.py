@@ -12,7 +12,6 @@ import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ import numpy as np
 
 from .compiled import hush
 from .errors import ComputationError, ModelWarning, WetDoubletError
+from .labels import Column, labelled
 from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
@@ -239,39 +239,27 @@ def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict
 
 def as_dataset(request: Request, results: Block) -> xarray.Dataset:
     """Results as a labelled Dataset over `collision`, its impacts and varied entries as coordinates."""
-    impacts = {"stokes": request.stokes, "speed": request.speed, "angle": request.angle}
-    coordinates = {name: values for name, values in impacts.items() if values is not None} | request.vary
-    numbers = {name: results[name] for name in QUANTITIES if name in results}
-    columns = {"outcome": results["outcome"], "certified": results["certified"], "reason": as_text(results)}
-    units = tuple((name, request.scene.fields[name].unit or "1") for name in request.vary)
-    labelled = _labels(request.size, request.stokes is not None, units, tuple(numbers))
-    found = labelled.copy(data=columns | numbers | coordinates).set_coords(coordinates)
-    found.variables["outcome"].attrs = outcome_attributes()  # an array is among them, which results must not share
-    found.attrs = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
-    if request.scene.package is not None:
-        found.attrs["model"] = request.scene.package.text
-    return found
-
-
-@lru_cache(maxsize=32)
-def _labels(size: int, stokes: bool, varied: tuple[tuple[str, str], ...], kept: tuple[str, ...]) -> xarray.Dataset:
-    """Names, units and meanings, the numbers yet to come: xarray takes longer over them than a hundred collisions."""
-    import xarray as xr
-
-    nothing = np.broadcast_to(0.0, size)  # takes no memory
-    about: dict[str, dict[str, Any]] = {
-        "outcome": {},
-        "certified": {"long_name": "the stick is proved"},
-        "reason": {"long_name": "why it failed"},
+    along = ("collision",)
+    coordinates: dict[str, Column] = {}
+    if request.stokes is not None:
+        coordinates["stokes"] = along, request.stokes, {"units": "1", "long_name": "Stokes number"}
+    if request.speed is not None:
+        coordinates["speed"] = along, request.speed, {"units": "m/s", "long_name": "normal approach speed"}
+    coordinates["angle"] = along, request.angle, {"units": "rad", "long_name": "impact angle"}
+    for name, values in request.vary.items():
+        coordinates[name] = along, values, {"units": request.scene.fields[name].unit or "1"}
+    variables: dict[str, Column] = {
+        "outcome": (along, results["outcome"], outcome_attributes()),
+        "certified": (along, results["certified"], {"long_name": "the stick is proved"}),
+        "reason": (along, as_text(results), {"long_name": "why it failed"}),
     }
-    about |= {name: {"units": QUANTITIES[name][0], "long_name": QUANTITIES[name][1]} for name in kept}
-    if stokes:
-        about["stokes"] = {"units": "1", "long_name": "Stokes number"}
-    else:
-        about["speed"] = {"units": "m/s", "long_name": "normal approach speed"}
-    about["angle"] = {"units": "rad", "long_name": "impact angle"}
-    about |= {name: {"units": unit} for name, unit in varied}
-    return xr.Dataset({name: ("collision", nothing, attributes) for name, attributes in about.items()})
+    for name, (unit, meaning) in QUANTITIES.items():
+        if name in results:
+            variables[name] = along, results[name], {"units": unit, "long_name": meaning}
+    attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
+    if request.scene.package is not None:
+        attributes["model"] = request.scene.package.text
+    return labelled(variables, coordinates, attributes)
 
 
 def as_text(results: Block) -> np.ndarray:

@@ -101,7 +101,7 @@ def _by_kernel(stokes: float, angle: float) -> list[Record]:
     found: list[Record] = [{"method": f"{MANY} by the kernel: value", "parameters": 0, "cpu": value, "ratio": 1.0}]
     for count in GRADIENTS:
         wrt = list(PARAMETERS[:count])
-        cpu = _best(lambda wrt=wrt: gradients_many("granulation", **many, wrt=wrt)) / MANY  # type: ignore[misc]
+        cpu = _best(lambda wrt=wrt: gradients_many("granulation", **many, wrt=wrt)) / MANY  # type: ignore[misc]  # bound at once
         found.append({"method": f"{MANY} by the kernel", "parameters": count, "cpu": cpu, "ratio": cpu / value})
     return found
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import WetDoubletError
+from ..labels import Column, labelled
 from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
@@ -271,50 +271,26 @@ def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
 
 
 def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
-
     reference = asked.reference()
     with np.errstate(divide="ignore", invalid="ignore"):
         elasticity = asked.gradient * reference / asked.value[:, :, None]
     elasticity[~np.isfinite(elasticity) | (reference == 0)] = np.nan
-    columns = {
-        "value": asked.value,
-        "gradient": asked.gradient,
-        "elasticity": elasticity,
-        "outcome": asked.outcome,
-        "reason": asked.reason.astype(str),
-        "engine": asked.engine.astype(str),
+    along, over = ("collision",), ("quantity", "collision", "parameter")
+    stokes = asked.speed * asked.scene.stokes_per_speed
+    variables: dict[str, Column] = {
+        "value": (("quantity", "collision"), asked.value, {"long_name": "results, SI"}),
+        "gradient": (over, asked.gradient, {"long_name": "derivatives by the parameters, SI"}),
+        "elasticity": (over, elasticity, {"units": "1", "long_name": "d ln y/d ln p"}),
+        "outcome": (along, asked.outcome, outcome_attributes()),
+        "reason": (along, asked.reason.astype(str), {"long_name": "why there is no derivative"}),
+        "engine": (along, asked.engine.astype(str), {"long_name": "what computed it"}),
     }
-    coordinates = {
-        "units": np.array([QUANTITIES[name].unit for name in asked.of]),
-        "reference": reference,
-        "speed": asked.speed,
-        "stokes": asked.speed * asked.scene.stokes_per_speed,
-        "angle": asked.angle,
+    coordinates: dict[str, Column] = {
+        "units": (("quantity",), np.array([QUANTITIES[name].unit for name in asked.of]), {}),
+        "reference": (("collision", "parameter"), reference, {}),
+        "speed": (along, asked.speed, {"units": "m/s", "long_name": "normal approach speed"}),
+        "stokes": (along, stokes, {"units": "1", "long_name": "Stokes number"}),
+        "angle": (along, asked.angle, {"units": "rad", "long_name": "impact angle"}),
     }
-    found = _labels(asked.speed.size, asked.of, asked.wrt).copy(data=columns | coordinates).set_coords(coordinates)
-    found.attrs = {"scene": asked.scene.to_toml(), "rtol": asked.rtol, "hold": hold}
-    return found
-
-
-@lru_cache(maxsize=32)
-def _labels(size: int, of: tuple[str, ...], wrt: tuple[str, ...]) -> xarray.Dataset:
-    """Names, units and meanings, the numbers yet to come: made once a shape, since xarray takes its time over them."""
-    import xarray as xr
-
-    lengths = {"quantity": len(of), "collision": size, "parameter": len(wrt)}
-    about: dict[str, tuple[tuple[str, ...], dict[str, Any]]] = {
-        "value": (("quantity", "collision"), {"long_name": "results, SI"}),
-        "gradient": (tuple(lengths), {"long_name": "derivatives by the parameters, SI"}),
-        "elasticity": (tuple(lengths), {"units": "1", "long_name": "d ln y/d ln p"}),
-        "outcome": (("collision",), outcome_attributes()),
-        "reason": (("collision",), {"long_name": "why there is no derivative"}),
-        "engine": (("collision",), {"long_name": "what computed it"}),
-        "units": (("quantity",), {}),
-        "reference": (("collision", "parameter"), {}),
-        "speed": (("collision",), {"units": "m/s", "long_name": "normal approach speed"}),
-        "stokes": (("collision",), {"long_name": "Stokes number"}),
-        "angle": (("collision",), {"units": "rad", "long_name": "impact angle"}),
-    }
-    nothing = {name: np.broadcast_to(0.0, [lengths[dim] for dim in dims]) for name, (dims, _) in about.items()}
-    variables = {name: (dims, nothing[name], attributes) for name, (dims, attributes) in about.items()}
-    return xr.Dataset(variables, {"quantity": list(of), "parameter": list(wrt)})
+    attributes = {"scene": asked.scene.to_toml(), "rtol": asked.rtol, "hold": hold}
+    return labelled(variables, coordinates, attributes, {"quantity": asked.of, "parameter": asked.wrt})

@@ -5,12 +5,13 @@ import shutil
 import stat
 import subprocess
 import sys
+from functools import partial
 
 import numpy as np
 import pytest
 import xarray as xr
 from loky import process_executor
-from wetdoublet.solvers import Scene, collide, collide_many, many
+from wetdoublet.solvers import Scene, collide, collide_many, gradients_many, many
 from wetdoublet.solvers.compiled import build, cache_folder, compiled, compiler
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.numbers import numbers
@@ -117,14 +118,15 @@ def test_of():
     }
 
 
-def test_results_share_nothing():
+@pytest.mark.parametrize("compute", [collide_many, partial(gradients_many, wrt="liquid.viscosity")])
+def test_results_share_nothing(compute):
     """What is done to one result, its labels included, leaves the next as it would have been."""
-    first = collide_many("granulation")
+    first = compute("granulation")
     first.outcome.attrs["flag_values"][:] = 7
-    first.restitution.attrs["units"] = "spoilt"
-    second = collide_many("granulation")
+    first.stokes.attrs["units"] = "spoilt"
+    second = compute("granulation")
     assert second.outcome.attrs["flag_values"].tolist() == [-1, 0, 1, 2]
-    assert second.restitution.attrs["units"] == "1"
+    assert second.stokes.attrs["units"] == "1"
 
 
 def test_sizes():
