@@ -7,7 +7,6 @@ from one angle to the next; a coarse scan starts the tracing and takes over wher
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -18,6 +17,7 @@ import numpy as np
 
 from .changes import Change, between, followed
 from .compiled import hush
+from .cores import usable_cores
 from .errors import ComputationError, InputError
 from .probe import Line
 from .requests import checked_numbers
@@ -117,7 +117,7 @@ def boundary(
     warn(loaded)
     order = np.argsort(angles, kind="stable")
     worth = _WORTH_BY_KERNEL if knows(loaded) else _WORTH
-    cores = min(os.cpu_count() or 1, max(1, angles.size // worth))  # each part starts with a scan of its own
+    cores = min(usable_cores(), max(1, angles.size // worth))  # each part starts with a scan of its own
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0)
     tell = progress or (lambda _done: None)

@@ -7,7 +7,6 @@ A collision that fails is marked with its reason and the rest go on.
 from __future__ import annotations
 
 import math
-import os
 import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .compiled import hush
+from .cores import usable_cores
 from .errors import ComputationError, ModelWarning, WetDoubletError
 from .labels import Column, labelled
 from .locate import Path, locate
@@ -105,9 +105,9 @@ def compute(request: Request, which: np.ndarray, finished: Finished) -> None:
     What it has been told stays told, whatever interrupts the rest.
     """
     if request.engine == "taylor":
-        which = collided(request, which, _cores() if which.size > _ALONE else 1, finished)
+        which = collided(request, which, usable_cores() if which.size > _ALONE else 1, finished)
     blocks = [which[k : k + _BLOCK] for k in range(0, which.size, _BLOCK)]
-    cores = min(len(blocks), _cores())
+    cores = min(len(blocks), usable_cores())
     many = which.size > _ALONE
     if not many or cores == 1:
         for block in blocks:
@@ -115,11 +115,6 @@ def compute(request: Request, which: np.ndarray, finished: Finished) -> None:
         return
     for block, result in _in_parallel(request, blocks, cores):
         finished(block, result)
-
-
-def _cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iterator[tuple[np.ndarray, Block]]:

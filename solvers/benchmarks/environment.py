@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..compiled import FLAGS, compiler
+from ..cores import usable_cores
 
 _PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "scikit-sundae", "numba", "diffrax", "jax")
 
@@ -36,7 +37,7 @@ def environment() -> dict[str, Any]:
     return {
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "cpu": _cpu(),
-        "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
+        "cores": usable_cores(),
         "load": list(os.getloadavg()) if hasattr(os, "getloadavg") else None,
         "system": platform.platform(),
         "python": platform.python_version(),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from collections.abc import Callable
 from typing import Any
 
+from ..cores import usable_cores
 from ..settings import ENGINES
 from .engines import in_bulk
 
@@ -48,7 +48,7 @@ print(json.dumps({"wall": time.perf_counter() - wall, "cpu": used() - cpu, "memo
 def growth(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
     """A fresh process a size, engine and number of cores; a first call of a hundred has built what is needed."""
     found: list[Record] = []
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    available = usable_cores()
     for engine in (name for name in ENGINES if name != "cvodes"):
         for cores in (1, 2)[:available]:
             before = 0.0

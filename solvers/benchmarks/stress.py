@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import time
 from collections import Counter
@@ -12,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..compiled import hush
+from ..cores import usable_cores
 from ..many import OUTCOMES
 from ..model import choose
 from ..taylor.library import kernel
@@ -99,7 +99,7 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
 
 def _prepared(count: int, seed: int) -> list[Case]:
     """The sample, with all kernels that it asks for: each is compiled once, while boundaries are traced."""
-    compiling = ThreadPoolExecutor(_cores())  # compilers are processes of their own
+    compiling = ThreadPoolExecutor(usable_cores())  # compilers are processes of their own
 
     def compile_for(cases: Sequence[Case]) -> None:
         if FAST == "taylor":
@@ -116,15 +116,10 @@ def _prepared(count: int, seed: int) -> list[Case]:
     return cases
 
 
-def _cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
     """Blocks of cases by number, and their verdicts, as they are finished."""
     blocks = _blocks(cases)
-    cores = _cores()
+    cores = usable_cores()
     if len(cases) < _ALONE or cores == 1:
         for block in blocks:
             yield block, _block([cases[k] for k in block])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ import numpy as np
 
 from .. import boundary
 from ..compiled import hush
+from ..cores import usable_cores
 from ..errors import ComputationError
 from ..probe import Line as Probed
 from ..probe import ready
@@ -172,7 +172,7 @@ def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[
         return [function(item) for item in items]
     from loky import get_reusable_executor
 
-    pool = get_reusable_executor(max_workers=os.cpu_count() or 1, initializer=hush)
+    pool = get_reusable_executor(max_workers=usable_cores(), initializer=hush)
     return list(pool.map(function, items))
 
 

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..cores import usable_cores
 from ..errors import WetDoubletError
 from ..labels import Column, labelled
-from ..many import FAILED, OUTCOMES, _cores, outcome_attributes
+from ..many import FAILED, OUTCOMES, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
 from ..settings import FEW, RTOL, check_engine
@@ -151,7 +152,7 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
         which = np.flatnonzero((asked.angle > 0) == oblique)
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
     if len(parts) > 1:
-        with ThreadPoolExecutor(_cores()) as pool:  # the kernel runs without the interpreter's lock
+        with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel runs without the interpreter's lock
             left += pool.map(lambda part: _stretch(asked, part), parts)
     else:
         left += [_stretch(asked, part) for part in parts]

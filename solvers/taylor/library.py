@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import os
 import platform
 import sys
 import tempfile
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..compiled import build, cache_folder, compiler
+from ..cores import usable_cores
 from ..model import Choice, choose
 from .headers import headers, tangents
 
@@ -217,7 +217,7 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
 def compile_all(variants: Collection[Variant]) -> None:
     """Have the kernels of several variants, compiled side by side where they are not there yet."""
     if len(variants) > 1:
-        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:  # compilers are processes of their own
+        with ThreadPoolExecutor(usable_cores()) as pool:  # compilers are processes of their own
             list(pool.map(kernel, variants))
 
 

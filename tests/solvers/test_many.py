@@ -165,7 +165,7 @@ def test_parallel_equals_serial(monkeypatch):
         process_executor, "kill_process_tree", lambda one, **how: (killed.append(one), kill(one, **how))
     )
     for cores in (2, 1):
-        monkeypatch.setattr(many, "_cores", lambda cores=cores: cores)
+        monkeypatch.setattr(many, "usable_cores", lambda cores=cores: cores)
         data.append(collide_many("granulation", stokes=stokes, angle=angle, engine="rosenbrock", of=EVERYTHING))
     xr.testing.assert_identical(*data)
     assert not killed
