@@ -1,7 +1,7 @@
 """Boundaries between outcomes, traced: every Stokes number at which the outcome changes, angle by angle.
 
-Changes are roots of functions that are smooth through them (`probe`), found by a safeguarded secant method and followed
-from one angle to the next; a coarse scan starts the tracing and takes over where the pattern changes.
+Each line is sampled by collisions until its margins are resolved (`samples`); the changes that show are located by
+functions that are smooth through them (`probe`), and accepted if collisions on either side agree (`changes`).
 """
 
 from __future__ import annotations
@@ -9,18 +9,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
 
-from .changes import Change, between, followed
+from .changes import MERGED, Change, changes_between
 from .compiled import hush
 from .cores import usable_cores
 from .errors import ComputationError, InputError
+from .look import Look
 from .probe import Line
 from .requests import checked_numbers
+from .samples import first_grid, known, merged, sampled
 from .scene import Scene
 from .settings import RTOL, check_rtol
 from .taylor.library import knows
@@ -28,25 +29,29 @@ from .validity import warn
 
 STOKES = (1e-4, 100.0)
 SHARPEST = 1e-13
-_PER_DECADE = 1.7  # of the coarse scan
-_BESIDE = 2.0  # factor about the changes of two lines in which those between them are looked for
-_SURROUND = 1.3  # where the pattern of changes is another one than at the last angle
-_CLOSE = 6  # times that the angles about a change of pattern are halved for a picture
-_WORTH, _WORTH_BY_KERNEL = 30, 200  # angles that are worth starting a process for
-_AROUND, _NEAR = 3e-3, 1e-4  # relative doubt of a prediction from two lines, and at least from three
+_WORTH, _WORTH_BY_KERNEL = 4, 100  # angles that are worth starting a process for
+_TOGETHER = 16  # lines that are sampled together
+_FINER, _SHARPER = 2, 1e-2  # a line that fails once: more samples, and a tolerance that is so much smaller
+_HOLE = 4.5  # spacings of the first grid over which collisions may be missing
+_SLOW = 8  # collisions that Rosenbrock is asked for where more are missing
 
 
 @dataclass(frozen=True)
 class Boundaries:
-    """Changes of outcome for each angle (rad), ascending in St, and how many collisions they took.
+    """Changes of outcome for each angle (rad), ascending in St.
 
-    `failures` has the reason of each line that could not be traced (its changes are then empty), else "".
+    Attributes:
+        collisions: how many had to be integrated.
+        failures: the reason of each line that could not be traced (its changes are then empty), else "".
+        resolution: relative spacing of the Stokes numbers at which every line was looked at. A strip of an outcome that
+            is wider is seen; a narrower one is where a margin (of a rebound criterion, of the escape) shows it.
     """
 
     angles: tuple[float, ...]
     changes: tuple[tuple[Change, ...], ...]
     collisions: int
     failures: tuple[str, ...] = ()
+    resolution: float = 0.0
 
     @property
     def failed(self) -> tuple[tuple[float, str], ...]:
@@ -67,17 +72,20 @@ class Boundaries:
                 failure = next((reason for at, reason in self.failed if at == angle), "no change")
                 lines.append(f"{math.degrees(angle):<13.6g} {failure}")
         points = sum(len(changes) for changes in self.changes)
-        per = f", {self.collisions / points:.1f} a point" if points else ""
-        return "\n".join([*lines, f"{points} points from {self.collisions} collisions{per}"])
+        merged = sum(one.merged for line in self.changes for one in line)
+        lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
+        looked = f"; strips narrower than {self.resolution:.1%} of St are seen where a margin shows them"
+        return "\n".join([*lines, f"{points} changes from {self.collisions} collisions{looked}"])
 
 
 @dataclass
 class Traced:
-    """Changes and failures of consecutive angles, and the collisions they took."""
+    """Changes and failures of consecutive angles, the collisions they took, and how finely they were sampled."""
 
     changes: list[tuple[Change, ...]]
     failures: list[str]
     collisions: int
+    resolution: float
 
 
 def boundary(
@@ -117,14 +125,15 @@ def boundary(
     warn(loaded)
     order = np.argsort(angles, kind="stable")
     worth = _WORTH_BY_KERNEL if knows(loaded) else _WORTH
-    cores = min(usable_cores(), max(1, angles.size // worth))  # each part starts with a scan of its own
+    cores = min(usable_cores(), max(1, angles.size // worth))
     parts = np.array_split(angles[order], cores)
-    whole = Traced([], [], 0)
+    whole = Traced([], [], 0, 0.0)
     tell = progress or (lambda _done: None)
     for part in _traces(loaded, parts, (low, high), rtol, tell):
         whole.changes += part.changes
         whole.failures += part.failures
         whole.collisions += part.collisions
+        whole.resolution = max(whole.resolution, part.resolution)
         tell(len(whole.changes))
     back = np.argsort(order, kind="stable")
     return Boundaries(
@@ -132,36 +141,8 @@ def boundary(
         tuple(whole.changes[k] for k in back),
         whole.collisions,
         tuple(whole.failures[k] for k in back),
+        whole.resolution,
     )
-
-
-def closed(scene: Scene, found: Boundaries, stokes: tuple[float, float], rtol: float = RTOL) -> Boundaries:
-    """`found` with more angles where one pattern of changes gives way to another, up to where its curves meet.
-
-    Between two neighbours the place is halved in on: 1/64 of their distance is left.
-    """
-    lines = sorted(zip(found.angles, found.changes, found.failures or [""] * len(found.angles), strict=True))
-    more, collisions = list(lines), found.collisions
-    for one, other in pairwise(lines):
-        low, high = one, other
-        around = [change.stokes for change in (*low[1], *high[1])]
-        if low[2] or high[2] or _pattern(low[1]) == _pattern(high[1]):
-            continue
-        span = max(stokes[0], min(around) / _BESIDE), min(stokes[1], max(around) * _BESIDE)
-        for _ in range(_CLOSE):
-            traced = trace(scene, np.array([(low[0] + high[0]) / 2]), span, rtol)
-            collisions += traced.collisions
-            if traced.failures[0]:
-                break
-            middle = ((low[0] + high[0]) / 2, traced.changes[0], "")
-            more.append(middle)
-            low, high = (middle, high) if _pattern(middle[1]) == _pattern(low[1]) else (low, middle)
-    angles, changes, failures = zip(*sorted(more), strict=True)
-    return Boundaries(angles, changes, collisions, failures)
-
-
-def _pattern(changes: tuple[Change, ...]) -> list[tuple[str, str]]:
-    return [(one.before, one.after) for one in changes]
 
 
 def _traces(
@@ -186,74 +167,66 @@ def trace(
     rtol: float,
     tell: Callable[[int], None] = lambda _done: None,
 ) -> Traced:
-    """Changes at ascending angles, each line started from the ones before.
+    """Changes at angles (rad), a line each: sampled together, then located and confirmed one by one.
 
-    A line that fails is tried again from a scan, and a hundred times sharper; then it is left out with its reason.
+    A line that fails is sampled again, more finely and a hundred times sharper; then it is left out with its reason.
     """
-    traced = Traced([], [], 0)
-    lines: list[tuple[Change, ...]] = []
-    known: list[float] = []
-    for angle in angles.tolist():
-        changes: list[Change] | None = None
-        reason = ""
-        for sharper, follow in ((1.0, True), (1.0, False), (1e-2, False)):
-            line = Line(scene, angle, max(rtol * sharper, SHARPEST))
-            try:
-                if follow and lines:
-                    changes = _followed(line, np.array(known), lines, span) or between(line, _near(lines[-1], span))
-                changes = changes or between(line, _even(span))
-            except ComputationError as error:
-                reason = str(line.numbers(span[0]).in_si(error)) if error.state else str(error)
-            finally:
-                traced.collisions += line.collisions
-            if changes is not None:
-                break
-        traced.changes.append(tuple(changes or ()))
-        traced.failures.append("" if changes is not None else reason)
-        if changes is not None:
-            lines.append(tuple(changes))
-            known.append(angle)
+    traced = Traced([], [], 0, 0.0)
+    for first in range(0, angles.size, _TOGETHER):
+        block = angles[first : first + _TOGETHER]
+        changes, failures = _block(scene, block, span, rtol, 1, traced)
+        for k in [k for k, reason in enumerate(failures) if reason]:
+            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, traced)
+            changes[k], failures[k] = again[0][0], again[1][0]
+        traced.changes += changes
+        traced.failures += failures
         tell(len(traced.changes))
     return traced
 
 
-def _even(span: tuple[float, float]) -> list[float]:
-    decades = math.log10(span[1] / span[0])
-    grid = np.geomspace(*span, max(3, 1 + math.ceil(decades * _PER_DECADE)))
-    return [span[0], *grid[1:-1].tolist(), span[1]]
+def _block(
+    scene: Scene, angles: np.ndarray, span: tuple[float, float], rtol: float, finer: int, traced: Traced
+) -> tuple[list[tuple[Change, ...]], list[str]]:
+    look = Look(scene, rtol)
+    grid = first_grid(span, finer * look.per_decade)
+    traced.resolution = max(traced.resolution, float(grid[1] / grid[0]) - 1)
+    changes: list[tuple[Change, ...]] = []
+    failures: list[str] = []
+    for angle, samples in zip(angles.tolist(), sampled(angles, grid, look), strict=True):
+        line = Line(scene, angle, rtol)
+        try:
+            samples = _completed(samples, grid, look, angle)
+            changes.append(tuple(changes_between(line, look, samples)))
+            failures.append("")
+        except ComputationError as error:
+            changes.append(())
+            failures.append(str(line.numbers(span[0]).in_si(error)) if error.state else str(error))
+        traced.collisions += line.collisions
+    traced.collisions += look.collisions
+    return changes, failures
 
 
-def _near(changes: tuple[Change, ...], span: tuple[float, float]) -> list[float]:
-    """Stokes numbers that surround the changes of another line."""
-    around = [one.stokes * part for one in changes for part in (1 / _SURROUND, _SURROUND)]
-    return [span[0], *sorted(value for value in around if span[0] < value < span[1]), span[1]]
+def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) -> np.ndarray:
+    """Samples that leave no wide hole: where the kernel handed over many in a row Rosenbrock is asked for some.
 
-
-def _followed(
-    line: Line, angles: np.ndarray, lines: list[tuple[Change, ...]], span: tuple[float, float]
-) -> list[Change] | None:
-    """Changes near their prediction from the lines before; None if the pattern is another one."""
-    last = lines[-1]
-    same = 1
-    while same < min(3, len(lines)) and [one.kind for one in lines[-1 - same]] == [one.kind for one in last]:
-        same += 1
-    predicted, doubts = [], []
-    for k in range(len(last)):
-        history = [math.log(line_[k].stokes) for line_ in lines[-same:]]
-        straight, bent = _extrapolated(angles[-same:], history, line.angle)
-        predicted.append(math.exp(bent))
-        doubts.append(_AROUND if same > 1 and bent == straight else _NEAR + abs(bent - straight) if same > 1 else 0.03)
-    return followed(line, last, predicted, doubts, span)
-
-
-def _extrapolated(angles: np.ndarray, values: list[float], angle: float) -> tuple[float, float]:
-    """Extrapolation through the last points, and the one of one order less."""
-    orders = []
-    for count in (max(1, len(values) - 1), len(values)):
-        at, of = angles[-count:], values[-count:]
-        total = 0.0
-        for k in range(count):
-            others = np.delete(at, k)
-            total += of[k] * float(np.prod((angle - others) / (at[k] - others))) if count > 1 else of[k]
-        orders.append(total)
-    return orders[0], orders[1]
+    Raises:
+        ComputationError: that fails too.
+    """
+    spacing = math.log(grid[1] / grid[0])
+    for attempt in range(2):
+        at = np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]]))
+        holes = [(at[k], at[k + 1]) for k in np.flatnonzero(np.diff(at) > _HOLE * spacing)]
+        if not holes:
+            return samples
+        if attempt:
+            break
+        inside = [
+            np.linspace(low, high, min(_SLOW, math.ceil((high - low) / spacing)) + 2)[1:-1] for low, high in holes
+        ]
+        fresh = np.exp(np.concatenate(inside))
+        samples = merged(samples, look.by_rosenbrock(np.full(fresh.size, angle), fresh))
+        spacing = max(spacing, *((high - low) / _SLOW for low, high in holes))
+    low, high = np.exp(holes[0])
+    raise ComputationError(
+        f"collisions between St {low:.4g} and {high:.4g} could not be computed: {look.reason(angle)}"
+    )

@@ -1,121 +1,133 @@
-"""Changes of outcome along a line of constant angle: found between two Stokes numbers, or followed."""
+"""Changes of outcome along a line of constant angle: enclosed by samples, located, and accepted if collisions agree."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from .errors import ComputationError
-from .probe import Line
-from .roots import LOCATED, Function, Sample, around, root, sample
+import numpy as np
 
-STICK, ROTATE, BOUNCE = "stick", "stick-rotate-separate", "bounce"
+from .errors import ComputationError
+from .look import Look
+from .probe import Line
+from .roots import LOCATED, Function, root, sample
+from .samples import BOUNCE, OUTCOMES, ROTATE, STICK, known
+
 # What happens at a change: a criterion is just met; a doublet begins to escape, not reversed or reversed; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
+MERGED = 1e-8  # relative: changes closer than this are one
 _BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
+_ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
+_PARTS = 8  # into which a bracket is divided by outcomes alone, again and again
 
 
 @dataclass(frozen=True)
 class Change:
-    """A change of outcome at a Stokes number, going up. Ce is None without a bridge."""
+    """A change of outcome at a Stokes number, going up. Ce is None without a bridge.
+
+    Attributes:
+        kind: "graze" (a rebound criterion is just met), "escape" or "escape reversed" (a doublet begins to separate,
+            without and with a rebound), "plain" (located by outcomes alone).
+        merged: it stands for several changes closer than 1e-8.
+    """
 
     stokes: float
     centrifugal: float | None
     before: str
     after: str
     kind: str
+    merged: bool = False
 
     def to_dict(self) -> dict[str, float | str | None]:
         """As in the JSON object of `wetdoublet boundary`."""
         return {"stokes": self.stokes, "centrifugal": self.centrifugal, "from": self.before, "to": self.after}
 
 
-def between(line: Line, grid: Sequence[float]) -> list[Change]:
-    """All changes that show between neighbours of a grid of Stokes numbers, or at a criterion between them."""
-    changes: list[Change] = []
-    line.look(grid)
-    for low, high in pairwise(grid):
-        changes += _in_bracket(line, low, high)
-    return changes
+def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]:
+    """All changes between neighbouring samples of a line, each confirmed by collisions on either side.
+
+    Raises:
+        ComputationError: a change that could not be located, or that collisions beside it deny.
+    """
+    samples = known(samples)
+    ends = [
+        (float(low["stokes"]), float(high["stokes"]), OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]])
+        for low, high in pairwise(samples)
+        if low["outcome"] != high["outcome"]
+    ]
+    smooth = [_located(line, *end) for end in ends]
+    agrees = _confirmed(line, look, smooth)
+    found = [own if good else _by_outcomes(line, look, *end) for own, good, end in zip(smooth, agrees, ends)]
+    if not all(agrees) and not all(_confirmed(line, look, found)):
+        at = next(one[0].stokes for one, good in zip(found, _confirmed(line, look, found)) if not good)
+        raise ComputationError(
+            f"collisions beside St {at:.10g} do not agree with a change of outcome there", advice="try a smaller --rtol"
+        )
+    changes = [one for own in found for one in own]
+    _demand_agreement(changes, samples)
+    return _merged(changes)
 
 
-def _in_bracket(line: Line, low: float, high: float) -> list[Change]:
-    before, after = line.outcome(low), line.outcome(high)
-    if before == after and (before != STICK or line.met(low) == line.met(high)):
-        return []
-    if before == STICK and after == ROTATE:
-        return [_change(line, _escape(line, low, high, False), before, after, FREE)]
-    if after == BOUNCE or before == after:
-        return _past_criterion(line, low, high, before, after)
-    return [_change(line, _bisected(line, low, high, before), before, after, PLAIN)]
+def _located(line: Line, low: float, high: float, before: str, after: str) -> list[Change]:
+    """Changes between two Stokes numbers by the functions that are smooth through them; none where they do not show."""
+    try:
+        found = _smooth(line, low, high, before, after)
+    except ComputationError:
+        found = None
+    return [] if found is None else [_change(line, *one) for one in found]
 
 
-def _past_criterion(line: Line, low: float, high: float, before: str, after: str) -> list[Change]:
-    """Changes about the Stokes number at which the approach first meets a criterion."""
-    at_low, at_high = sample(_criterion(line), low), sample(_criterion(line), high)
-    if at_low.positive and before == STICK and after == BOUNCE:
-        return [_change(line, _escape(line, low, high, True), before, after, REVERSED)]
-    if at_low.positive or not at_high.positive:
-        return [] if before == after else [_change(line, _bisected(line, low, high, before), before, after, PLAIN)]
-    graze = root(_criterion(line), at_low, at_high)
-    below, above, free, bounces = beside(line, graze)
-    changes: list[Change] = []
-    if before == STICK and free:
-        changes.append(_change(line, _escape(line, low, below, False), STICK, ROTATE, FREE))
-    elif before != STICK and not free:
-        changes.append(_change(line, _bisected(line, low, below, before), before, STICK, PLAIN))
-    now, then = ROTATE if free else STICK, BOUNCE if bounces else STICK
-    if now != then:
-        changes.append(_change(line, graze, now, then, GRAZE))
-    if after == BOUNCE and not bounces:
-        changes.append(_change(line, _escape(line, above, high, True), STICK, BOUNCE, REVERSED))
-    elif after != BOUNCE and bounces:
-        changes.append(_change(line, _bisected(line, above, high, BOUNCE), BOUNCE, after, PLAIN))
-    return changes
+Found = tuple[float, str, str, str]  # Stokes number, outcomes below and above, kind
 
 
-def beside(line: Line, graze: float) -> tuple[float, float, bool, bool]:
-    """Stokes numbers just below and above a graze; whether the doublet escapes unreversed, and reversed, there."""
-    below, above = graze * (1 - _BESIDE), graze * (1 + _BESIDE)
-    return below, above, line.escape(below, False).separates, line.escape(above, True).separates
-
-
-def followed(line: Line, pattern: Sequence[Change], predicted: Sequence[float], doubts: Sequence[float],
-             span: tuple[float, float]) -> list[Change] | None:  # fmt: skip
-    """The changes of `pattern` near their predictions; None if this line has another pattern."""
-    changes: list[Change] = []
-    for one, near, doubt in zip(pattern, predicted, doubts, strict=True):
-        function = _function(line, one.kind)
-        bracket = around(function, near, doubt, *span) if function and span[0] < near < span[1] else None
-        if function is None or bracket is None:
+def _smooth(line: Line, low: float, high: float, before: str, after: str) -> list[Found] | None:
+    if BOUNCE not in (before, after):
+        free = _signed_root(_escaping(line, False), low, high, after == ROTATE)
+        if free is not None:
+            return [(free, before, after, FREE)]
+    met_below, met_above = line.criterion(low) >= 0, line.criterion(high) >= 0
+    if met_below == met_above:
+        if not met_below or ROTATE in (before, after):
             return None
-        if one.kind == REVERSED and line.criterion(math.exp(bracket[0].at)) < 0:
-            return None  # a doublet not reversed there: a graze may lie between, where the function jumps
-        found = root(function, *bracket)
-        if one.kind == GRAZE:
-            # a doublet that rotates below is seen to by the collision between this change and the last
-            free = one.before == ROTATE or line.escape(found * (1 - _BESIDE), False).separates
-            bounces = line.escape(found * (1 + _BESIDE), True).separates
-            if (one.before, one.after) != (ROTATE if free else STICK, BOUNCE if bounces else STICK):
-                return None
-        changes.append(_change(line, found, one.before, one.after, one.kind))
-    edges = [span[0], *(one.stokes for one in changes), span[1]]
-    if edges != sorted(edges):
+        rebounds = _signed_root(_escaping(line, True), low, high, after == BOUNCE)
+        return None if rebounds is None else [(rebounds, before, after, REVERSED)]
+    graze = _signed_root(_criterion(line), low, high, met_above)
+    if graze is None:
         return None
-    expected = [one.before for one in changes] + [changes[-1].after] if changes else []
-    middles = [math.sqrt(low * high) for low, high in pairwise(edges)]
-    # nearer to the outermost changes than the middle of so many decades
-    middles[0], middles[-1] = max(middles[0], edges[1] / 2), min(middles[-1], edges[-2] * 2)
-    line.look(middles)
-    return changes if changes and [line.outcome(middle) for middle in middles] == expected else None
+    below, above = graze * (1 - _BESIDE), graze * (1 + _BESIDE)
+    now, then = _outcome(line, below, met_below), _outcome(line, above, met_above)
+    found: list[Found] = []
+    for first, last, one, other, met in ((low, below, before, now, met_below), (above, high, then, after, met_above)):
+        if first == above and now != then:
+            found.append((graze, now, then, GRAZE))
+        if one != other:
+            if {one, other} != {STICK, BOUNCE if met else ROTATE} or last <= first:
+                return None
+            escape = _signed_root(_escaping(line, met), first, last, other != STICK)
+            if escape is None:
+                return None
+            found.append((escape, one, other, REVERSED if met else FREE))
+    return found
 
 
-def _function(line: Line, kind: str) -> Function | None:
-    if kind == GRAZE:
-        return _criterion(line)
-    return _escaping(line, kind == REVERSED) if kind in (FREE, REVERSED) else None
+def _outcome(line: Line, stokes: float, met: bool) -> str:
+    if not line.escape(stokes, met).separates:
+        return STICK
+    return BOUNCE if met else ROTATE
+
+
+def _signed_root(function: Function, low: float, high: float, rises: bool) -> float | None:
+    """The root of a function that changes its sign, upwards or downwards; None where it does not."""
+
+    def upwards(stokes: float) -> tuple[bool, float | None]:
+        positive, value = function(stokes)
+        return positive == rises, value if rises or value is None else -value
+
+    at_low, at_high = sample(upwards, low), sample(upwards, high)
+    if at_low.positive or not at_high.positive:
+        return None
+    return root(upwards, at_low, at_high)
 
 
 def _criterion(line: Line) -> Function:
@@ -134,23 +146,76 @@ def _escaping(line: Line, reversed_: bool) -> Function:
     return function
 
 
-def _escape(line: Line, low: float, high: float, reversed_: bool) -> float:
-    function = _escaping(line, reversed_)
-    ends: list[Sample] = [sample(function, low), sample(function, high)]
-    if ends[0].positive or not ends[1].positive:
-        raise ComputationError(
-            f"no change of outcome between St {low:.10g} and {high:.10g} where one was expected",
-            advice="the two ends differ by less than the tolerance: try a smaller --rtol",
-        )
-    return root(function, *ends)
+def _confirmed(line: Line, look: Look, groups: list[list[Change]]) -> list[bool]:
+    """Whether collisions just below and above each group's changes have their outcomes."""
+    stokes = np.array([one.stokes for group in groups for one in group])
+    if not stokes.size:
+        return [bool(group) for group in groups]
+    gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
+    below = stokes - np.minimum(_ACCEPTED * stokes, gaps[:-1])
+    above = stokes + np.minimum(_ACCEPTED * stokes, gaps[1:])
+    seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))
+    agrees, k = [], 0
+    for group in groups:
+        own = range(k, k + len(group))
+        k += len(group)
+        close = [gaps[j] * 3 < MERGED * stokes[j] or gaps[j + 1] * 3 < MERGED * stokes[j] for j in own]
+        fits = [
+            near or (OUTCOMES[seen[j]], OUTCOMES[seen[j + stokes.size]]) == (one.before, one.after)
+            for j, one, near in zip(own, group, close)
+        ]
+        agrees.append(bool(group) and all(fits) and all(seen[j] >= 0 and seen[j + stokes.size] >= 0 for j in own))
+    return agrees
 
 
-def _bisected(line: Line, low: float, high: float, before: str) -> float:
-    """Where the outcome stops being `before`, by outcomes alone."""
-    while math.log(high / low) > LOCATED:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if line.outcome(middle) == before else (low, middle)
-    return math.sqrt(low * high)
+def _by_outcomes(line: Line, look: Look, low: float, high: float, before: str, after: str) -> list[Change]:
+    """Changes between two Stokes numbers by outcomes alone: brackets are divided until they are LOCATED wide."""
+    open_, closed = [(low, high, before, after)], []
+    while open_:
+        grids = [np.geomspace(first, last, _PARTS + 1)[1:-1] for first, last, _, _ in open_]
+        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids), most=1)
+        parts = np.split(seen, np.cumsum([len(grid) for grid in grids])[:-1])
+        narrower = []
+        for (first, last, one, other), grid, own in zip(open_, grids, parts):
+            usable = own >= 0
+            if not usable.any():
+                reason = look.reason(line.angle)
+                raise ComputationError(f"a change of outcome between St {first:.10g} and {last:.10g}: {reason}")
+            at = [first, *grid[usable].tolist(), last]
+            outcomes = [one, *(OUTCOMES[k] for k in own[usable]), other]
+            narrower += [
+                (at[k], at[k + 1], outcomes[k], outcomes[k + 1])
+                for k in range(len(at) - 1)
+                if outcomes[k] != outcomes[k + 1]
+            ]
+        closed += [one for one in narrower if math.log(one[1] / one[0]) <= LOCATED]
+        open_ = [one for one in narrower if math.log(one[1] / one[0]) > LOCATED]
+    closed.sort()
+    return [_change(line, math.sqrt(first * last), one, other, PLAIN) for first, last, one, other in closed]
+
+
+def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
+    """Every sample has the outcome that the changes below it say; ComputationError if one has not."""
+    at = np.array([one.stokes for one in changes])
+    where = np.searchsorted(at, samples["stokes"])
+    first = changes[0].before if changes else OUTCOMES[samples["outcome"][0]]
+    expected = np.array([OUTCOMES.index(first), *(OUTCOMES.index(one.after) for one in changes)])[where]
+    wrong = samples["stokes"][samples["outcome"] != expected]
+    if wrong.size:
+        raise ComputationError(f"the outcome at St {wrong[0]:.10g} is not the one that the changes about it say")
+
+
+def _merged(changes: list[Change]) -> list[Change]:
+    """Changes closer than MERGED as one; none where the outcome comes back."""
+    found: list[Change] = []
+    for one in changes:
+        if found and one.stokes < found[-1].stokes * (1 + MERGED):
+            both = replace(found.pop(), after=one.after, kind=PLAIN, merged=True)
+            if both.before != both.after:
+                found.append(both)
+        else:
+            found.append(one)
+    return found
 
 
 def _change(line: Line, stokes: float, before: str, after: str, kind: str) -> Change:

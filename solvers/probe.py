@@ -8,8 +8,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -27,7 +27,7 @@ from .settings import RTOL
 from .taylor import probe as by_kernel
 from .taylor.engine import variant
 from .taylor.library import compile_all, knows
-from .taylor.probe import Escaping, Seen
+from .taylor.probe import Escaping
 
 _NEVER = 1e30  # a glass number that no pressure meets
 WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
@@ -56,13 +56,12 @@ class Escape:
 
 @dataclass
 class Line:
-    """Collisions of a scene at one angle (rad). Counts those it integrates: not those decided at first touch."""
+    """The functions of a scene at one angle (rad). Counts the collisions that it integrates."""
 
     scene: Scene
     angle: float
     rtol: float
     collisions: int = 0
-    _known: dict[float, Seen] = field(default_factory=dict)
 
     def numbers(self, stokes: float) -> Numbers:
         """Dimensionless numbers at a Stokes number."""
@@ -76,33 +75,6 @@ class Line:
     def kernel(self) -> bool:
         """Whether the Taylor kernel flies here; what it hands over is flown all the same."""
         return knows(self.scene)
-
-    def outcome(self, stokes: float) -> str:
-        """The outcome of a whole collision."""
-        return self._seen(stokes).outcome
-
-    def met(self, stokes: float) -> bool:
-        """Whether a whole collision meets a reversal criterion."""
-        return self._seen(stokes).reversal is not None
-
-    def look(self, grid: Sequence[float]) -> None:
-        """Fly whole collisions at several Stokes numbers at once, where that is cheaper than one by one."""
-        new = [stokes for stokes in grid if stokes not in self._known]
-        if not new or not self.kernel:
-            return
-        speeds = [self.scene.speed_of(stokes) for stokes in new]
-        for stokes, found in zip(new, by_kernel.seen(self.scene, speeds, self.angle, self.rtol) or (), strict=False):
-            if found is not None:
-                self._known[stokes] = found
-                self.collisions += not found.at_touch
-
-    def _seen(self, stokes: float) -> Seen:
-        self.look([stokes])
-        if stokes not in self._known:
-            path = Locate(self.model, self.numbers(stokes).groups, self.rtol, machine_code=True).run()
-            self._known[stokes] = Seen(path.outcome, path.reversal, at_touch=path.time == 0)
-            self.collisions += path.time > 0
-        return self._known[stokes]
 
     def criterion(self, stokes: float) -> float:
         """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.

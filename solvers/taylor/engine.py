@@ -52,6 +52,7 @@ class Record(ctypes.Structure):
         ("step_room", ctypes.c_long),
         ("steps", ctypes.c_long),
         ("purpose", ctypes.c_long),
+        ("peaks", ctypes.c_void_p),
     ]
 
 

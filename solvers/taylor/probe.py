@@ -1,11 +1,11 @@
-"""What boundaries ask of a flight (solvers/probe.py), by the kernel: outcomes, the approach, and how an escape went.
+"""What boundaries ask of collisions, by the kernel: outcomes and margins of many, the approach and the escape of one.
 
-Each returns None where the kernel hands a flight over, or there is none.
+`approach` and `escaping` return None where the kernel hands a collision over; all do where there is no kernel.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,23 +13,31 @@ import numpy as np
 from ..numbers import Numbers
 from ..scene import Scene
 from .engine import Impacts
-from .one import FELL_BACK, TURNED, kind_of
+from .one import FELL_BACK, TURNED
 from .record import Purpose, Recorded, Steps, recorded
 
 NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/queue.h)
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
+_LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
 _FINER = 12  # parts of the surroundings of a maximum, again and again
 _ZOOMS = 4
 
 
-@dataclass(frozen=True)
-class Seen:
-    """A whole collision: its outcome, the first criterion met, whether it was decided at first touch."""
-
-    outcome: str
-    reversal: str | None
-    at_touch: bool
+LOOK = np.dtype(
+    [
+        ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 handed over
+        ("reversal", "i1"),  # the first criterion met, in the order glass, elastic, rough; -1 for none
+        ("at_touch", "?"),  # decided at initial contact
+        ("events", "i4"),  # how many
+        ("restitution", "f8"),
+        ("time", "f8"),  # of the end, x0/v0
+        ("smallest_gap", "f8"),  # x0
+        ("final_gap", "f8"),  # x0
+        ("glass", "f8"),  # largest margin of the glass criterion while closing; -inf where none is known
+    ]
+)
+"""What is kept of a collision that is looked at."""
 
 
 @dataclass(frozen=True)
@@ -50,14 +58,42 @@ class Escaping:
     states: np.ndarray
 
 
-def seen(scene: Scene, speeds: Sequence[float], angle: float, rtol: float) -> list[Seen | None] | None:
-    """Whole collisions at normal speeds (m/s) and one angle (rad), all in one call."""
-    all_at = np.array(speeds)
-    impacts = Impacts(scene, all_at, np.full(all_at.size, angle), {})
-    found = recorded(impacts, angle > 0, rtol, trajectory=True, keep=False)
-    if found is None:
-        return None
-    return [Seen(*kind_of(each), bool(each["time"] == 0)) if each["status"] <= 1 else None for each in found.answers]
+def looked(
+    scene: Scene,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    rtol: float,
+    purpose: Purpose = Purpose.WHOLE,
+    solids: Mapping[str, np.ndarray] | None = None,
+    budget: int = _LOOK_BUDGET,
+) -> np.ndarray | None:
+    """An array of LOOK: collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
+
+    Arguments:
+        solids: quantities in SI that say what the solids do, instead of the scene's.
+    """
+    found = np.zeros(speed.size, LOOK)
+    for oblique in (True, False):
+        which = np.flatnonzero((angle > 0) == oblique)
+        if not which.size:
+            continue
+        others = {name: values[which] for name, values in (solids or {}).items()}
+        impacts = Impacts(scene, speed[which], angle[which], others)
+        told = recorded(
+            impacts, oblique, rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False, peaks=True
+        )
+        if told is None or told.peaks is None:
+            return None
+        answers = told.answers
+        part = np.zeros(which.size, LOOK)
+        part["outcome"] = np.where(answers["status"] <= 1, answers["outcome"], -1)
+        part["at_touch"] = answers["time"] == 0
+        part["restitution"] = answers["shown"][:, 0]
+        part["glass"] = told.peaks
+        for name in ("reversal", "events", "time", "smallest_gap", "final_gap"):
+            part[name] = answers[name]
+        found[which] = part
+    return found
 
 
 def approach(

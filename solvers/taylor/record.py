@@ -77,12 +77,15 @@ class Steps:
 
 @dataclass(frozen=True)
 class Recorded:
-    """Flights: an ANSWER each, its events (the first `events` of a row), its LEDGER, the steps of all."""
+    """Flights: an ANSWER each, its events (the first `events` of a row), its LEDGER, the steps of all, and the largest
+    margin of the glass criterion while closing (a logarithm; -inf where none is known).
+    """
 
     answers: np.ndarray
     events: np.ndarray
     ledger: np.ndarray | None
     steps: Steps | None
+    peaks: np.ndarray | None = None
 
 
 def recorded(
@@ -95,6 +98,7 @@ def recorded(
     purpose: Purpose = Purpose.WHOLE,
     keep: bool = True,
     fold: bool = True,
+    peaks: bool = False,
 ) -> Recorded | None:
     """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
 
@@ -104,6 +108,7 @@ def recorded(
         purpose: other than WHOLE only with a trajectory.
         fold: a partner that equals the sphere is treated as such.
         keep: the steps; else the same kernel flies without writing them down.
+        peaks: also the largest margin of the glass criterion; only with a trajectory.
     """
     if not knows(impacts.scene):
         return None
@@ -114,17 +119,20 @@ def recorded(
     fly, size = calling(library, rtol, budget), impacts.angle.size
     keep &= trajectory
     log_room, step_room = _LOG_ROOM, _STEP_ROOM * size if keep else 0
+    margins = np.full(size, -np.inf) if peaks else None
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, LEDGER)
         rows = np.empty(step_room, _row(library) if keep else ANSWER)  # the kernel fills those that it counts
         also = Record(log.ctypes.data, books.ctypes.data, rows.ctypes.data, log_room, step_room, 0, purpose)
+        also.peaks = None if margins is None else margins.ctypes.data
         fly(impacts, answers, also)
         most = int(answers["events"].max())
         if most <= log_room and (also.steps <= step_room or not keep):
             break
-        log_room, step_room = max(most, log_room), max(also.steps, step_room)
-    return Recorded(answers, log, books if ledger else None, _steps(library, rows[: also.steps]) if keep else None)
+        log_room, step_room = max(most, log_room), max(also.steps, step_room) if keep else 0
+    steps = _steps(library, rows[: also.steps]) if keep else None
+    return Recorded(answers, log, books if ledger else None, steps, margins)
 
 
 def _row(library: ctypes.CDLL) -> np.dtype:

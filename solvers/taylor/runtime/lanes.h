@@ -143,6 +143,12 @@ static void fly(queue *q)
             damp(a, creeps);
         if (bits(l.alive & l.closing))
             expand_glass(&s, &f.c);
+#if WITH_TRAJECTORY
+        if (q->also->purpose == APPROACH) { /* no glass criterion */
+            memset(s.glass.result, 0, sizeof s.glass.result);
+            s.glass.result[0] = splat(1.0);
+        }
+#endif
         first_event found;
         find_events(&s, &l, &f, h, &found);
         mask falls = l.alive & (found.time <= 1.0);
@@ -158,6 +164,10 @@ static void fly(queue *q)
 #endif
 #if WITH_TRAJECTORY
         keep_steps(q, &l, a, h);
+#if GLASS_REACH
+        if (q->also->peaks)
+            note_peaks(q, &l, &f, &s, h);
+#endif
 #endif
         if (bits(falls))
             found.gap = sum_at(a[GAP], h);

@@ -28,11 +28,12 @@ typedef struct {
     void *books;    /* a ledger a collision */
     void *rows;     /* `step_room` steps of all collisions; `steps` counts those that found none as well */
     long log_room, step_room, steps;
-    long purpose; /* as below; kernels with a trajectory heed it */
+    long purpose;  /* as below; kernels with a trajectory heed it */
+    double *peaks; /* a collision each: the largest margin of the glass criterion while closing; null for none */
 } record;
 
-/* A flight to its end; the approach alone, nothing proved; one that is over when it falls back or rests, and is proved a
- * stick only while it approaches (solvers/probe.py). */
+/* A whole collision; the approach alone, without the glass criterion and with nothing proved; one that is over when it
+ * falls back or rests, and is proved a stick only while it approaches (solvers/probe.py). */
 enum { WHOLE, APPROACH, ESCAPE };
 
 /* What is fixed for a flight. */

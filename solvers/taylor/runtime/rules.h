@@ -69,6 +69,9 @@ static void criteria_met(queue *q, flights *l, fixed *f)
     if (!bits(asked))
         return;
     unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
+#if WITH_TRAJECTORY
+    glass = q->also->purpose == APPROACH ? 0 : glass;
+#endif
     unsigned elastic = bits(asked & (l->y[GAP] <= f->c.elastic_gap));
     unsigned rough = bits(asked & (l->y[GAP] <= f->c.rough_gap));
     unsigned any = glass | elastic | rough;

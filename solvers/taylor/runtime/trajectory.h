@@ -38,6 +38,27 @@ static void keep_steps(queue *q, const flights *l, const vec (*a)[TERMS], vec le
     }
 }
 
+#if GLASS_REACH
+enum { LOOKS = 8 };
+
+/* The margin of the glass criterion where it is largest within a step, as the logarithm of the gap at which this speed
+ * would meet it over the gap that there is, twice: ln(pressure/limit) for the literal criterion. */
+static __attribute__((noinline)) void note_peaks(const queue *q, const flights *l, const fixed *f, const series *s, vec h)
+{
+    vec largest = splat(0.0);
+    for (int k = 0; k <= LOOKS; k++) {
+        vec t = h*((double)k/LOOKS), approach = -sum_at(s->opening, t);
+        vec reach = glass_reach(vec_max(approach, splat(0.0)), f->c.glass_number);
+        largest = vec_max(largest, reach/sum_at(s->gap, t));
+    }
+    for (unsigned left = bits(l->alive & l->closing); left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        double *peak = q->also->peaks + l->index[lane];
+        *peak = fmax(*peak, 2.0*log(largest[lane]));
+    }
+}
+#endif
+
 /* What an event does, and whether the purpose of the flight is fulfilled with it. */
 static void act_for_purpose(queue *q, flights *l, fixed *f, int lane, int event)
 {

@@ -1,0 +1,163 @@
+"""Collisions looked at for boundaries: outcomes and margins of many, by the kernel, or one by one by Rosenbrock."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..generated import scaling
+from .errors import ComputationError, InputError
+from .locate import CRITERIA, Locate
+from .model import choose, load
+from .numbers import numbers, si_values
+from .samples import OUTCOMES, SAMPLE
+from .scene import Scene
+from .taylor import probe as by_kernel
+from .taylor.engine import RIGID
+from .taylor.library import knows
+from .taylor.record import Purpose
+
+BY_KERNEL, BY_ROSENBROCK = 100, 10  # samples a decade of the Stokes number that a line begins with
+DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
+
+
+@dataclass
+class Look:
+    """Collisions of a scene, sampled. Counts those that had to be integrated, and keeps why others could not be.
+
+    Arguments:
+        rtol: relative tolerance of the integrations.
+    """
+
+    scene: Scene
+    rtol: float
+    collisions: int = 0
+    reasons: dict[tuple[float, float], str] = field(default_factory=dict)
+    kernel: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Ask once whether there is a kernel for the scene."""
+        self.kernel = knows(self.scene)
+
+    @property
+    def per_decade(self) -> int:
+        """How many samples a decade of the Stokes number a line begins with."""
+        return BY_KERNEL if self.kernel else BY_ROSENBROCK
+
+    def __call__(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where there is none to be had."""
+        found = self._by_kernel(angle, stokes) if self.kernel else None
+        if found is None:
+            self.kernel = False
+            found = self.by_rosenbrock(angle, stokes)
+        return found
+
+    def by_rosenbrock(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        """The same by Rosenbrock, one by one, which is slow; why a collision fails is in `reasons`."""
+        found = blank(stokes)
+        for k in range(stokes.size):
+            self._by_rosenbrock(found[k : k + 1], float(angle[k]))
+        return found
+
+    def outcomes(self, angle: np.ndarray, stokes: np.ndarray, most: int = 4) -> np.ndarray:
+        """Outcomes alone (indices of OUTCOMES, -1 for none).
+
+        Arguments:
+            most: collisions that Rosenbrock is asked for where the kernel hands them over.
+        """
+        found = self._whole(angle, stokes) if self.kernel else None
+        if found is None:
+            return self.by_rosenbrock(angle, stokes)["outcome"]
+        for k in np.flatnonzero(found["outcome"] < 0)[:most].tolist():
+            self._by_rosenbrock(found[k : k + 1], float(angle[k]))
+        return found["outcome"]
+
+    def reason(self, angle: float) -> str:
+        """Why a collision at an angle could not be computed."""
+        return next((text for (at, _), text in self.reasons.items() if at == angle), "no collision could be computed")
+
+    def _whole(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
+        speed = stokes / self.scene.stokes_per_speed
+        told = by_kernel.looked(self.scene, speed, angle, self.rtol)
+        if told is None:
+            return None
+        self.collisions += int(np.count_nonzero(~told["at_touch"]))
+        found = blank(stokes)
+        for name in ("outcome", "reversal", "events", "restitution", "time"):
+            found[name] = told[name]
+        contact = contact_gap(self.scene, speed)
+        found["criterion"] = np.where(told["outcome"] == 1, _margin(told, contact), np.nan)
+        found["reach"] = np.where(told["at_touch"], np.nan, 0.0)
+        return found
+
+    def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
+        """Whole collisions; sticks once more to where they come back, bounces once more as if there were no solids."""
+        found = self._whole(angle, stokes)
+        if found is None:
+            return None
+        speed = stokes / self.scene.stokes_per_speed
+        sticks = np.flatnonzero((found["outcome"] == 0) & ~np.isnan(found["reach"]))
+        found["reach"] = np.nan
+        if sticks.size:
+            told = by_kernel.looked(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE)
+            if told is not None:
+                found["reach"][sticks] = np.where(told["outcome"] == 0, told["final_gap"], np.nan)
+        bounces = np.flatnonzero(found["outcome"] == 2)
+        if bounces.size:
+            contact = contact_gap(self.scene, speed[bounces])
+            told = by_kernel.looked(
+                self.scene, speed[bounces], angle[bounces], self.rtol, Purpose.APPROACH, self.no_solids(contact)
+            )
+            if told is not None:
+                found["criterion"][bounces] = np.where(told["outcome"] >= 0, _margin(told, contact), np.nan)
+        return found
+
+    def no_solids(self, contact: np.ndarray) -> dict[str, np.ndarray]:
+        """Quantities with which an approach goes on past its contact gaps (x0), far beyond them."""
+        deep = DEEP * contact * self.scene.liquid.film_thickness
+        return {"youngs_modulus": np.full(contact.size, RIGID), "roughness": deep}
+
+    def _by_rosenbrock(self, found: np.ndarray, angle: float) -> None:
+        """Fill one sample."""
+        stokes = float(found["stokes"][0])
+        try:
+            n = numbers(self.scene, self.scene.speed_of(stokes), angle)
+            path = Locate(load(choose(self.scene, angle > 0)), n.groups, self.rtol, machine_code=True).run()
+        except (ComputationError, InputError) as error:
+            self.reasons[angle, stokes] = str(n.in_si(error)) if isinstance(error, ComputationError) else str(error)
+            return
+        self.collisions += path.time > 0
+        found["outcome"] = OUTCOMES.index(path.outcome)
+        found["reversal"] = -1 if path.reversal is None else CRITERIA.index(path.reversal)
+        found["events"] = len(path.kinds)
+        if path.separated:
+            found["restitution"] = path.model.values("outputs", path.y, path.p)["restitution"]
+            found["time"] = path.time
+
+
+def blank(stokes: np.ndarray) -> np.ndarray:
+    """Samples at Stokes numbers of which nothing is known yet."""
+    found = np.zeros(stokes.size, SAMPLE)
+    found["stokes"] = stokes
+    found["outcome"] = found["reversal"] = -1
+    found["criterion"] = found["reach"] = np.nan
+    return found
+
+
+def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
+    """Gap over film thickness at which the solids meet, by roughness or elastic length, at normal speeds (m/s)."""
+    values = {**si_values(scene, None, None), "speed": speed}
+    gap = np.full(speed.size, scaling.rough_gap(*(values[name] for name in scaling.ARGUMENTS["rough_gap"])))
+    if "youngs_modulus" in values:
+        elastic = scaling.elastic_gap(*(values[name] for name in scaling.ARGUMENTS["elastic_gap"]))
+        gap = np.maximum(gap, elastic)
+    return gap
+
+
+def _margin(told: np.ndarray, contact: np.ndarray) -> np.ndarray:
+    """By how much the approach meets a criterion, as a logarithm; negative where it meets none."""
+    with np.errstate(divide="ignore"):
+        solids = np.log(contact / told["smallest_gap"])
+    margin: np.ndarray = np.maximum(told["glass"], solids)
+    return margin

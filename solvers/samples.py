@@ -1,0 +1,125 @@
+"""Collisions along lines of constant angle, sampled over the Stokes number until their margins are resolved.
+
+Where two neighbours differ in outcome, or in the criterion that they meet or the number of their events, and where a
+margin turns towards zero between them, more collisions are sampled between the two.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+STICK, ROTATE, BOUNCE = "stick", "stick-rotate-separate", "bounce"
+OUTCOMES = (STICK, ROTATE, BOUNCE)
+SAMPLE = np.dtype(
+    [
+        ("stokes", "f8"),
+        ("outcome", "i1"),  # index in OUTCOMES; -1: could not be computed
+        ("reversal", "i1"),  # the first rebound criterion met, -1 for none
+        ("events", "i4"),  # how many
+        ("restitution", "f8"),
+        ("time", "f8"),  # of contact, x0/v0
+        ("criterion", "f8"),  # margin of the rebound criteria, positive if one is met; nan where it is not known
+        ("reach", "f8"),  # largest gap that a stick comes back to, x0; nan where it is not known
+    ]
+)
+BRACKET = 1e-4  # width in ln St to which a change of outcome is enclosed by samples
+FINEST = 1e-5  # width in ln St below which nothing else is sampled
+_INSIDE = 7  # samples put between two
+_ROUNDS = 9
+_MOST = 150  # pairs of neighbours of a line that are sampled between in a round, beyond those whose outcomes differ
+_NOISE = 1e-6  # relative: a smaller turn of a margin is rounding and tolerance
+Sampler = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""Angles (rad), Stokes numbers -> SAMPLE, an element a collision."""
+
+
+def sampled(angles: np.ndarray, grid: np.ndarray, sampler: Sampler) -> list[np.ndarray]:
+    """Samples of each line, ascending in the Stokes number; collisions that could not be computed have outcome -1.
+
+    Arguments:
+        angles: of the lines, rad.
+        grid: Stokes numbers to begin with, ascending.
+    """
+    found = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size)).reshape(angles.size, grid.size)
+    lines = list(found)
+    for _ in range(_ROUNDS):
+        more = [_between(line) for line in lines]
+        counts = [one.size for one in more]
+        if not any(counts):
+            break
+        fresh = sampler(np.repeat(angles, counts), np.concatenate(more))
+        parts = np.split(fresh, np.cumsum(counts)[:-1])
+        lines = [merged(line, part) for line, part in zip(lines, parts, strict=True)]
+    return lines
+
+
+def first_grid(span: tuple[float, float], per_decade: int) -> np.ndarray:
+    """Stokes numbers evenly spaced in their logarithm, both ends included."""
+    count = max(3, 1 + math.ceil(math.log10(span[1] / span[0]) * per_decade))
+    grid = np.geomspace(*span, count)
+    grid[[0, -1]] = span
+    return grid
+
+
+def merged(line: np.ndarray, fresh: np.ndarray) -> np.ndarray:
+    """A line with more samples, ascending."""
+    both = np.concatenate([line, fresh])
+    return both[np.argsort(both["stokes"], kind="stable")]
+
+
+def known(line: np.ndarray) -> np.ndarray:
+    """The samples that could be computed."""
+    return line[line["outcome"] >= 0]
+
+
+def _between(line: np.ndarray) -> np.ndarray:
+    """Stokes numbers to be sampled next on a line."""
+    failed = np.cumsum(line["outcome"] < 0)[line["outcome"] >= 0]
+    line = known(line)
+    if line.size < 2:
+        return np.zeros(0)
+    at = np.log(line["stokes"])
+    width = np.diff(at)
+    changes = line["outcome"][1:] != line["outcome"][:-1]
+    wanted = changes & (width > BRACKET) & (np.diff(failed) < _INSIDE)  # once was tried where all fail
+    others = (_another_way(line) | _towards_zero(line)) & ~changes & (width > FINEST)
+    if np.count_nonzero(others) <= _MOST:
+        wanted |= others
+    first = at[:-1][wanted]
+    parts = np.arange(1, _INSIDE + 1) / (_INSIDE + 1)
+    fresh: np.ndarray = np.exp(first[:, None] + width[wanted][:, None] * parts).ravel()
+    return fresh
+
+
+def _another_way(line: np.ndarray) -> np.ndarray:
+    """Neighbours of one outcome that come to it another way: there the margins may jump."""
+    criteria = line["reversal"][1:] != line["reversal"][:-1]
+    events = line["events"][1:] != line["events"][:-1]
+    return criteria | (events & (line["outcome"][1:] > 0))
+
+
+def _towards_zero(line: np.ndarray) -> np.ndarray:
+    """Neighbours between which a margin may reach zero: it turns there, by more than is left of it.
+
+    Contact times and the gaps that sticks come back to turn at a separatrix without a zero, so any turn counts.
+    """
+    separates = line["outcome"] > 0
+    margins = (
+        (np.where(separates, -np.abs(line["criterion"]), np.nan), False),
+        (np.where(separates, -(line["restitution"] ** 2), np.nan), False),
+        (np.where(separates, line["time"], np.nan), True),
+        (line["reach"], True),
+    )
+    found = np.zeros(line.size - 1, dtype=bool)
+    same = line["outcome"][1:] == line["outcome"][:-1]
+    for values, any_turn in margins:
+        here, before, after = values[1:-1], values[:-2], values[2:]
+        with np.errstate(invalid="ignore"):
+            turns = same[:-1] & same[1:] & (here > before) & (here >= after)
+            rise = 2 * np.maximum(here - before, here - after)
+            turns &= rise > (_NOISE * np.abs(here) if any_turn else np.abs(here))
+        found[:-1] |= turns
+        found[1:] |= turns
+    return found
