@@ -166,17 +166,21 @@ def trace(
     span: tuple[float, float],
     rtol: float,
     tell: Callable[[int], None] = lambda _done: None,
+    kernel: bool | None = None,
 ) -> Traced:
     """Changes at angles (rad), a line each: sampled together, then located and confirmed one by one.
 
     A line that fails is sampled again, more finely and a hundred times sharper; then it is left out with its reason.
+
+    Arguments:
+        kernel: let the Taylor kernel integrate; default: if it can. Without it a line has fewer samples.
     """
     traced = Traced([], [], 0, 0.0)
     for first in range(0, angles.size, _TOGETHER):
         block = angles[first : first + _TOGETHER]
-        changes, failures = _block(scene, block, span, rtol, 1, traced)
+        changes, failures = _block(scene, block, span, rtol, 1, traced, kernel)
         for k in [k for k, reason in enumerate(failures) if reason]:
-            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, traced)
+            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, traced, kernel)
             changes[k], failures[k] = again[0][0], again[1][0]
         traced.changes += changes
         traced.failures += failures
@@ -185,15 +189,21 @@ def trace(
 
 
 def _block(
-    scene: Scene, angles: np.ndarray, span: tuple[float, float], rtol: float, finer: int, traced: Traced
+    scene: Scene,
+    angles: np.ndarray,
+    span: tuple[float, float],
+    rtol: float,
+    finer: int,
+    traced: Traced,
+    kernel: bool | None,
 ) -> tuple[list[tuple[Change, ...]], list[str]]:
-    look = Look(scene, rtol)
+    look = Look(scene, rtol, kernel)
     grid = first_grid(span, finer * look.per_decade)
     traced.resolution = max(traced.resolution, float(grid[1] / grid[0]) - 1)
     changes: list[tuple[Change, ...]] = []
     failures: list[str] = []
     for angle, samples in zip(angles.tolist(), sampled(angles, grid, look), strict=True):
-        line = Line(scene, angle, rtol)
+        line = Line(scene, angle, rtol, kernel)
         try:
             samples = _completed(samples, grid, look, angle)
             changes.append(tuple(changes_between(line, look, samples)))

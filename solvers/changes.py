@@ -19,7 +19,7 @@ GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
 MERGED = 1e-8  # relative: changes closer than this are one
 _BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
 _ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
-_PARTS = 8  # into which a bracket is divided by outcomes alone, again and again
+_PARTS = 64  # into which a bracket is divided by outcomes alone, again and again
 
 
 @dataclass(frozen=True)
@@ -56,9 +56,13 @@ def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]
         for low, high in pairwise(samples)
         if low["outcome"] != high["outcome"]
     ]
-    smooth = [_located(line, *end) for end in ends]
-    agrees = _confirmed(line, look, smooth)
-    found = [own if good else _by_outcomes(line, look, *end) for own, good, end in zip(smooth, agrees, ends)]
+    grazes = [{ROTATE, BOUNCE} == set(end[2:]) for end in ends]
+    first = [[] if graze else _located(line, *end) for end, graze in zip(ends, grazes)]
+    agrees = _confirmed(line, look, first)
+    found = [
+        own if good else _by_outcomes(line, look, *end, kind=GRAZE if graze else PLAIN)
+        for own, good, end, graze in zip(first, agrees, ends, grazes)
+    ]
     if not all(agrees) and not all(_confirmed(line, look, found)):
         at = next(one[0].stokes for one, good in zip(found, _confirmed(line, look, found)) if not good)
         raise ComputationError(
@@ -168,8 +172,14 @@ def _confirmed(line: Line, look: Look, groups: list[list[Change]]) -> list[bool]
     return agrees
 
 
-def _by_outcomes(line: Line, look: Look, low: float, high: float, before: str, after: str) -> list[Change]:
-    """Changes between two Stokes numbers by outcomes alone: brackets are divided until they are LOCATED wide."""
+def _by_outcomes(
+    line: Line, look: Look, low: float, high: float, before: str, after: str, kind: str = PLAIN
+) -> list[Change]:
+    """Changes between two Stokes numbers by outcomes alone: brackets are divided until they are LOCATED wide.
+
+    Arguments:
+        kind: of a change that has the outcomes of the whole bracket.
+    """
     open_, closed = [(low, high, before, after)], []
     while open_:
         grids = [np.geomspace(first, last, _PARTS + 1)[1:-1] for first, last, _, _ in open_]
@@ -191,7 +201,10 @@ def _by_outcomes(line: Line, look: Look, low: float, high: float, before: str, a
         closed += [one for one in narrower if math.log(one[1] / one[0]) <= LOCATED]
         open_ = [one for one in narrower if math.log(one[1] / one[0]) > LOCATED]
     closed.sort()
-    return [_change(line, math.sqrt(first * last), one, other, PLAIN) for first, last, one, other in closed]
+    return [
+        _change(line, math.sqrt(first * last), one, other, kind if (one, other) == (before, after) else PLAIN)
+        for first, last, one, other in closed
+    ]
 
 
 def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:

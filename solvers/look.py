@@ -28,17 +28,18 @@ class Look:
 
     Arguments:
         rtol: relative tolerance of the integrations.
+        kernel: let the Taylor kernel integrate; default: if it can.
     """
 
     scene: Scene
     rtol: float
-    collisions: int = 0
-    reasons: dict[tuple[float, float], str] = field(default_factory=dict)
-    kernel: bool = field(init=False)
+    kernel: bool | None = None
+    collisions: int = field(default=0, init=False)
+    reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
         """Ask once whether there is a kernel for the scene."""
-        self.kernel = knows(self.scene)
+        self.kernel = knows(self.scene) if self.kernel is None else self.kernel
 
     @property
     def per_decade(self) -> int:
@@ -99,6 +100,7 @@ class Look:
         speed = stokes / self.scene.stokes_per_speed
         sticks = np.flatnonzero((found["outcome"] == 0) & ~np.isnan(found["reach"]))
         found["reach"] = np.nan
+        found["time"][found["outcome"] == 0] = np.nan
         if sticks.size:
             told = by_kernel.looked(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE)
             if told is not None:
@@ -141,7 +143,7 @@ def blank(stokes: np.ndarray) -> np.ndarray:
     found = np.zeros(stokes.size, SAMPLE)
     found["stokes"] = stokes
     found["outcome"] = found["reversal"] = -1
-    found["criterion"] = found["reach"] = np.nan
+    found["time"] = found["criterion"] = found["reach"] = np.nan
     return found
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -56,12 +56,21 @@ class Escape:
 
 @dataclass
 class Line:
-    """The functions of a scene at one angle (rad). Counts the collisions that it integrates."""
+    """The functions of a scene at one angle (rad). Counts the collisions that it integrates.
+
+    Arguments:
+        kernel: let the Taylor kernel integrate; what it hands over goes to Rosenbrock all the same. Default: if it can.
+    """
 
     scene: Scene
     angle: float
     rtol: float
-    collisions: int = 0
+    kernel: bool | None = None
+    collisions: int = field(default=0, init=False)
+
+    def __post_init__(self) -> None:
+        """Ask once whether there is a kernel for the scene."""
+        self.kernel = knows(self.scene) if self.kernel is None else self.kernel
 
     def numbers(self, stokes: float) -> Numbers:
         """Dimensionless numbers at a Stokes number."""
@@ -70,11 +79,6 @@ class Line:
     @property
     def model(self) -> Model:
         return load(choose(self.scene, self.angle > 0))
-
-    @cached_property
-    def kernel(self) -> bool:
-        """Whether the Taylor kernel flies here; what it hands over is flown all the same."""
-        return knows(self.scene)
 
     def criterion(self, stokes: float) -> float:
         """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.

@@ -20,9 +20,9 @@ SAMPLE = np.dtype(
         ("reversal", "i1"),  # the first rebound criterion met, -1 for none
         ("events", "i4"),  # how many
         ("restitution", "f8"),
-        ("time", "f8"),  # of contact, x0/v0
+        ("time", "f8"),  # of contact, x0/v0; nan for a stick
         ("criterion", "f8"),  # margin of the rebound criteria, positive if one is met; nan where it is not known
-        ("reach", "f8"),  # largest gap that a stick comes back to, x0; nan where it is not known
+        ("reach", "f8"),  # gap at which a stick falls back, x0; nan where it is not known
     ]
 )
 BRACKET = 1e-4  # width in ln St to which a change of outcome is enclosed by samples
@@ -103,13 +103,13 @@ def _another_way(line: np.ndarray) -> np.ndarray:
 def _towards_zero(line: np.ndarray) -> np.ndarray:
     """Neighbours between which a margin may reach zero: it turns there, by more than is left of it.
 
-    Contact times and the gaps that sticks come back to turn at a separatrix without a zero, so any turn counts.
+    Times, and the gaps at which sticks fall back, have no zero at a separatrix, so any maximum counts.
     """
     separates = line["outcome"] > 0
     margins = (
         (np.where(separates, -np.abs(line["criterion"]), np.nan), False),
         (np.where(separates, -(line["restitution"] ** 2), np.nan), False),
-        (np.where(separates, line["time"], np.nan), True),
+        (line["time"], True),
         (line["reach"], True),
     )
     found = np.zeros(line.size - 1, dtype=bool)

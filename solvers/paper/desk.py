@@ -15,7 +15,7 @@ from .. import boundary
 from ..compiled import hush
 from ..cores import usable_cores
 from ..errors import ComputationError
-from ..probe import Line as Probed
+from ..look import Look
 from ..probe import ready
 from ..scene import Scene
 from ..settings import RTOL
@@ -34,6 +34,7 @@ Result = TypeVar("Result")
 _FEW = 12  # angles; more are shared out among the cores by `boundary` itself, and the kernel is done with them first
 _TOP = 89.0  # degrees, the highest line of a map
 _CORNER = 0.025  # of the width of a map
+_AT_ONCE = 9  # collisions between which a criterion is enclosed, again and again
 _ROUND, _BEND = 5, 2  # angles put between two whose outcomes differ, and where a boundary moves far
 
 
@@ -156,13 +157,15 @@ def shown(read: Callable[[], float]) -> str:
 
 
 def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-6) -> float:
-    """The Stokes number, between `low` and `high`, from which a reversal criterion is met, bisected to `rtol`."""
-    met = Probed(scene, angle, RTOL).met
-    if met(low) or not met(high):
-        raise ComputationError(f"no criterion is first met between St {low:g} and {high:g}")
+    """The Stokes number, between `low` and `high`, from which a reversal criterion is met, enclosed to `rtol`."""
+    look = Look(scene, RTOL)
     while high - low > rtol * high:
-        middle = math.sqrt(low * high)
-        low, high = (low, middle) if met(middle) else (middle, high)
+        stokes = np.geomspace(low, high, _AT_ONCE)
+        met = look(np.full(stokes.size, angle), stokes)["reversal"] >= 0
+        if met[0] or not met[-1]:
+            raise ComputationError(f"no criterion is first met between St {low:g} and {high:g}")
+        first = int(np.argmax(met))
+        low, high = float(stokes[first - 1]), float(stokes[first])
     return math.sqrt(low * high)
 
 
