@@ -14,12 +14,13 @@ from ..compiled import hush
 from ..cores import usable_cores
 from ..many import OUTCOMES
 from ..model import choose
-from ..taylor.library import kernel
+from ..taylor.engine import variant
+from ..taylor.library import Variant, kernel
 from .environment import environment
 from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, fast_kernel, judge, runs
 from .stress_sample import SEED, Case, sample
 
-DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate")
+DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary")
 _BLOCK = 12  # cases a worker takes at a time
 _ALONE = 40  # fewer are not worth starting workers for
 WORST = 20  # cases that are kept as scene files, of each sort
@@ -65,11 +66,13 @@ class Stress:
         failed = self.issues("failure")
         strange = sum(not issue.explained for _, issue in failed)
         explained = len(self.issues(*DISAGREEMENTS)) - len(self.unexplained)
+        lines = sum(len(one.case.angles) for one in self.verdicts)
+        traced = f", {lines} lines of boundaries among them" if lines else ""
         scenes = f"{len(self.verdicts)} of {self.wanted}" if self.interrupted else f"{len(self.verdicts)}"
         return (
             f"stress: {scenes} scenes, {len(self.unexplained)} unexplained disagreements, "
             f"{explained} within the stated error of a boundary, {len(failed)} failures "
-            f"({strange} without a physical reason), {self.wall:.0f} s"
+            f"({strange} without a physical reason){traced}, {self.wall:.0f} s"
         )
 
 
@@ -103,7 +106,7 @@ def _prepared(count: int, seed: int) -> list[Case]:
 
     def compile_for(cases: Sequence[Case]) -> None:
         if FAST == "taylor":
-            for wanted in dict.fromkeys(fast_kernel(case.scene) for case in cases):
+            for wanted in dict.fromkeys(_kernel_of(case) for case in cases):
                 compiling.submit(kernel, wanted)
 
     try:
@@ -114,6 +117,13 @@ def _prepared(count: int, seed: int) -> list[Case]:
         raise
     compiling.shutdown()
     return cases
+
+
+def _kernel_of(case: Case) -> Variant:
+    """The kernel that a case asks for first."""
+    if case.angles:
+        return variant(case.scene, choose(case.scene, True), RTOL, True, trajectory=True)
+    return fast_kernel(case.scene)
 
 
 def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
@@ -182,6 +192,7 @@ def _case(one: Verdict) -> dict[str, Any]:
         "scene": one.case.scene.to_dict() if one.issues else None,  # the others are drawn again by seed and number
         "stokes": one.case.scene.stokes,
         "angle": one.case.scene.angle,
+        "angles": list(one.case.angles),
         "outcome": _outcome(one),
         "error": one.error,
         "conditioning": one.conditioning if one.conditioning != float("inf") else None,

@@ -61,7 +61,7 @@ class Issue:
     """Something that does not go together.
 
     Arguments:
-        kind: "outcome", "restitution", "side", "ledger", "drift", "certificate" or "failure".
+        kind: "outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary" or "failure".
         between: the engines it is about.
         said: in words.
         explained: the reason it may be so; empty if there is none.
@@ -156,10 +156,12 @@ def runs() -> dict[str, Run]:
 
 def judge(case: Case) -> Verdict:
     """Run every engine on a case and judge what comes out."""
+    from .stress_lines import judge_lines
+
     _FLIGHTS.forget()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # counted, and said once for all cases
-        verdict = _judged(case, runs())
+        verdict = judge_lines(case) if case.angles else _judged(case, runs())
     return replace(verdict, remarks=tuple(_PARTICULAR.sub(" ", each).strip() for each in remarks(case.scene)))
 
 
@@ -218,6 +220,11 @@ def _physical(failure: str, engine: str, case: Case) -> str:
     """The physical reason of a failure; empty if it has none. The engine under test has to pass every boundary."""
     if engine != FAST and case.distance is not None and case.distance <= SHARE * RTOL:
         return f"within {SHARE * RTOL:.0e} of a boundary, where the flight passes a saddle or a graze"
+    return physical_reason(failure)
+
+
+def physical_reason(failure: str) -> str:
+    """The physics behind what an engine says of a failure; empty if there is none."""
     return next((reason for words, reason in _REASONS.items() if words in failure), "")
 
 

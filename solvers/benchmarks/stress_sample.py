@@ -19,6 +19,8 @@ SEED = 20121
 DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative, in St, of points beside a boundary
 PER_CHANGE = 2 * len(DISTANCES)
 _BESIDE = 0.2  # of a sample that is set beside boundaries
+_LINES = 0.05  # of a sample: scenes whose boundaries are traced
+_PER_LINE_MODEL = 400  # of a sample, for each combination of laws of those: each compiles kernels of its own
 _PER_MODEL, _MODELS = 25, (8, 120)  # scenes that share structure and laws; fewest and most of those
 _NUMBERS = 19  # dimensions of a point
 
@@ -28,7 +30,7 @@ class Case:
     """A scene with its impact.
 
     Arguments:
-        kind: "sampled", or "beside" a boundary.
+        kind: "sampled", "beside" a boundary, or "lines" at `angles` (rad) along which boundaries are traced.
         distance: relative distance in St from the boundary; None where none is known.
         expected: outcome on this side of it, as the tracing of the boundary has it.
         change: what happens at the boundary, as `changes.Change.kind`.
@@ -40,6 +42,7 @@ class Case:
     distance: float | None = None
     expected: str | None = None
     change: str = ""
+    angles: tuple[float, ...] = ()
 
 
 def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:
@@ -48,10 +51,12 @@ def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = l
     Arguments:
         drawn: is told of the drawn ones before boundaries are traced for the others, which takes longer.
     """
-    beside = _wanted(count)
-    cases = list(_drawn(count - beside, seed))
+    from .stress_lines import drawn as lines
+
+    beside, traced = _wanted(count), int(_LINES * count)
+    cases = list(_drawn(count - beside - traced, seed))
     drawn(cases)
-    found = [*_limited(beside), *cases]
+    found = [*lines(traced, count // _PER_LINE_MODEL, seed), *_limited(beside), *cases]
     return [*found, *islice(_drawn(count, seed + 1), count - len(found))]  # where there are too few boundaries
 
 
