@@ -97,7 +97,8 @@ def _another_way(line: np.ndarray) -> np.ndarray:
     """Neighbours of one outcome that come to it another way: there the margins may jump."""
     criteria = line["reversal"][1:] != line["reversal"][:-1]
     events = line["events"][1:] != line["events"][:-1]
-    return criteria | (events & (line["outcome"][1:] > 0))
+    found: np.ndarray = criteria | (events & (line["outcome"][1:] > 0))
+    return found
 
 
 def _towards_zero(line: np.ndarray) -> np.ndarray:
