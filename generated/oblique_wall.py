@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 2afdd08d100463744d9fb2f95df96f57c5003222d973a06db453189c27a99377
+# Equations sha256 deb4c7d21ba3fce11dd6e6189272701e657b16baa0824b07aa409389a85ad129
 """Oblique sphere-wall doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -56,7 +56,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "2afdd08d100463744d9fb2f95df96f57c5003222d973a06db453189c27a99377"
+DIGEST = "deb4c7d21ba3fce11dd6e6189272701e657b16baa0824b07aa409389a85ad129"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -158,7 +158,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 43
+    Total operations: 47
     """
     opening = state["opening"]
     decay = state["decay"]
@@ -166,7 +166,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = -5*sqrt(46)*(fast_mode - slow_mode)/92
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "kinetic": obliquity**2*(0.2*roll**2 + slide**2/2) + opening**2/2,
     }
@@ -177,7 +177,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 61
+    Total operations: 65
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -188,7 +188,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = -5*sqrt(46)*(fast_mode - slow_mode)/92
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap)/stokes
@@ -213,14 +213,14 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What a separated doublet shows: restitutions, and rates over omega0.
 
-    Total operations: 33
+    Total operations: 37
     """
     opening = state["opening"]
     decay = state["decay"]
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = -5*sqrt(46)*(fast_mode - slow_mode)/92
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "restitution": opening,
         "tangential_restitution": slide,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 bd98a31f347c808f81e5bb0b4a1184716173ccc3391d009820e77f683054c145
+# Equations sha256 cf186312da4398bc7cdae21e325266feb9562d28840d831119c2690d8302c745
 """Oblique sphere-wall doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -66,7 +66,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "bd98a31f347c808f81e5bb0b4a1184716173ccc3391d009820e77f683054c145"
+DIGEST = "cf186312da4398bc7cdae21e325266feb9562d28840d831119c2690d8302c745"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -185,7 +185,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 43
+    Total operations: 47
     """
     opening = state["opening"]
     decay = state["decay"]
@@ -193,7 +193,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = -5*sqrt(46)*(fast_mode - slow_mode)/92
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "kinetic": obliquity**2*(0.2*roll**2 + slide**2/2) + opening**2/2,
     }
@@ -204,7 +204,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 71
+    Total operations: 75
     """
     gap = state["gap"]
     opening = state["opening"]
@@ -219,7 +219,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = -5*sqrt(46)*(fast_mode - slow_mode)/92
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap)/stokes
@@ -248,14 +248,14 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What a separated doublet shows: restitutions, and rates over omega0.
 
-    Total operations: 33
+    Total operations: 37
     """
     opening = state["opening"]
     decay = state["decay"]
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = -5*sqrt(46)*(fast_mode - slow_mode)/92
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "restitution": opening,
         "tangential_restitution": slide,

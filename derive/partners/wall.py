@@ -153,7 +153,7 @@ def rotation() -> Rotation:
             (SLOW_MODE, sp.exp(-decay)),
             (FAST_MODE, sp.exp(-found.ratio * decay)),
             (slide, sum(weight * mode for weight, mode in zip(found.slide, both, strict=True))),
-            (roll, sp.factor(sum(weight * mode for weight, mode in zip(found.roll, both, strict=True)))),
+            (roll, sum(weight * mode for weight, mode in zip(found.roll, both, strict=True))),
             *definitions,
         ),
         centrifugal=sp.Integer(0),
