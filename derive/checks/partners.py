@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
 from ..laws import LAWS
@@ -149,6 +151,23 @@ def _outputs_differ(pair: Model, equal: Model, together: dict[sp.Symbol, sp.Expr
     return left
 
 
+def slip_energy_adds() -> Check:
+    """The energy of a state is that of rigid rotation with its angular momentum and that of its deviation from it.
+
+    So the orbit of a doublet that keeps gap and angular momentum never exceeds the rigid one by more than what its slip
+    energy takes (`solvers.proofs.barrier`, resting contact).
+    """
+    left = []
+    for structure in (_PAIR, replace(_PAIR, partner="")):
+        model = derive(structure)
+        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"]).subs(opening, 0)
+        rigid = {s: opened(model, dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states[2:]}
+        least = opened(model, dict(model["effective_potential"].outputs)["energy"])
+        apart = kinetic.subs({state: state - value for state, value in rigid.items()}, simultaneous=True)
+        left.append(kinetic - least - apart)
+    return vanishing("pair, doublet: slip energy", "T = L^2/(2 I) + T of the deviation from rigid rotation", left)
+
+
 def wall_is_head_on() -> Check:
     """Beside a wall the motion along the line of centres is the head-on one, whatever goes on across it.
 
@@ -197,6 +216,7 @@ def partner_checks() -> tuple[Check, ...]:
         friction_dissipates(),
         published_logarithms(),
         equal_is_the_doublet(),
+        slip_energy_adds(),
         wall_is_head_on(),
         wall_friction_decays(),
     )
