@@ -26,7 +26,7 @@ from .numbers import Numbers, numbers
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
 from .settings import FEW, RTOL
-from .taylor.many import collided, patiently
+from .taylor.many import collided
 from .validity import warn
 
 if TYPE_CHECKING:
@@ -188,9 +188,6 @@ def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
         try:
             path = locate(model, n.groups, request.rtol, quadrature, machine_code)
         except ComputationError as error:
-            found = patiently(request.part(np.array([k]))) if request.engine == "taylor" else None
-            if found is not None:
-                return {name: column[0] for name, column in found.items()}
             raise n.in_si(error) from None
         return _kept(request.of, path, n)
     except WetDoubletError as error:

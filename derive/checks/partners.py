@@ -171,8 +171,8 @@ def slip_energy_adds() -> Check:
 def wall_is_head_on() -> Check:
     """Beside a wall the motion along the line of centres is the head-on one, whatever goes on across it.
 
-    Its rates, what reverses and ends it, and what proves it are those of the head-on structure, expression by expression:
-    a head-on stick, bounce or proof is the oblique one.
+    Its rates, what reverses and ends it, and what proves it are those of the head-on structure, expression by
+    expression: a head-on stick, bounce or proof is the oblique one.
     """
     beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
     rates, expected = emitted_rates(beside), emitted_rates(alone)
