@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 ENGINES = ("cvodes", "rosenbrock", "taylor")
 RTOL = 1e-9  # unless something else is asked for
-# What one collision may cost: steps of whichever engine, in one attempt. What they have not decided is an error that says
-# where they were spent.
+# What one collision may cost: steps of whichever engine, in one attempt. What they have not decided is an error that
+# says where they were spent.
 STEPS = 100_000
 CALL = 25  # steps that a call of an integrator counts for at least: chatter is many short ones
 FEW = 100  # collisions that are not worth a compiler
