@@ -113,6 +113,9 @@ partner_spin = _quantity(
 slide = _quantity(
     "slide", r"\hat v", ONE, "v0 tan(theta0)", "tangential velocity of centre and wall over its first", PAIR, real=True
 )
+decay = _quantity(
+    "decay", r"\Lambda", ONE, "1", "e-foldings of the slower mode of sliding and rolling beside a wall", PAIR, real=True
+)
 roll = _quantity("roll", r"\hat\xi_w", ONE, "v0 tan(theta0)/a", "spin beside a wall", PAIR, real=True)
 
 # Dimensionless groups

@@ -1,12 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f5cf5e1ed1fd5af58e99261fcaa1816e5e2648e4db3881edd12a34a35a536652
+# Equations sha256 f1486d197457bbe8b1019408c8d9adfc91cd12cac0e6139c5b3567e8f01bdc9c
 """Oblique sphere-wall doublet with another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - opening [v0]: opening velocity over impact speed, negative on approach
-- slide [v0 tan(theta0)]: tangential velocity of centre and wall over its first
-- roll [v0 tan(theta0)/a]: spin beside a wall
+- decay [1]: e-foldings of the slower mode of sliding and rolling beside a wall
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -26,10 +25,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from casadi import exp, sqrt
+
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "slide", "roll")
+STATES = ("gap", "opening", "decay")
 GROUPS = (
     "stokes",
     "aspect",
@@ -57,7 +58,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f5cf5e1ed1fd5af58e99261fcaa1816e5e2648e4db3881edd12a34a35a536652"
+DIGEST = "f1486d197457bbe8b1019408c8d9adfc91cd12cac0e6139c5b3567e8f01bdc9c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -65,24 +66,19 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 30
+    Total operations: 18
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     adhesion = groups["adhesion"]
-    shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap)/stokes
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
         "gap": opening,
         "opening": -attraction_force - film_force,
-        "slide": -shear_force,
-        "roll": 5*torque/2,
+        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
 
@@ -91,20 +87,15 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 21
+    Total operations: 9
     """
     gap = state["gap"]
-    slide = state["slide"]
-    roll = state["roll"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
-    shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     return {
         "gap": 0,
         "opening": 0,
-        "slide": -shear_force,
-        "roll": 5*torque/2,
+        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
 
@@ -151,14 +142,12 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
         "opening": -dry_restitution*opening,
-        "slide": slide,
-        "roll": roll,
+        "decay": decay,
     }
 
 
@@ -170,20 +159,22 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "gap": 1,
         "opening": -1,
-        "slide": 1,
-        "roll": 0,
+        "decay": 0,
     }
 
 
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 10
+    Total operations: 47
     """
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     obliquity = groups["obliquity"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "kinetic": obliquity**2*(0.2*roll**2 + slide**2/2) + opening**2/2,
     }
@@ -194,16 +185,19 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 32
+    Total operations: 69
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     adhesion = groups["adhesion"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap)/stokes
@@ -230,11 +224,14 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What a separated doublet shows: restitutions, and rates over omega0.
 
-    Total operations: 0
+    Total operations: 37
     """
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "restitution": opening,
         "tangential_restitution": slide,
@@ -265,13 +262,11 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 0
     """
     gap = state["gap"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     return {
         "gap": gap,
         "opening": 0,
-        "slide": slide,
-        "roll": roll,
+        "decay": decay,
     }
 
 

@@ -1,12 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 7e74f85d9ba804090b7fea50f577201ad7b8204f6336535eef495899f3ffabae
+# Equations sha256 cf186312da4398bc7cdae21e325266feb9562d28840d831119c2690d8302c745
 """Oblique sphere-wall doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - opening [v0]: opening velocity over impact speed, negative on approach
-- slide [v0 tan(theta0)]: tangential velocity of centre and wall over its first
-- roll [v0 tan(theta0)/a]: spin beside a wall
+- decay [1]: e-foldings of the slower mode of sliding and rolling beside a wall
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -30,10 +29,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from casadi import exp, sqrt
+
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "slide", "roll")
+STATES = ("gap", "opening", "decay")
 GROUPS = (
     "stokes",
     "aspect",
@@ -65,7 +66,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "7e74f85d9ba804090b7fea50f577201ad7b8204f6336535eef495899f3ffabae"
+DIGEST = "cf186312da4398bc7cdae21e325266feb9562d28840d831119c2690d8302c745"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -73,28 +74,23 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 36
+    Total operations: 24
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     adhesion = groups["adhesion"]
-    shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
         "gap": opening,
         "opening": -attraction_force - bridge_force - film_force,
-        "slide": -shear_force,
-        "roll": 5*torque/2,
+        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
 
@@ -103,20 +99,15 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 21
+    Total operations: 9
     """
     gap = state["gap"]
-    slide = state["slide"]
-    roll = state["roll"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
-    shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     return {
         "gap": 0,
         "opening": 0,
-        "slide": -shear_force,
-        "roll": 5*torque/2,
+        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
 
@@ -170,14 +161,12 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
         "opening": -dry_restitution*opening,
-        "slide": slide,
-        "roll": roll,
+        "decay": decay,
     }
 
 
@@ -189,20 +178,22 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "gap": 1,
         "opening": -1,
-        "slide": 1,
-        "roll": 0,
+        "decay": 0,
     }
 
 
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 10
+    Total operations: 47
     """
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     obliquity = groups["obliquity"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "kinetic": obliquity**2*(0.2*roll**2 + slide**2/2) + opening**2/2,
     }
@@ -213,12 +204,11 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 38
+    Total operations: 75
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -226,6 +216,10 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     adhesion = groups["adhesion"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap)/stokes
@@ -254,11 +248,14 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What a separated doublet shows: restitutions, and rates over omega0.
 
-    Total operations: 0
+    Total operations: 37
     """
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "restitution": opening,
         "tangential_restitution": slide,
@@ -294,13 +291,11 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 0
     """
     gap = state["gap"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     return {
         "gap": gap,
         "opening": 0,
-        "slide": slide,
-        "roll": roll,
+        "decay": decay,
     }
 
 

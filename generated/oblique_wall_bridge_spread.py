@@ -1,12 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 bc94045a07b71a949f169f6ecfa1b92c789a0545cba490e448ede4529fd01997
+# Equations sha256 d056585b245207ac2ea5c1542237174433a666a391c9ab5ab82f71e4839e5b20
 """Oblique sphere-wall doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - opening [v0]: opening velocity over impact speed, negative on approach
-- slide [v0 tan(theta0)]: tangential velocity of centre and wall over its first
-- roll [v0 tan(theta0)/a]: spin beside a wall
+- decay [1]: e-foldings of the slower mode of sliding and rolling beside a wall
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -29,10 +28,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from casadi import exp, sqrt
+
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "slide", "roll")
+STATES = ("gap", "opening", "decay")
 GROUPS = (
     "stokes",
     "aspect",
@@ -63,7 +64,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "bc94045a07b71a949f169f6ecfa1b92c789a0545cba490e448ede4529fd01997"
+DIGEST = "d056585b245207ac2ea5c1542237174433a666a391c9ab5ab82f71e4839e5b20"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -71,26 +72,21 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 32
+    Total operations: 20
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
-    shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
         "gap": opening,
         "opening": -bridge_force - film_force,
-        "slide": -shear_force,
-        "roll": 5*torque/2,
+        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
 
@@ -99,20 +95,15 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 21
+    Total operations: 9
     """
     gap = state["gap"]
-    slide = state["slide"]
-    roll = state["roll"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
-    shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     return {
         "gap": 0,
         "opening": 0,
-        "slide": -shear_force,
-        "roll": 5*torque/2,
+        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
 
@@ -163,14 +154,12 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
         "opening": -dry_restitution*opening,
-        "slide": slide,
-        "roll": roll,
+        "decay": decay,
     }
 
 
@@ -182,20 +171,22 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "gap": 1,
         "opening": -1,
-        "slide": 1,
-        "roll": 0,
+        "decay": 0,
     }
 
 
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 10
+    Total operations: 47
     """
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     obliquity = groups["obliquity"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "kinetic": obliquity**2*(0.2*roll**2 + slide**2/2) + opening**2/2,
     }
@@ -206,18 +197,21 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 34
+    Total operations: 71
     """
     gap = state["gap"]
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
@@ -244,11 +238,14 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """What a separated doublet shows: restitutions, and rates over omega0.
 
-    Total operations: 0
+    Total operations: 37
     """
     opening = state["opening"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
+    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
         "restitution": opening,
         "tangential_restitution": slide,
@@ -282,13 +279,11 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 0
     """
     gap = state["gap"]
-    slide = state["slide"]
-    roll = state["roll"]
+    decay = state["decay"]
     return {
         "gap": gap,
         "opening": 0,
-        "slide": slide,
-        "roll": roll,
+        "decay": decay,
     }
 
 

@@ -28,6 +28,7 @@ class Buffered:
         self._arguments = [np.zeros(function.nnz_in(k)) for k in inputs]
         for k, argument in zip(inputs, self._arguments, strict=True):
             self._buffer.set_arg(k, memoryview(argument))  # type: ignore[call-arg, arg-type]  # stubs: (index, pointer, size) only
+        self._counts = not function.is_a("External")  # compiled to C an integrator keeps no statistics
         self._result = np.zeros(function.nnz_out(result))
         self._buffer.set_res(result, memoryview(self._result))  # type: ignore[call-arg, arg-type]  # as above
 
@@ -39,3 +40,9 @@ class Buffered:
         if self._buffer.ret():
             raise RuntimeError("Evaluation failed")
         return self._result.copy()
+
+    @property
+    def steps(self) -> int:
+        """Steps of an integrator's last call; 0 where it is compiled."""
+        stats = self._buffer.stats() if self._counts else {}
+        return int(stats.get("n_steps", stats.get("nsteps", 0)))

@@ -16,6 +16,7 @@ from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import Path, Step
 from .model import Choice
 from .phases import Flow, Watch, event_table, expressions
+from .settings import STEPS
 
 _LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
 _MISSES = 1e-13  # of its scale: what an event's function may be off after the step
@@ -127,6 +128,8 @@ def _flight(
         except IntegrationFailed as failure:
             raise Stopped(f"gave up ({failure})", step, flown.time, flown.y) from None
         flown.steps += engine.steps
+        if flown.steps > STEPS:
+            raise Stopped(f"has not got through in {STEPS} steps", step, flown.time, flown.y)
         return y
 
     y = flight(step.duration)

@@ -19,9 +19,9 @@ from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
 
 from .buffered import Buffered
 from .phases import Flow, Watch, event_table, expressions, mechanical_energy
+from .settings import STEPS
 
 _EXPECTED = "Event support is experimental"
-_MAX_STEPS = 200_000
 
 
 class IntegrationFailed(Exception):
@@ -39,12 +39,12 @@ def quiet() -> Iterator[None]:
             sys.stderr.write(line + "\n")
 
 
-def _call(function: Function, x0: np.ndarray, p: np.ndarray, counted: bool = False) -> np.ndarray:
-    """Evaluate an integrator; its prints are dropped, its failure becomes one line; `counted` keeps its statistics."""
+def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
     heard = io.StringIO()
     try:
         with contextlib.redirect_stderr(heard):
-            found = function(x0=x0, p=p)["xf"].full() if counted else _buffered(function)(x0, p)
+            found = _buffered(function)(x0, p)
     except (RuntimeError, SystemError) as error:
         # CasADi wraps an interrupt that arrives while it works; CVODES swallows it and only prints it
         said = str(error) + heard.getvalue()
@@ -83,7 +83,7 @@ class Tolerance:
         options: dict[str, Any] = {
             "reltol": self.relative,
             "abstol": self.absolute,
-            "max_num_steps": _MAX_STEPS,
+            "max_num_steps": STEPS,
         }
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
@@ -122,14 +122,13 @@ class Plain:
     plugin: str
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
-        found = _call(self.function, y, np.append(p, duration), counted=True)
+        found = _call(self.function, y, np.append(p, duration))
         return found.ravel() if found.shape[1] == 1 else found
 
     @property
     def steps(self) -> int:
         """Steps of the last call."""
-        stats = self.function.stats()
-        return int(stats["nsteps"] if "nsteps" in stats else stats["n_steps"])
+        return _buffered(self.function).steps
 
 
 @lru_cache(maxsize=512)
@@ -176,6 +175,11 @@ class Locator:
         dipped = which >= len(self.events)
         index = self.dips[which - len(self.events)] if dipped else which
         return Stop(self.events[index], float(time), after, dipped)
+
+    @property
+    def steps(self) -> int:
+        """Steps of the last call; 0 where it is compiled."""
+        return _buffered(self.function).steps
 
     def value(self, event: str, y: np.ndarray, p: np.ndarray, motion: int, level: float) -> float:
         """An event's function at a state."""

@@ -15,13 +15,14 @@ from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, p
 from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
 from .proofs import Proof, proof_for
+from .settings import CALL, STEPS
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
 LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from any boundary, for nothing gained
 REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
-_MAX_STEPS = 2_000  # phases of one flight
+_CHATTER = 100  # phases: as many are no approach and escape, but rebounds
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 
@@ -106,12 +107,13 @@ class Locate:
         self.path = Path(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
+        self.spent = 0  # steps
 
     def run(self) -> Path:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error("so oblique an impact turns within a rounding error of x0", "try a smaller angle")
-        for _ in range(_MAX_STEPS):
+        while True:
             if self._proved():
                 self._stop(Step(self.phase, 0.0, None, ()))
                 self.path.certified = self.proof.theorem
@@ -123,9 +125,17 @@ class Locate:
                 return self.path
             if self.path.separated:
                 return self.path
-        raise self._error(
-            f"{_MAX_STEPS} phases have not decided the outcome", "look at its events: this is chatter without end"
-        )
+
+    def _spend(self, steps: int) -> None:
+        """Count the steps of a call of an integrator."""
+        self.spent += max(steps, CALL)
+        if self.spent > STEPS:
+            phases = len(self.path.steps)
+            what = "this is chatter without end" if phases > _CHATTER else "it creeps beyond bounds"
+            raise self._error(
+                f"{STEPS} steps in {phases + 1} phases have not decided the outcome",
+                f"{what}: try a larger --rtol, or another impact",
+            )
 
     def _criterion_met(self) -> str | None:
         """A criterion already true where a phase starts, by rule: glass, elastic, rough."""
@@ -184,6 +194,7 @@ class Locate:
         level = max(level, -1e30)
         try:
             stop = find(self.y, self.p, stretch, self.phase.motion, level)
+            self._spend(find.steps)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
@@ -224,6 +235,7 @@ class Locate:
 
         def value(duration: float) -> tuple[float, np.ndarray]:
             y = fly(self.y, self.p, duration)
+            self._spend(fly.steps)
             return find.value(event, y, self.p, self.phase.motion, level), y
 
         before, after, y_after = 0.0, stop.time, stop.y

@@ -26,7 +26,7 @@ from .numbers import Numbers, numbers
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
 from .settings import FEW, RTOL
-from .taylor.many import collided, patiently
+from .taylor.many import collided
 from .validity import warn
 
 if TYPE_CHECKING:
@@ -36,9 +36,11 @@ OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 FAILED = -1
 _BLOCK = 50  # collisions a worker takes at a time
 _ALONE = FEW  # fewer collisions are not worth starting workers for
+_SLOW_ALONE = 20  # nor are fewer of those that the kernel has handed over: they take up to seconds each
 
 Block = dict[str, np.ndarray]
 Finished = Callable[[np.ndarray, Block], None]
+Slow = Callable[[int], None]
 
 
 def collide_many(
@@ -99,31 +101,42 @@ def fill(results: Block, where: np.ndarray, block: Block) -> None:
         results[name][where] = values
 
 
-def compute(request: Request, which: np.ndarray, finished: Finished) -> None:
+def compute(request: Request, which: np.ndarray, finished: Finished, slow: Slow = lambda _count: None) -> None:
     """Collide the collisions `which`, on all cores if they are many; `finished` is told of every block.
 
     What it has been told stays told, whatever interrupts the rest.
+
+    Arguments:
+        slow: told how many collisions the kernel has handed over, before they are done one after another.
     """
+    size, alone = _BLOCK, _ALONE
     if request.engine == "taylor":
-        which = collided(request, which, usable_cores() if which.size > _ALONE else 1, finished)
-    blocks = [which[k : k + _BLOCK] for k in range(0, which.size, _BLOCK)]
+        left = collided(request, which, usable_cores() if which.size > _ALONE else 1, finished)
+        if 0 < left.size < which.size:
+            slow(left.size)
+            size, alone = max(1, min(_BLOCK, left.size // (4 * usable_cores()))), _SLOW_ALONE
+        which = left
+    blocks = [which[k : k + size] for k in range(0, which.size, size)]
     cores = min(len(blocks), usable_cores())
     many = which.size > _ALONE
-    if not many or cores == 1:
+    if which.size <= alone or cores == 1:
         for block in blocks:
             finished(block, run(request.part(block), many))
         return
-    for block, result in _in_parallel(request, blocks, cores):
+    for block, result in _in_parallel(request, blocks, cores, many):
         finished(block, result)
 
 
-def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iterator[tuple[np.ndarray, Block]]:
+def _in_parallel(
+    request: Request, blocks: list[np.ndarray], cores: int, machine_code: bool
+) -> Iterator[tuple[np.ndarray, Block]]:
     """Results in the order in which they are finished; a worker is sent the part of the request it is to do."""
     from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 
     from loky import ProcessPoolExecutor  # starts workers without running the caller's script again
 
-    run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
+    if machine_code:
+        run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
     pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
     waiting: dict[Any, np.ndarray] = {}
     left, done = iter(blocks), False
@@ -131,7 +144,7 @@ def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iter
         while True:
             with _undisturbed():  # an interrupt is for this process, which then stops its workers
                 for block in left:
-                    waiting[pool.submit(run, request.part(block), True)] = block
+                    waiting[pool.submit(run, request.part(block), machine_code)] = block
                     if len(waiting) > 2 * cores:
                         break
             if not waiting:
@@ -188,9 +201,6 @@ def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
         try:
             path = locate(model, n.groups, request.rtol, quadrature, machine_code)
         except ComputationError as error:
-            found = patiently(request.part(np.array([k]))) if request.engine == "taylor" else None
-            if found is not None:
-                return {name: column[0] for name, column in found.items()}
             raise n.in_si(error) from None
         return _kept(request.of, path, n)
     except WetDoubletError as error:

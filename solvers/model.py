@@ -127,7 +127,7 @@ class Model:
 
     @property
     def wall(self) -> bool:
-        return "slide" in self.state
+        return "decay" in self.state
 
     @property
     def reduced(self) -> bool:

@@ -48,11 +48,11 @@ class Numbers:
             ratio = self.groups.get("radius_ratio", 1.0)
             distance = (1 + ratio) ** 2 / ratio + self.groups["aspect"] * state["gap"]
             shown["rotation rate"] = state["orbit"] / distance**2 * self.rate
-        for name, label in (("spin", "spin"), ("partner_spin", "partner's spin"), ("roll", "spin")):
+        for name, label in (("spin", "spin"), ("partner_spin", "partner's spin")):
             if name in state:
                 shown[label] = state[name] * self.rate
-        if "slide" in state:
-            shown["sliding velocity"] = state["slide"] * self.speed * self.groups["obliquity"]
+        if "decay" in state:
+            shown["e-foldings of sliding"] = state["decay"]
         time = None if error.time is None else error.time * self.time
         return ComputationError(error.message, error.phase, time, shown, error.advice)
 

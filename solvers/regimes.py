@@ -15,7 +15,7 @@ from ..generated import scaling
 from .custom import Package
 from .errors import InputError
 from .journal import Journal
-from .many import Block, as_text, compute, empty, fill, outcome_attributes
+from .many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
 from .numbers import si_values
 from .requests import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .scene import Scene
@@ -82,6 +82,7 @@ def regime_map(
     of: Sequence[str] = tuple(QUANTITIES),
     progress: Progress | None = None,
     journal: str | Path | Journal | None = None,
+    slow: Slow = lambda _count: None,
 ) -> xarray.Dataset:
     """Outcomes over a grid.
 
@@ -96,6 +97,7 @@ def regime_map(
         progress: told of (collisions done, collisions in all) from time to time.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
+        slow: told how many collisions are left to slower engines, once the kernel has done all others.
 
     Returns:
         Dataset over (angle, stokes or speed, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
@@ -137,7 +139,7 @@ def regime_map(
 
     tell()
     missing = grid.order[results["outcome"][grid.order] == _UNKNOWN]
-    compute(request, missing, finished)
+    compute(request, missing, finished, slow)
     return _dataset(grid, request, results)
 
 

@@ -12,6 +12,10 @@ if TYPE_CHECKING:
 
 ENGINES = ("cvodes", "rosenbrock", "taylor")
 RTOL = 1e-9  # unless something else is asked for
+# What one collision may cost: steps of whichever engine, in one attempt. What they have not decided is an error that
+# says where they were spent.
+STEPS = 100_000
+CALL = 25  # steps that a call of an integrator counts for at least: chatter is many short ones
 FEW = 100  # collisions that are not worth a compiler
 _TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", lambda v: 1e-13 <= v <= 1e-3))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
 from ..laws import LAWS
@@ -9,6 +11,7 @@ from ..model import Model, derive
 from ..partners import bodies, rolling, wall
 from ..quantities import (
     a,
+    decay,
     gap,
     mass_ratio,
     mu,
@@ -16,6 +19,8 @@ from ..quantities import (
     orbit,
     partner_spin,
     radius_ratio,
+    roll,
+    slide,
     slide_rate,
     spin,
     xi,
@@ -146,12 +151,60 @@ def _outputs_differ(pair: Model, equal: Model, together: dict[sp.Symbol, sp.Expr
     return left
 
 
+def slip_energy_adds() -> Check:
+    """The energy of a state is that of rigid rotation with its angular momentum and that of its deviation from it.
+
+    So the orbit of a doublet that keeps gap and angular momentum never exceeds the rigid one by more than what its slip
+    energy takes (`solvers.proofs.barrier`, resting contact).
+    """
+    left = []
+    for structure in (_PAIR, replace(_PAIR, partner="")):
+        model = derive(structure)
+        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"]).subs(opening, 0)
+        rigid = {s: opened(model, dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states[2:]}
+        least = opened(model, dict(model["effective_potential"].outputs)["energy"])
+        apart = kinetic.subs({state: state - value for state, value in rigid.items()}, simultaneous=True)
+        left.append(kinetic - least - apart)
+    return vanishing("pair, doublet: slip energy", "T = L^2/(2 I) + T of the deviation from rigid rotation", left)
+
+
 def wall_is_head_on() -> Check:
-    """Beside a wall the motion along the line of centres is the head-on one, whatever goes on across it."""
-    rates = emitted_rates(derive(_WALL))
-    alone = emitted_rates(derive(Structure(False, True, False, attraction=True)))
-    left = [rates[state] - alone[state] for state in (gap, opening)]
-    return vanishing("wall: normal motion", "the limit of a pair has no centrifugal force: u' is the head-on one", left)
+    """Beside a wall the motion along the line of centres is the head-on one, whatever goes on across it.
+
+    Its rates, what reverses and ends it, and what proves it are those of the head-on structure, expression by
+    expression: a head-on stick, bounce or proof is the oblique one.
+    """
+    beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
+    rates, expected = emitted_rates(beside), emitted_rates(alone)
+    left = [rates[state] - expected[state] for state in (gap, opening)]
+    for name in ("events", "inward_force", "effective_potential", "reversal", "reversal_loss"):
+        here = dict(beside[name].outputs)
+        left += [beside.expanded(here[key]) - alone.expanded(value) for key, value in alone[name].outputs]
+    (escape,), (kinetic,) = beside["escape_energy"].outputs, alone["energies"].outputs
+    left.append(escape[1] - kinetic[1])
+    statement = "no centrifugal force is left: rates, events, reversal and stick proofs of the gap are the head-on ones"
+    return vanishing("wall: normal motion", statement, left)
+
+
+def wall_friction_decays() -> Check:
+    """Slide and roll as sums of two exponentials of one state solve the equations of friction, and stay positive."""
+    model = derive(_WALL)
+    known, (rate,) = dict(model.definitions), wall.rotation().rates.values()
+    definitions, rates = wall.friction_rates()
+    modes = {wall.SLOW_MODE: known[wall.SLOW_MODE], wall.FAST_MODE: known[wall.FAST_MODE]}
+    solved = {state: known[state].subs(modes) for state in (slide, roll)}
+    left = [solved[slide].subs(decay, 0) - 1, solved[roll].subs(decay, 0)]
+    left += [solved[s].diff(decay) * rate - rates[s].subs(dict(definitions)).subs(solved) for s in (slide, roll)]
+    check = vanishing(
+        "wall: friction",
+        "slide and roll decay in two modes of constant shape; the gap enters through their common rate alone",
+        left,
+    )
+    ratio = known[wall.FAST_MODE].args[0] / -decay
+    slower = sp.Symbol("slower", positive=True)
+    shares = [known[s].subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (slide, roll)]
+    positive = sp.simplify(ratio) > 1 and all(sp.expand(share).is_positive for share in shares)
+    return check if positive else Check(check.name, check.statement, False, f"not positive: {shares}")
 
 
 def partner_checks() -> tuple[Check, ...]:
@@ -163,5 +216,7 @@ def partner_checks() -> tuple[Check, ...]:
         friction_dissipates(),
         published_logarithms(),
         equal_is_the_doublet(),
+        slip_energy_adds(),
         wall_is_head_on(),
+        wall_friction_decays(),
     )

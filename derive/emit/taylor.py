@@ -307,10 +307,11 @@ class Header:
                 "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
                 "(surface arm), over m v0^2 (derive/orbital.py).",
             )
-        if "arm" in model.slots and not shape.strings:
+        if shape.oblique and not shape.strings and shape.partner != "wall":
             lines += self._value(
                 "rigid_rotation", "static inline vec rigid_orbit(const constants *c, const vec *y)", {"orbit": "return"}
             )
+        if "arm" in model.slots and not shape.strings:
             lines += self._value(
                 "angular_momentum",
                 "static inline vec angular_momentum(const constants *c, const vec *y)",

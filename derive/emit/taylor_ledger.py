@@ -15,6 +15,7 @@ from .printer import EmissionError
 from .taylor_c import Constants, Recurrences
 from .taylor_layout import comment, function
 from .taylor_program import Program
+from .text import needed
 
 #: Terms of the ledger that are series of their own; the work against all attractions together is a state already.
 TERMS = {
@@ -50,6 +51,10 @@ class Ledger:
         self.constants = constants.beside("c->ledger.")
         self.program = flow.continued()
         rates = dict(model["energy_rates"].outputs) if self.there else {}
+        more, _ = needed([rate for key, rate in rates.items() if key in TERMS], model.definitions)
+        for symbol, expression in more:  # intermediates that the equations of motion do without
+            if symbol not in flow.named and not flow.moves(symbol):
+                self.program.define(symbol, expression)
         self._rates = {
             TERMS[key]: self.program.series(sp.sympify(rate), f"rate_of_{TERMS[key]}")
             for key, rate in rates.items()

@@ -2,18 +2,28 @@
 
 r omega becomes the velocity v along the wall, while omega, and with it the centrifugal force m v^2/r, goes to zero: the
 line of centres does not turn, and the motion along it no longer knows of that across it. The wall does not spin.
+
+Nor does the motion across it need equations of its own. Friction is linear in sliding and rolling, and the gap enters
+through one common factor, so the two modes of its matrix stay the same all along the flight: slide and roll are sums
+of exp(-decay) and exp(-ratio decay), and the one state is `decay`, the integral of the slower mode's rate. What has
+died away is then an exponential that is zero; it holds no integration, and has the right sign down to the smallest
+double.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
 
 from ..forces import SHEAR
 from ..laws import slot_call
+from ..laws.base import Definition
 from ..quantities import (
     a,
+    decay,
     m,
     mass_ratio,
     obliquity,
@@ -35,6 +45,7 @@ from .bodies import CENTRES, T_1, F_t, centres, equations_of_motion, inertias, r
 from .rolling import R_1, R_2, torque_matrix
 
 SHEAR_FORCE, TORQUE = sp.symbols("shear_force torque", real=True)
+SLOW_MODE, FAST_MODE = sp.symbols("slow_mode fast_mode", positive=True)
 
 
 def limit(expression: sp.Expr) -> sp.Expr:
@@ -69,32 +80,91 @@ def scaled(expression: sp.Expr) -> sp.Expr:
     return nondimensional(expression.subs({slide_rate: sideways * slide, xi: sideways / a * roll}, simultaneous=True))
 
 
+@dataclass(frozen=True)
+class Modes:
+    """Slide and roll as sums of two modes that decay.
+
+    Arguments:
+        rate: of the slower mode, per v0/x0; the one place where the gap enters.
+        ratio: the faster mode's rate over it.
+        slide, roll: weights of the slower and the faster mode.
+    """
+
+    rate: sp.Expr
+    ratio: sp.Expr
+    slide: tuple[sp.Expr, sp.Expr]
+    roll: tuple[sp.Expr, sp.Expr]
+
+
+def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]) -> Modes:
+    """The modes of rates that are linear in slide and roll, by a constant matrix times one common factor.
+
+    Raises:
+        ValueError: the rates are not of this form, or a mode does not decay.
+    """
+    moving = sp.Matrix([slide, roll])
+    found = sp.Matrix([sp.expand(rates[state]) for state in moving])
+    matrix = -found.jacobian(moving)
+    factor = matrix[0, 0]
+    numbers = (matrix / factor).applyfunc(sp.simplify)
+    if (found + matrix * moving).applyfunc(sp.expand) != sp.zeros(2, 1) or numbers.free_symbols:
+        raise ValueError(f"sliding and rolling are not damped by one constant matrix: {numbers}")
+    (slow, _, (one,)), (fast, _, (other,)) = sorted(numbers.eigenvects(), key=lambda each: each[0])
+    if not (slow.is_positive and fast.is_positive):
+        raise ValueError(f"a mode of sliding and rolling does not decay: {slow}, {fast}")
+    vectors = sp.Matrix.hstack(one, other)
+    weights = vectors * sp.diag(*vectors.LUsolve(moving.subs(start)))
+    along, spun = (tuple(sp.radsimp(sp.simplify(weight)) for weight in weights.row(k)) for k in range(2))
+    return Modes(factor * sp.together(slow), sp.expand(sp.radsimp(fast / slow)), along, spun)
+
+
+@cache
+def friction_rates() -> tuple[tuple[Definition, ...], dict[sp.Symbol, sp.Expr]]:
+    """Force and torque of the friction by their names, and the rates of slide and roll in them, per v0/x0."""
+    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
+    torque, force = friction()
+    unit = _force_unit()
+    opened, along, spun = accelerations()
+    assert opened == 0  # no centrifugal force
+    named = {F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE}
+    definitions = ((SHEAR_FORCE, scaled(log * force / unit)), (TORQUE, scaled(log * torque / (unit * a))))
+    return definitions, {
+        slide: scaled(along.subs(named) * x0 / (v0 * v0 * obliquity)),
+        roll: scaled(spun.subs(named) * x0 / v0 * a / (v0 * obliquity)),
+    }
+
+
+def _force_unit() -> sp.Expr:
+    return m * v0 * obliquity * v0 / x0
+
+
 @cache
 def rotation() -> Rotation:
     """What the equations beside a wall are made of."""
-    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
-    unit = m * v0 * obliquity * v0 / x0  # of tangential forces
-    torque, force = friction()
-    opened, along, spun = accelerations()
-    assert opened == 0  # no centrifugal force
-    inertia = limit(inertias()[0])
-    named = {F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE}
-    kinetic = (m * slide_rate**2 + inertia * xi**2) / 2
-    power = F_t * slide_rate - T_1 * xi
+    definitions, rates = friction_rates()
+    begin = {slide: sp.Integer(1), roll: sp.Integer(0)}
+    found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
+    both = (SLOW_MODE, FAST_MODE)
+    unit = _force_unit()
+    kinetic = (m * slide_rate**2 + limit(inertias()[0]) * xi**2) / 2
+    power = (F_t * slide_rate - T_1 * xi).subs({F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE})
     return Rotation(
-        states=(slide, roll),
-        definitions=((SHEAR_FORCE, scaled(log * force / unit)), (TORQUE, scaled(log * torque / (unit * a)))),
+        states=(decay,),
+        definitions=(
+            (SLOW_MODE, sp.exp(-decay)),
+            (FAST_MODE, sp.exp(-found.ratio * decay)),
+            (slide, sum(weight * mode for weight, mode in zip(found.slide, both, strict=True))),
+            (roll, sum(weight * mode for weight, mode in zip(found.roll, both, strict=True))),
+            *definitions,
+        ),
         centrifugal=sp.Integer(0),
-        rates={
-            slide: scaled(along.subs(named) * x0 / (v0 * v0 * obliquity)),
-            roll: scaled(spun.subs(named) * x0 / v0 * a / (v0 * obliquity)),
-        },
+        rates={decay: found.rate},
         turning=None,
         kinetic=scaled(kinetic / (m * v0**2)),
-        power=scaled(power.subs(named) * x0 / v0 / (m * v0**2)),
+        power=scaled(power * x0 / v0 / (m * v0**2)),
         momentum=None,
         outputs={"tangential_restitution": slide, "final_rotation_rate": sp.Integer(0), "final_spin": roll},
         least=(sp.Integer(0), sp.Integer(0)),
-        rigid={slide: slide, roll: roll},
-        start={slide: sp.Integer(1), roll: sp.Integer(0)},
+        rigid={decay: decay},
+        start={decay: sp.Integer(0)},
     )

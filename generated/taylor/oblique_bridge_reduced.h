@@ -346,6 +346,18 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
+/* The state that has this least energy: at rest in the gap, turning as one body. */
+static inline vec rigid_orbit(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec inertia_ratio = distance_squared + 6.4;
+    vec distance_squared_over_inertia_ratio = distance_squared/inertia_ratio;
+    vec orbit_2 = c->momentum*distance_squared_over_inertia_ratio;
+    return orbit_2;
+}
+
 #if defined(BRIDGE_FORCE_FALLS)
 #define HELD (REDUCED || MIDGAP_ARM)
 /* What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py). */

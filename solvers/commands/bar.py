@@ -4,36 +4,51 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 _SIZE = {"ncols": 80, "nrows": 24}  # of a terminal that does not say
 
 
-@contextmanager
-def bar(unit: str) -> Iterator[Callable[[int, int | None], None]]:
-    """Yield what is to be told of (done, total), None where the total is not known; nothing is shown in a pipe.
+class Bar:
+    """A bar that is called with (done, total), None where the total is not known.
 
     Arguments:
         unit: what is counted, as `collisions`.
     """
-    from tqdm import tqdm
 
-    shown: Any = None
+    def __init__(self, unit: str) -> None:
+        self.unit = unit
+        self._shown: Any = None
 
-    def tell(done: int, total: int | None) -> None:
-        nonlocal shown
-        if shown is None:  # what an earlier run has done says nothing of the speed of this one
+    def __call__(self, done: int, total: int | None) -> None:
+        from tqdm import tqdm
+
+        if self._shown is None:  # what an earlier run has done says nothing of the speed of this one
             size = {"dynamic_ncols": True} if _size_is_known() else _SIZE
-            shown = tqdm(total=total, initial=done, unit=f" {unit}", disable=None, leave=False, **size)
-        shown.update(done - shown.n)
+            self._shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
+        self._shown.update(done - self._shown.n)
 
+    def note(self, text: str) -> None:
+        """Show what is being waited for behind the counts."""
+        if self._shown is not None:
+            self._shown.set_postfix_str(text)
+
+    def close(self) -> None:
+        """Remove it."""
+        if self._shown is not None:
+            self._shown.close()
+
+
+@contextmanager
+def bar(unit: str) -> Iterator[Bar]:
+    """Yield a bar, which is removed at the end; nothing is shown in a pipe."""
+    shown = Bar(unit)
     try:
-        yield tell
+        yield shown
     finally:
-        if shown is not None:
-            shown.close()
+        shown.close()
 
 
 def _size_is_known() -> bool:

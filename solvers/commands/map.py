@@ -156,6 +156,7 @@ def _computed(
                 rtol=rtol,
                 engine=engine,
                 progress=progress,
+                slow=lambda left: shown.note(f"the last {left} are slow ones"),
                 journal=journal,
             )
             if file is not None and journal is not None:

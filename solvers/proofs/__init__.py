@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .barrier import Barrier, BarrierProof
 from .base import NoProof, Proof
+from .chatter import ChatterProof
 from .choice import energy_proof, proof_for
 from .film import FilmProof
 from .held import HeldProof
@@ -13,6 +14,7 @@ from .tethered import TetherProof
 __all__ = [
     "Barrier",
     "BarrierProof",
+    "ChatterProof",
     "FilmProof",
     "HeldProof",
     "NoProof",

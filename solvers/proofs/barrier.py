@@ -56,8 +56,39 @@ class BarrierProof:
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
         if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
             return True  # nothing moves that could part them, or changes what turns; and the force is inward
+        if phase.resting and self.rests(y):
+            return True
         level = self._level(y, phase, SAFETY)
         return level is not None and self.energy(y) < level
+
+    def rests(self, y: np.ndarray) -> bool:
+        """Whether a doublet at rest in its gap is held there while its slip dies away.
+
+        Its slip energy never grows, and states of one angular momentum have the energy of rigid rotation and that of
+        their deviation from it (`derive.checks.partners.slip_energy_adds`): an orbit that exceeds the rigid one by
+        more than the slip energy would take never comes. Where angular momentum drifts, twice that.
+        """
+        model, margin, orbit = self.model, SAFETY * self.rtol, self._rigid(y, float(y[0]))
+        if model.reduced:  # one slip, which falls without changing sign
+            orbit = max(float(y[2]), orbit)
+        else:
+            energy = self._kinetic(y)
+            slip = energy * (1 + margin) - model.values("effective_potential", y, self.p)["energy"]
+            excess = float(np.sqrt(max(slip, 0.0) / self._kinetic(self._turning(y, 1.0))))
+            orbit += excess if self.theorem else 2 * excess
+        held, still = (
+            model.values("inward_force", self._turning(y, each), self.p)["inward_force"] for each in (orbit, 0.0)
+        )
+        return bool(held > margin * still)
+
+    def _kinetic(self, y: np.ndarray) -> float:
+        return self.model.values("energies", y, self.p)["kinetic"]
+
+    def _turning(self, y: np.ndarray, orbit: float) -> np.ndarray:
+        """A state at rest in this gap whose orbit alone has momentum."""
+        state = np.zeros(len(self.model.state))
+        state[[0, 2]] = y[0], orbit
+        return state
 
     def energy(self, y: np.ndarray) -> float:
         """Mechanical energy over m v0^2."""

@@ -8,6 +8,7 @@ from ..model import Model
 from .attracted import AttractedProof
 from .barrier import BarrierProof
 from .base import NoProof, Proof
+from .chatter import ChatterProof
 from .film import FilmProof
 from .held import HeldProof
 from .orbital import OrbitalProof, knows
@@ -17,7 +18,10 @@ from .tethered import TetherProof
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
     found = _first(model, p, rtol)
-    return OrbitalProof(model, p, rtol, found) if knows(model) else found
+    if knows(model):
+        return OrbitalProof(model, p, rtol, found)
+    chatters = model.oblique and not model.wall and not model.strings and model.works
+    return ChatterProof(model, p, rtol, found) if chatters else found
 
 
 def _first(model: Model, p: np.ndarray, rtol: float) -> Proof:
@@ -38,7 +42,7 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Proof:
 
 def energy_proof(proof: Proof) -> BarrierProof | None:
     """The proof by energy that a flight has, alone or beside another."""
-    while isinstance(proof, HeldProof | OrbitalProof):
+    while isinstance(proof, HeldProof | OrbitalProof | ChatterProof):
         proof = proof.beside
     return proof if isinstance(proof, BarrierProof) else None
 

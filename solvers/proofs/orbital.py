@@ -11,12 +11,11 @@ import numpy as np
 from ..model import Model
 from ..phases import CLOSING, Phase
 from .base import SAFETY, Proof
+from .chatter import CYCLES, STILL, Cycles
 from .panels import panels
 
 _LEVERS = ("midgap", "surface")
 _GAPS = 49  # at which the doublet is asked whether it gets there
-_CYCLES = 20  # maxima of the gap, none above the one before, that are taken for chatter on strings
-_STILL = 1e-9  # of v0: slower is a turning point
 
 
 def knows(model: Model) -> bool:
@@ -45,7 +44,7 @@ class OrbitalProof:
         self.edge = float(model.laws.shear.edge(self.aspect, *more))
         self.theorem = beside.theorem
         self.watches = None if self._drifts else beside.watches
-        self._maxima: list[float] = []
+        self._cycles = Cycles(self.margin)
 
     @property
     def _drifts(self) -> bool:
@@ -60,18 +59,9 @@ class OrbitalProof:
             return True
         self.theorem = not (self._drifts or self.model.strings)
         if self.model.strings:
-            return self._chatters(y, phase) and self.holds(y)
-        turned_back = phase.resting or (phase.motion == CLOSING and y[1] > -_STILL)
+            return self._cycles.count(y, phase, slice(1)) > CYCLES and self.holds(y)
+        turned_back = phase.resting or (phase.motion == CLOSING and y[1] > -STILL)
         return bool((turned_back or self._drifts) and self.holds(y))
-
-    def _chatters(self, y: np.ndarray, phase: Phase) -> bool:
-        """Whether none of the last maxima of the gap was above the one before, but for its error."""
-        if phase.resting or phase.motion != CLOSING or abs(y[1]) > _STILL:
-            return False
-        if self._maxima and y[0] > self._maxima[-1] * (1 + self.margin):
-            self._maxima.clear()
-        self._maxima.append(float(y[0]))
-        return len(self._maxima) > _CYCLES
 
     def holds(self, y: np.ndarray) -> bool:
         """Whether the margin is below zero at some gap ahead by more than its error."""

@@ -12,8 +12,9 @@ from ..buffered import LOCK
 from ..locate import Path
 from ..numbers import numbers, si_values
 from ..scene import Scene
+from ..settings import STEPS
 from ..taylor.along import CHATTERS, COLUMNS, Carried, carried, differentiates
-from ..taylor.engine import BUDGET, Impacts, order_for
+from ..taylor.engine import Impacts, order_for
 from .parameters import SCALES, Kind, references, way
 from .problem import Problem, Slopes, sharpened
 from .quantities import QUANTITIES
@@ -62,7 +63,7 @@ def along(
     of: tuple[str, ...],
     rtol: float,
     order: int | None = None,
-    budget: int = BUDGET,
+    budget: int = STEPS,
     backward: bool = False,
 ) -> Along | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.

@@ -16,9 +16,9 @@ from ..labels import Column, labelled
 from ..many import FAILED, OUTCOMES, outcome_attributes
 from ..requests import requested
 from ..scene import Scene
-from ..settings import FEW, RTOL, check_engine
+from ..settings import FEW, RTOL, STEPS, check_engine
 from ..taylor.along import DISTANCES, Carried, carried
-from ..taylor.engine import PATIENT, Impacts, order_for
+from ..taylor.engine import Impacts, order_for
 from ..validity import warn
 from . import kernel
 from .choice import chosen
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     import xarray
 
 _SOON = 1000  # steps within which what separates mostly has
+_LONG = 10 * STEPS  # what creeps crawls without derivatives (runtime/crawl.h), and by single steps with them
 _STRETCH = 4096  # collisions a thread takes at a time
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
@@ -194,7 +195,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
         part = which[close & (decades == decade)]
         sharper = min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST))
         for backward in (True, False) if back else (False,):
-            again = flown(part, sharper, PATIENT, backward)
+            again = flown(part, sharper, _LONG, backward)
             if again is not None:
                 _keep(asked, part, again, again.flown.answers["outcome"] > 0)
                 part = part[again.flown.answers["status"] > 1]

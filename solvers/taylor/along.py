@@ -12,7 +12,8 @@ from ..compiled import compiler
 from ..model import choose
 from ..numbers import si_values
 from ..scene import Scene
-from .engine import BUDGET, RIGID, Impacts, order_for
+from ..settings import STEPS
+from .engine import RIGID, Impacts, order_for
 from .headers import headers, tangents
 from .library import ANSWER, Variant, kernel
 
@@ -57,7 +58,7 @@ def carried(
     rotation: bool,
     moved: Sequence[str] | None = None,
     order: int | None = None,
-    budget: int = BUDGET,
+    budget: int = STEPS,
     backward: bool = False,
 ) -> Carried | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.

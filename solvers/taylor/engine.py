@@ -17,10 +17,9 @@ import numpy as np
 from ..model import Choice, choose
 from ..numbers import si_values
 from ..scene import Scene
+from ..settings import STEPS
 from .library import ANSWER, LARGEST_ORDER, Variant, kernel, knows
 
-BUDGET = 100_000  # steps: nearer than 1e-8 or so to a separatrix a lane creeps, and an L-stable method takes over
-PATIENT = 1_000_000  # steps, where that method has failed
 _CHUNK = 4096  # collisions a thread takes at a time
 _LOOSEST = 1e-6  # as solvers/locate.py has it
 RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
@@ -79,7 +78,7 @@ def variant(
 
 
 def answers(
-    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = BUDGET, few: bool = False
+    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = STEPS, few: bool = False
 ) -> np.ndarray | None:
     """An array of ANSWER, a collision each; None if there is no kernel here.
 

@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..numbers import formulas, si_values
 from ..requests import Request
 from ..settings import FEW
-from .engine import PATIENT, Impacts, answers
+from .engine import Impacts, answers
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions between two signs of life; memory stays flat
@@ -60,17 +60,6 @@ def collided(
         finished(part[done], _block(request, found[kept], impacts.part(kept)))
         left.append(part[~done])
     return np.concatenate(left)
-
-
-def patiently(request: Request) -> Block | None:
-    """Collide collisions that everything else has failed on, however many steps it takes; None if that fails too."""
-    impacts, sound = _impacts(request)
-    if not sound.all():
-        return None
-    found = answers(impacts, request.rtol, "rotation" in request.of, budget=PATIENT, few=request.size <= FEW)
-    if found is None or (found["status"] > 1).any():
-        return None
-    return _block(request, found, impacts)
 
 
 def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:

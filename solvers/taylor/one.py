@@ -12,7 +12,8 @@ from ..numbers import Numbers
 from ..phases import CLOSING, OPENING, Phase
 from ..result import Collision, Energy, Event
 from ..scene import Scene
-from .engine import BUDGET, Impacts
+from ..settings import STEPS
+from .engine import Impacts
 from .record import Recorded, Steps, recorded
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def kind_of(answer: np.void) -> tuple[str, str | None]:
 
 
 def collision(
-    scene: Scene, n: Numbers, rtol: float, ledger: bool = False, trajectory: bool = False, budget: int = BUDGET
+    scene: Scene, n: Numbers, rtol: float, ledger: bool = False, trajectory: bool = False, budget: int = STEPS
 ) -> Collision | None:
     """The collision by one call of the kernel; None if it hands it over, or there is none here.
 

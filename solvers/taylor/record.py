@@ -9,7 +9,8 @@ from enum import IntEnum
 import numpy as np
 
 from ..model import choose
-from .engine import BUDGET, Impacts, Record, calling, variant
+from ..settings import STEPS
+from .engine import Impacts, Record, calling, variant
 from .library import ANSWER, kernel, knows
 
 HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")])
@@ -94,7 +95,7 @@ def recorded(
     rtol: float,
     ledger: bool = False,
     trajectory: bool = False,
-    budget: int = BUDGET,
+    budget: int = STEPS,
     purpose: Purpose = Purpose.WHOLE,
     keep: bool = True,
     fold: bool = True,

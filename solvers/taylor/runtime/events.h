@@ -123,6 +123,19 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     found->event = splat_mask(0);
     mask closing = l->closing, moves = l->alive & ~l->resting, close;
     vec away = choose(closing, one, -one); /* the gap's event functions rise with this times the gap */
+    /* Where the doublet turns comes first: up to there the gap is monotone, and nearest at the end. Under a constant force a
+     * step is endless, and all that happens before the turn is in a tiny part of it. */
+    vec part = one;
+    mask turns = moves & ~(least_of(s->opening, h) > 0.0);
+    if (bits(turns)) {
+        look(found, turns, s->opening, zero, -away, h, splat_mask(TURNED_KIND));
+        mask turned = (found->time <= 1.0) & (found->time > 0.0);
+        part = choose(turned, found->time, one);
+        found->time = choose(turned, one, found->time);
+        h *= part;
+    }
+    found->gap = sum_at(s->gap, h);
+    vec to = found->gap;
     if (bits(moves & closing)) {
         close = moves & closing & ~((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h) > 0.0));
         if (bits(close))
@@ -138,14 +151,6 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     vec target = choose(closing, f->contact, f->end);
     mask event = (closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE));
 #endif
-    /* where the doublet cannot turn the gap is monotone, and nearest at the step's end */
-    mask turns = moves & ~(least_of(s->opening, h) > 0.0);
-    found->gap = sum_at(s->gap, h);
-    vec from = s->gap[0], to = found->gap;
-    if (bits(turns)) {
-        to = choose(turns, from - away*reach(s->gap, h), to);
-        look(found, turns, s->opening, zero, -away, h, splat_mask(TURNED_KIND));
-    }
     close = moves & ~(away*(to - target) > 0.0);
     if (bits(close))
         look(found, close, s->gap, target, away, h, event);
@@ -169,4 +174,5 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     if (bits(close))
         look(found, close, s->orbit, zero, one, h, splat_mask(UNWINDS));
 #endif
+    found->time *= part;
 }

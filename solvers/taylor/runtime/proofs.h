@@ -119,6 +119,29 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 }
 #endif
 
+#define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
+#if RESTS_FOR_GOOD
+/* At rest in a gap and held there while the slip dies away: the orbit exceeds that of rigid rotation by no more than the slip
+ * energy would take, twice that where angular momentum drifts (solvers/proofs/barrier.py `rests`). */
+static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+{
+    vec margin = splat(SAFETY*tolerance), orbit = rigid_orbit(c, y), there[STATES];
+    memset(there, 0, sizeof there);
+    there[GAP] = y[GAP];
+#if REDUCED
+    orbit = vec_larger(y[ORBIT], orbit);
+#else
+    there[ORBIT] = splat(1.0);
+    vec slip = stored_energy(c, y)*(1.0 + margin) - potential_energy(c, y);
+    orbit += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(vec_larger(slip, splat(0.0))/stored_energy(c, there));
+#endif
+    there[ORBIT] = splat(0.0);
+    vec still = inward_force(c, there);
+    there[ORBIT] = orbit;
+    return inward_force(c, there) > margin*still;
+}
+#endif
+
 /* Lanes that are proved to stick, by what is looked at all along a flight. */
 static inline mask proved_sticks(
     const constants *c, const vec *y, const barrier *b, vec contact, mask closing, mask resting, double tolerance)
@@ -127,6 +150,10 @@ static inline mask proved_sticks(
     (void)c; (void)y; (void)b; (void)contact; (void)closing; (void)resting; (void)tolerance;
 #if PROOF_BY_ENERGY
     proved |= below_barrier(c, y, b, resting, tolerance);
+#endif
+#if RESTS_FOR_GOOD
+    if (bits(resting))
+        proved |= resting & rests_for_good(c, y, tolerance);
 #endif
 #if PROOF_BY_FILM
     proved |= ~resting & stopped_by_film(c, y, contact, closing, tolerance);

@@ -44,6 +44,10 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
     }
     double rebound = l->y[OPENING][lane], inward = inward_force(&f->c, l->y)[lane];
     double allowed = q->rtol*l->y[GAP][lane];
+    if (!TURNS && rebound == 0.0 && inward == 0.0) { /* nothing moves it */
+        finish(q, l, f, lane, DECIDED, STICK, 1);
+        return;
+    }
     if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
         note(q, l->index[lane], RESTS, l->time[lane]);
 #if GRADIENTS

@@ -94,10 +94,12 @@ static inline vec vec_sqrt(vec x)
     return root;
 }
 
-/* exp: x = n ln 2 + r, |r| <= ln(2)/2, Taylor to r^13; about one unit in the last place. Held within a double's range. */
+/* exp: x = n ln 2 + r, |r| <= ln(2)/2, Taylor to r^13; about one unit in the last place. Held within a double's range above,
+ * 0 below it. */
 static inline vec vec_exp(vec x)
 {
-    x = choose(x > 708.0, splat(708.0), choose(x < -708.0, splat(-708.0), x));
+    mask dead = x < -708.0;
+    x = choose(x > 708.0, splat(708.0), choose(dead, splat(-708.0), x));
     const vec magic = splat(6755399441055744.0); /* 1.5 2^52: adding it rounds to an integer */
     vec shifted = x*1.4426950408889634 + magic;
     vec n = shifted - magic;
@@ -116,7 +118,7 @@ static inline vec vec_exp(vec x)
     p = p*r + 0.5;
     p = p*r*r + r;
     mask power = ((mask)shifted - (mask)magic + 1023) << 52;
-    return p*(vec)power + (vec)power;
+    return only(~dead, p*(vec)power + (vec)power);
 }
 
 /* log: x = 2^n (1 + f), after fdlibm's e_log.c; below one unit in the last place. NaN unless x > 0 and finite. */
