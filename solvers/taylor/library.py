@@ -14,7 +14,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..compiled import build, cache_folder, compiler
+from ..caches import once
+from ..compiled import build, cache_folder, compiler, more_flags
 from ..cores import usable_cores
 from ..model import Choice, choose
 from .headers import headers, tangents
@@ -145,7 +146,8 @@ def _emitted(variant: Variant) -> tuple[str, ...] | None:
 
 
 def _flags(variant: Variant) -> tuple[str, ...]:
-    return FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+    own = FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+    return own + more_flags()
 
 
 def _stem(variant: Variant) -> str:
@@ -175,7 +177,7 @@ def _expected(variant: Variant, flags: tuple[str, ...]) -> Path | None:
     return None if found is None or emitted is None else _place(variant, source(variant, emitted), found[1], flags)
 
 
-@cache
+@once
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
     found, emitted = compiler(), _emitted(variant)
