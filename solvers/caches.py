@@ -1,9 +1,9 @@
 """Caches for any number of threads: what each thread has for itself, and what is built once for all of them.
 
 CasADi's functions work in memory of their own, and calls from Python release the interpreter's lock: neither they nor
-the symbols that they are built from may be in two threads at a time. Whatever holds one is kept by `own_cache`. Numbers,
-texts and tables, which nothing changes, may be kept by `functools.lru_cache`, where two threads at worst compute the
-same; what must not be done twice, by `once`.
+the symbols that they are built from may be in two threads at a time. Whatever holds one is kept by `own_cache`.
+Numbers, texts and tables, which nothing changes, may be kept by `functools.lru_cache`, where two threads at worst
+compute the same; what must not be done twice, by `once`.
 """
 
 from __future__ import annotations
