@@ -1,20 +1,13 @@
-"""Calling CasADi functions from numpy without its matrices in between: some microseconds instead of some tens.
-
-Buffers, and the symbols that functions are built from, are shared by the process: LOCK admits one thread at a time.
-"""
+"""Calling CasADi functions from numpy without its matrices in between: some microseconds instead of some tens."""
 
 from __future__ import annotations
-
-import threading
 
 import numpy as np
 from casadi import Function
 
-LOCK = threading.RLock()
-
 
 class Buffered:
-    """A function of dense columns with its arguments and one result in fixed memory. Not for several threads at once.
+    """A function of dense columns with its arguments and one result in fixed memory; one thread's, as the function is.
 
     Arguments:
         function: the CasADi function.

@@ -7,11 +7,11 @@ time, which the landing step corrects. So events, and later their derivatives, a
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
 
+from .caches import own_cache
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import Path, Step
 from .model import Choice
@@ -161,7 +161,7 @@ def _flight(
     raise Stopped(missed, step, flown.time + duration, y, missed=True)
 
 
-@lru_cache(maxsize=512)
+@own_cache(512)
 def _slope(flow: Flow, watch: Watch, event: str) -> Function:
     """Rate of an event's function along the flow."""
     parts = expressions(flow)

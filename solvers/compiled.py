@@ -9,25 +9,28 @@ from __future__ import annotations
 import atexit
 import hashlib
 import os
+import shlex
 import shutil
 import signal
 import stat
 import subprocess
 import sys
 import tempfile
-from functools import lru_cache
 from pathlib import Path
 
 from casadi import Function, external
 from platformdirs import user_cache_path
 
+from .caches import Locks, once
+
 FLAGS = ("-O1", "-fPIC", "-shared")  # -O3 takes 1.6 times as long to compile and saves a sixth (docs/performance.md)
 _COMPILERS = ("cc", "gcc", "clang")
 _INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses, the second that of a shell script
 _HUSHED = "WETDOUBLET_HUSHED"
+_BUILDING = Locks()
 
 
-@lru_cache(maxsize=1)
+@once
 def compiler() -> tuple[str, str] | None:
     """Path and version line of the machine's C compiler, $CC before others; None, said once, if there is none."""
     wanted = os.environ.get("CC", "").split()[:1]
@@ -44,6 +47,11 @@ def compiler() -> tuple[str, str] | None:
         "their integrators run interpreted, about five times slower"
     )
     return None
+
+
+def more_flags() -> tuple[str, ...]:
+    """What the C compiler is told besides, as WETDOUBLET_CFLAGS names it: sanitizers, debugging."""
+    return tuple(shlex.split(os.environ.get("WETDOUBLET_CFLAGS", "")))
 
 
 def hush() -> None:
@@ -64,7 +72,7 @@ def _run(*command: str) -> subprocess.CompletedProcess[str]:
     return done
 
 
-@lru_cache(maxsize=1)
+@once
 def cache_folder() -> Path:
     """The user's cache folder, or a fresh private one for this process where that cannot be had: said once.
 
@@ -98,17 +106,17 @@ def compiled(function: Function) -> Function:
     if found is None:
         return function
     path, version = found
-    name = function.name()
+    name, flags = function.name(), FLAGS + more_flags()
     with tempfile.TemporaryDirectory(prefix="wetdoublet-") as work:
         source = _source(function, Path(work))
         text = source.read_bytes()
-        key = hashlib.sha256(b"\0".join([text, version.encode(), " ".join(FLAGS).encode()])).hexdigest()[:32]
+        key = hashlib.sha256(b"\0".join([text, version.encode(), " ".join(flags).encode()])).hexdigest()[:32]
         library = cache_folder() / f"{name}-{key}.so"
-        if not library.is_file():
-            said = build(path, FLAGS, source, library)
-            if said:
-                sys.stderr.write(f"{path} cannot compile {name} ({said}): it runs interpreted\n")
-                return function
+        with _BUILDING(library):  # another thread may have the same function
+            said = "" if library.is_file() else build(path, flags, source, library)
+        if said:
+            sys.stderr.write(f"{path} cannot compile {name} ({said}): it runs interpreted\n")
+            return function
     return external(name, str(library))
 
 

@@ -11,6 +11,7 @@ import json
 import os
 import shutil
 import tempfile
+import threading
 from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
@@ -23,6 +24,7 @@ from .errors import CheckFailed
 _PACKAGE = f"{__package__.rsplit('.', 1)[0]}.generated"
 _FOLDER = Path(__file__).resolve().parents[1] / "generated"
 _DERIVE = _FOLDER.with_name("derive")
+_DERIVING = threading.RLock()  # sympy is not for several threads
 
 
 @cache
@@ -134,7 +136,11 @@ def derivation() -> str:
 def cached(name: str, derived: Callable[[], str]) -> Path:
     """The cached file of that name, derived if it is not there. Safe with several processes: moved into place whole."""
     path = _cache() / "emitted" / derivation()[:32] / name
-    if not path.is_file():
+    if path.is_file():
+        return path
+    with _DERIVING:
+        if path.is_file():  # by another thread, meanwhile
+            return path
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         beside = path.with_name(f".{path.name}.{os.getpid()}")
         beside.write_bytes(derived().encode())
@@ -147,7 +153,8 @@ def cached_folder(key: str, derived: Callable[[], Mapping[str, str]]) -> Path:
     folder = _cache() / "models" / key[:32]
     if folder.is_dir():
         return folder
-    files = derived()
+    with _DERIVING:
+        files = derived()
     folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     beside = Path(tempfile.mkdtemp(prefix=f".{key[:8]}-", dir=folder.parent))  # 0700
     try:

@@ -6,19 +6,19 @@ Built once and cached; time is scaled so that every call runs over [0, 1] and th
 from __future__ import annotations
 
 import contextlib
-import io
 import math
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
 
 from .buffered import Buffered
+from .caches import own_cache
 from .phases import Flow, Watch, event_table, expressions, mechanical_energy
+from .said import listening
 from .settings import STEPS
 
 _EXPECTED = "Event support is experimental"
@@ -31,8 +31,7 @@ class IntegrationFailed(Exception):
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
     """Keep CasADi's expected warning, and the pages it prints on a failure, out of the user's sight."""
-    heard = io.StringIO()
-    with contextlib.redirect_stderr(heard):
+    with listening() as heard:
         yield
     for line in heard.getvalue().splitlines():
         if line and _EXPECTED not in line:
@@ -41,22 +40,21 @@ def quiet() -> Iterator[None]:
 
 def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
-    heard = io.StringIO()
-    try:
-        with contextlib.redirect_stderr(heard):
+    with listening() as heard:
+        try:
             found = _buffered(function)(x0, p)
-    except (RuntimeError, SystemError) as error:
-        # CasADi wraps an interrupt that arrives while it works; CVODES swallows it and only prints it
-        said = str(error) + heard.getvalue()
-        if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
-            raise KeyboardInterrupt from None
-        raise IntegrationFailed(_reason(str(error))) from None
+        except (RuntimeError, SystemError) as error:
+            # CasADi wraps an interrupt that arrives while it works; CVODES swallows it and only prints it
+            said = str(error) + heard.getvalue()
+            if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+                raise KeyboardInterrupt from None
+            raise IntegrationFailed(_reason(str(error))) from None
     if not np.isfinite(found).all():
         raise IntegrationFailed("the state is not finite")
     return found.reshape(function.size_out(0), order="F")
 
 
-@lru_cache(maxsize=1024)
+@own_cache(1024)
 def _buffered(function: Function) -> Buffered:
     return Buffered(function, (0, 2))  # x0 and p of an integrator
 
@@ -131,7 +129,7 @@ class Plain:
         return _buffered(self.function).steps
 
 
-@lru_cache(maxsize=512)
+@own_cache(512)
 def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...] = (1.0,)) -> Plain:
     """The integrator of a flow, with the solution at the parts of the duration that `grid` names."""
     parts = expressions(flow)
@@ -187,7 +185,7 @@ class Locator:
         return float(column[self.events.index(event)])
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def locator(flow: Flow, watch: Watch, tolerance: Tolerance, machine_code: bool = False) -> Locator:
     """A Rosenbrock integrator that freezes at the first event.
 
@@ -254,7 +252,7 @@ def locator(flow: Flow, watch: Watch, tolerance: Tolerance, machine_code: bool =
     )
 
 
-@lru_cache(maxsize=512)
+@own_cache(512)
 def landing(flow: Flow, watch: Watch, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import signal
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path as FilePath
@@ -18,7 +17,7 @@ import numpy as np
 
 from .compiled import hush
 from .cores import usable_cores
-from .errors import ComputationError, ModelWarning, WetDoubletError
+from .errors import ComputationError, WetDoubletError
 from .labels import Column, labelled
 from .locate import Path, locate
 from .model import choose, load
@@ -229,11 +228,10 @@ def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:
 
 def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
     """One collision by the reference engine."""
-    from .simulate import collide
+    from .simulate import by_casadi
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ModelWarning)  # said once for all
-        one = collide(scene, speed=speed, angle=angle, rtol=request.rtol, engine="cvodes", ledger=False).to_dict()
+    n = numbers(scene, speed, angle)
+    one = by_casadi(scene, n, request.rtol, "cvodes", ledger=False, trajectory=False).to_dict()
     found = {name: math.nan if one[name] is None else one[name] for name in QUANTITIES if name in request.of}
     return found | {
         "outcome": OUTCOMES.index(one["outcome"]),

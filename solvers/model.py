@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from casadi import SX, Function, densify, fmax, fmin, vertcat
 from ..generated.assemble import Laws, symbols, vector
 from . import emitted
 from .buffered import Buffered
+from .caches import own_cache
 from .custom import Package
 
 if TYPE_CHECKING:
@@ -241,7 +242,7 @@ class Model:
         return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
 
 
-@cache  # never evicted: expressions are cached in the symbols of their model
+@own_cache(None)  # never evicted: expressions are cached in the symbols of their model
 def load(choice: Choice) -> Model:
     """The model of a choice, built once."""
     return Model(choice)

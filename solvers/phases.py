@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from casadi import SX, densify, fmax, if_else, logic_and, vertcat
 
+from .caches import own_cache
 from .model import Choice, Model, load
 
 CLOSING, OPENING = -1, 1
@@ -84,7 +84,7 @@ class Expressions:
     rates: SX
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def expressions(flow: Flow) -> Expressions:
     """Variables and rates of a flow, in time x0/v0."""
     model, region = flow.model, flow.region

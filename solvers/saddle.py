@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from casadi import Function, jacobian
 
+from .caches import own_cache
 from .locate import Locate
 from .model import Model
 from .phases import Region
@@ -78,7 +78,7 @@ def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:
     return np.array(list(probe.model.values("rigid_rotation", at_barrier, probe.p).values()))
 
 
-@lru_cache(maxsize=128)
+@own_cache(128)
 def _jacobian(model: Model, region: Region) -> Function:
     rates = model.function("right_hand_side", **region.flags)
     y, p = model.column, model.parameters

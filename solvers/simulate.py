@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .buffered import LOCK
 from .chain import Flown, Stopped, as_located, fly
 from .cohesion import generalised_centrifugal
 from .errors import ComputationError
@@ -89,9 +88,8 @@ def by_casadi(
     Arguments:
         find: what locates the flight; it is the same for both engines.
     """
-    with LOCK:
-        found = _compute(scene, n, rtol, plugin, ledger, trajectory, find)
-        return _result(scene, n, *found, trajectory)
+    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find)
+    return _result(scene, n, *found, trajectory)
 
 
 def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool, trajectory: bool) -> Collision:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from casadi import SX, Function
 
+from ..caches import own_cache
 from ..model import Model
 from ..phases import CLOSING, Phase
 from .base import SAFETY
@@ -71,12 +70,12 @@ class FilmProof:
         return np.asarray(_resistance(self.model)(gaps.reshape(1, -1), self.p).full())
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _glass(model: Model) -> Function:
     return Function("glass", [model.column, model.parameters], [model("events")["glass"]])
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _resistance(model: Model) -> Function:
     gap = SX.sym("gap")
     more = model.extra("film", "resistance")

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from casadi import SX, Function
 
+from ..caches import own_cache
 from ..model import Model
 from ..phases import Phase, tethered_margin
 from .base import BEYOND, SAFETY
@@ -28,7 +27,7 @@ class TetherProof:
         return float(_tethered(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _tethered(model: Model) -> Function:
     margin = SX.sym("margin")
     return Function("tethered", [model.column, model.parameters, margin], [tethered_margin(model, margin)])

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from ..bounds import STOKES, Boundaries, boundary
-from ..buffered import LOCK
 from ..changes import Change
 from ..errors import ComputationError, InputError
 from ..scene import Scene
@@ -126,11 +125,10 @@ def boundary_sensitivities(
     rtol = check_rtol(rtol)
     found = boundary(loaded, angle=angle, stokes=stokes, rtol=rtol) if traced is None else traced
     lines: list[tuple[Moving, ...]] = []
-    with LOCK:
-        for at, line in zip(found.angles, found.changes, strict=True):
-            lines.append(tuple(moving(loaded, at, change, names, rtol) for change in line))
-            if progress:
-                progress(len(lines))
+    for at, line in zip(found.angles, found.changes, strict=True):
+        lines.append(tuple(moving(loaded, at, change, names, rtol) for change in line))
+        if progress:
+            progress(len(lines))
     return BoundarySensitivities(found, tuple(lines), names)
 
 

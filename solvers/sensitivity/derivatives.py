@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
-from functools import lru_cache
-
 import numpy as np
 from casadi import DM, MX, Function, densify, jtimes
 
+from ..caches import own_cache
 from ..integrators import IntegrationFailed, quiet
+from ..said import listening
 from .flight import Flight
 
 # Largest landing step over its phase. The error of a first derivative is of its square, times how much the flight
@@ -20,21 +18,20 @@ _TRIES = 8
 
 def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray]:
     """A function's results as arrays; IntegrationFailed in one line, and CasADi's pages dropped."""
-    heard = io.StringIO()
-    try:
-        with contextlib.redirect_stderr(heard):
+    with listening() as heard:
+        try:
             found = function.call([DM(each) for each in arguments])
-    except (RuntimeError, SystemError) as error:
-        if "KeyboardInterrupt" in str(error) + heard.getvalue():
-            raise KeyboardInterrupt from None
-        raise IntegrationFailed("the integrator gave up") from None
+        except (RuntimeError, SystemError) as error:
+            if "KeyboardInterrupt" in str(error) + heard.getvalue():
+                raise KeyboardInterrupt from None
+            raise IntegrationFailed("the integrator gave up") from None
     arrays = [np.asarray(each.full()) for each in found]
     if not all(np.isfinite(each).all() for each in arrays):
         raise IntegrationFailed("a result is not finite")
     return arrays
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def forward(flight: Flight, count: int) -> Function:
     """(groups, durations, directions: groups x count) -> quantities, shifts, derivatives (quantities x count)."""
     p, durations, z, shifts = _symbols(flight)
@@ -44,7 +41,7 @@ def forward(flight: Flight, count: int) -> Function:
         return Function("forward", [p, durations, seeds], [z, shifts, slopes])
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def adjoint(flight: Flight, count: int) -> Function:
     """(groups, durations, weights: quantities x count) -> quantities, shifts, gradients (groups x count)."""
     p, durations, z, shifts = _symbols(flight)
@@ -54,7 +51,7 @@ def adjoint(flight: Flight, count: int) -> Function:
         return Function("adjoint", [p, durations, seeds], [z, shifts, slopes])
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def curvature(flight: Flight, count: int) -> Function:
     """(groups, durations, weights, directions: groups x count) -> the weighted sum's Hessian times the directions.
 

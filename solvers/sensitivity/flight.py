@@ -7,12 +7,13 @@ the first and, by its second-order terms, the second. So value, gradients and He
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from casadi import DM, MX, Function, vertcat
 
+from ..caches import own_cache
 from ..integrators import Tolerance, landing, plain
 from ..locate import Path
 from ..model import Choice, Model, load
@@ -116,7 +117,7 @@ def symbols(course: Course) -> tuple[MX, MX]:
     return MX.sym("groups", len(course.model.groups)), MX.sym("durations", len(course.legs))
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flight:
     """The expression of a course for the quantities asked for; nothing else is integrated."""
     model = course.model
@@ -133,7 +134,7 @@ def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Toleranc
     return Flight(Function("flight", [p, durations], [column, missed]), of, tuple(model.groups))
 
 
-@lru_cache(maxsize=256)
+@own_cache(256)
 def ending(course: Course, plugin: str, tolerance: Tolerance) -> Flight:
     """The expression of the state in which a course ends."""
     p, durations = symbols(course)

@@ -7,7 +7,6 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..buffered import LOCK
 from ..errors import ComputationError, InputError, did_you_mean
 from ..scene import Scene
 from ..settings import check_engine, check_rtol
@@ -85,27 +84,26 @@ def sensitivities(
     plugin = asked or _BEST
     if asked is None and method == "forward" and hessian is False:
         plugin = chosen(loaded, of, (angle_ > 0,), rtol)
-    with LOCK:
-        problem = Problem.of(loaded, v0, angle_, names, hold)
-        path, near = problem.located(of, rtol)
-        todo = tuple(name for name in computed(of) if problem.defined(name, path))
-        slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
-        if slopes is None and todo:
-            beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
-            try:
-                slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
-            except ComputationError:  # its flight misses what the located one met: the kernel may not
-                alone = beside or asked is not None or method != "forward" or along is not None
-                slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
-                if slopes is None:
-                    raise
-                plugin = "taylor"
-        turning: dict[str, float] = {}
-        if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
-            if along is not None:
-                accepted = "an oblique impact, or parameters without impact.angle"
-                raise InputError("hessian", hessian, accepted, "head-on with strings has no second derivatives")
-            turning = problem.beside(problem.odd(of), method, plugin, rtol)
+    problem = Problem.of(loaded, v0, angle_, names, hold)
+    path, near = problem.located(of, rtol)
+    todo = tuple(name for name in computed(of) if problem.defined(name, path))
+    slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
+    if slopes is None and todo:
+        beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
+        try:
+            slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
+        except ComputationError:  # its flight misses what the located one met: the kernel may not
+            alone = beside or asked is not None or method != "forward" or along is not None
+            slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
+            if slopes is None:
+                raise
+            plugin = "taylor"
+    turning: dict[str, float] = {}
+    if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
+        if along is not None:
+            accepted = "an oblique impact, or parameters without impact.angle"
+            raise InputError("hessian", hessian, accepted, "head-on with strings has no second derivatives")
+        turning = problem.beside(problem.odd(of), method, plugin, rtol)
     rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
     for name, slope in turning.items():
         row = rows[name][1]

@@ -8,11 +8,11 @@ one adjoint each, at the change itself; the implicit function theorem does the r
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute, vertcat
 
+from ..caches import own_cache
 from ..changes import FREE, GRAZE, REVERSED, Change
 from ..errors import ComputationError
 from ..integrators import IntegrationFailed, Tolerance, plain, tolerance
@@ -101,7 +101,7 @@ def _extremum(model: Model, step: Step, kind: str, before: np.ndarray, p: np.nda
     return time
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _rates(model: Model, region: Region, kind: str) -> Function:
     """(state, groups) -> rate of the pressure or gap, and the rate of that."""
     flow = model.function("right_hand_side", region.film, region.shear)(model.column, model.parameters)
@@ -110,7 +110,7 @@ def _rates(model: Model, region: Region, kind: str) -> Function:
     return Function("rates", [model.column, model.parameters], [first, jtimes(first, model.column, flow)])
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _margin(model: Model, kind: str, elastic: bool) -> Function:
     """(state, groups) -> gradients, in either, of by how much a criterion is met, as a logarithm."""
     if kind == "glass":
@@ -212,7 +212,7 @@ def _up_to(path: Path, k: int, last: Step) -> tuple[Course, np.ndarray]:
     return course_of(part, path.model.choice), np.array([step.duration for step in steps])
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _moving(model: Model) -> Function:
     """(state at the saddle's gap with the flight's momentum, groups) -> d(saddle's state)/d(groups).
 

@@ -8,7 +8,6 @@ from functools import partial
 
 import numpy as np
 
-from ..buffered import LOCK
 from ..locate import Path
 from ..numbers import numbers, si_values
 from ..scene import Scene
@@ -76,8 +75,7 @@ def along(
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
     names = tuple(name for name in si_values(scene, speed, angle) if name != "density")
-    with LOCK:
-        slopes = np.asarray(way(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
+    slopes = np.asarray(way(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
     by_quantity = dict(zip(names, slopes, strict=False))
     found = carried(
         impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
+from ..caches import own_cache
 from ..errors import ComputationError
 from ..integrators import IntegrationFailed, plain, tolerance
 from ..locate import CRITERIA, Locate, Path, Step
@@ -207,7 +207,7 @@ def _region(step: Step) -> tuple[int, int]:
     return step.phase.region.film, step.phase.region.shear
 
 
-@lru_cache(maxsize=128)
+@own_cache(128)
 def _pressures(model: Model, film: int, shear: int) -> Function:
     """(states, groups) -> scaled film pressure, its rate, and the rate of that."""
     rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from casadi import SX, Function, densify, hessian, jacobian, substitute, vertcat
 
 from ...generated import scaling
+from ..caches import own_cache
 from ..errors import InputError, did_you_mean
 from ..numbers import Formula, formulas
 from ..scene import Scene
@@ -160,7 +160,7 @@ class Way:
     bends: Function
 
 
-@lru_cache(maxsize=128)
+@own_cache(128)
 def way(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> Way:
     """The way from a kind's parameters to the groups of a model.
 

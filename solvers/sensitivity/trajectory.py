@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 
-from ..buffered import LOCK
+from ..caches import own_cache
 from ..errors import ComputationError, InputError
 from ..integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
 from ..locate import Path
@@ -76,14 +75,13 @@ def trajectory_sensitivities(
     rtol, plugin, hold = check_rtol(rtol), check_plugin(engine) or "rosenbrock", check_hold(hold)
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     names = check_wrt(loaded, wrt)
-    with LOCK:
-        problem = Problem.of(loaded, *loaded.need_impact(), names, hold)
-        path, _ = problem.located(("rotation",), rtol)
-        in_line = not problem.n.oblique and "impact.angle" in names
-        if in_line and (not path.separated or loaded.pendulum is not None):
-            accepted = "parameters other than impact.angle"
-            raise InputError("wrt", "impact.angle", accepted, "moves a head-on collision out of its line")
-        pieces, events = _pieces(problem, path, plugin, rtol)
+    problem = Problem.of(loaded, *loaded.need_impact(), names, hold)
+    path, _ = problem.located(("rotation",), rtol)
+    in_line = not problem.n.oblique and "impact.angle" in names
+    if in_line and (not path.separated or loaded.pendulum is not None):
+        accepted = "parameters other than impact.angle"
+        raise InputError("wrt", "impact.angle", accepted, "moves a head-on collision out of its line")
+    pieces, events = _pieces(problem, path, plugin, rtol)
     if not pieces:
         raise ComputationError("no trajectory: the outcome is decided at first touch", advice="try another impact")
     units = problem.units()
@@ -161,7 +159,7 @@ def _units(scales: np.ndarray, ds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.array([length, speed, rate, rate, 1.0]), np.array([ds[0], d_speed, ds[_RATE], ds[_RATE], none])
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
     """(groups, durations, directions) -> the five variables over a course's last leg, their rates, the derivatives of
     the former along the directions (at a fixed time since the leg began), its end's time, and that one's.
@@ -187,7 +185,7 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
         )
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def _shown(flow: Flow, offset: float) -> Function:
     """(state with extras, groups) -> gap, opening velocity, rotation rate, spin, rotation; and their rates."""
     model, parts = flow.model, expressions(flow)

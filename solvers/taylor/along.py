@@ -10,14 +10,13 @@ import numpy as np
 
 from ..compiled import compiler
 from ..model import choose
-from ..numbers import si_values
 from ..scene import Scene
 from ..settings import STEPS
-from .engine import RIGID, Impacts, order_for
+from .engine import Impacts, order_for, task
 from .headers import headers, tangents
-from .library import ANSWER, Variant, kernel
+from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
+from .library import Variant, kernel
 
-RESULTS = 8  # as runtime/along.h has them
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # the boundary of a flight that rested on the solids
 DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
@@ -25,7 +24,6 @@ DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` n
     7: ("glass criterion met at first touch", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
 }
-MOST_STEPS = 300  # as runtime/tape.h has it
 STRICTER = 4.0  # steps that no direction holds are held to a tolerance stricter by this
 _CHUNK = 1024  # collisions whose derivatives are in work at a time
 _LOOSEST = 1e-6
@@ -74,30 +72,20 @@ def carried(
         return None
     if backward:
         budget, rtol = min(budget, MOST_STEPS), min(rtol, _LOOSEST) / STRICTER
-    names = _names(library, "quantity_names")
-    given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
-    given |= si_values(impacts.scene, None, None)
-    given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in names]
-    varies = [bool(np.ndim(given[name])) for name in names]
-    groups = _names(library, "group_names")
-    asked = _asked(library, names, moved)
-    count = impacts.angle.size
-    results = 1 if backward else RESULTS
-    answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(names), results))
-    near = np.full((count, 3), np.inf)
+    quantities, groups = names(library, "quantity_names"), names(library, "group_names")
+    count, results = impacts.angle.size, 1 if backward else RESULTS
+    answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(quantities), results))
+    near = np.full(count, np.inf, NEARNESS)
     for first in range(0, count, _CHUNK):
-        size = min(_CHUNK, count - first)
-        parts = [column[first : first + size] if own else column for column, own in zip(columns, varies, strict=True)]
-        pointers = (ctypes.c_void_p * len(parts))(*(part.ctypes.data for part in parts))
-        by_group = np.zeros((size, len(groups), results))
-        into, out, least = (all_[first : first + size] for all_ in (answers, slopes, near))
-        done = library.collide_along(
-            size, pointers, bytes(varies), min(rtol, _LOOSEST), budget, into.ctypes.data, asked,
-            by_group.ctypes.data, out.ctypes.data, least.ctypes.data,
-        )  # fmt: skip
-        assert done == ANSWER.itemsize
-    return Carried(answers, slopes, near, names, bool(ctypes.c_int.in_dll(library, "proved_by_energy").value))
+        part = slice(first, min(first + _CHUNK, count))
+        asked = task(library, impacts.part(part), min(rtol, _LOOSEST), budget, answers[part])
+        asked.number("asked", _asked(library, quantities, moved))
+        asked.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
+        asked.buffer("gradients", slopes[part])
+        asked.buffer("near", near[part])
+        asked.run()
+    measures = near.view("f8").reshape(count, len(NEARNESS))
+    return Carried(answers, slopes, measures, quantities, bool(number(library, "proved_by_energy")))
 
 
 def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool) -> ctypes.CDLL | None:
@@ -119,10 +107,6 @@ def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> b
     """
     choices = [choose(scene, own) for own in oblique]
     return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
-
-
-def _names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:
-    return tuple(ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, symbol))).decode().split())
 
 
 def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None) -> int:

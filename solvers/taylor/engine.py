@@ -18,7 +18,8 @@ from ..model import Choice, choose
 from ..numbers import si_values
 from ..scene import Scene
 from ..settings import STEPS
-from .library import ANSWER, LARGEST_ORDER, Variant, kernel, knows
+from .layout import ANSWER, Task, names
+from .library import LARGEST_ORDER, Variant, kernel, knows
 
 _CHUNK = 4096  # collisions a thread takes at a time
 _LOOSEST = 1e-6  # as solvers/locate.py has it
@@ -40,22 +41,7 @@ class Impacts:
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
 
-class Record(ctypes.Structure):
-    """What the kernel writes besides answers, as runtime/queue.h has it."""
-
-    _fields_ = [
-        ("log", ctypes.c_void_p),
-        ("books", ctypes.c_void_p),
-        ("rows", ctypes.c_void_p),
-        ("log_room", ctypes.c_long),
-        ("step_room", ctypes.c_long),
-        ("steps", ctypes.c_long),
-        ("purpose", ctypes.c_long),
-        ("peaks", ctypes.c_void_p),
-    ]
-
-
-Fly = Callable[[Impacts, np.ndarray, Record | None], None]
+Fly = Callable[[Impacts, np.ndarray], None]
 
 
 def order_for(rtol: float) -> int:
@@ -108,7 +94,7 @@ def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fl
         last = min(first + _CHUNK, count)
         part = slice(first, last) if whole else which[first:last]
         made = found[first:last] if whole else np.zeros(last - first, ANSWER)
-        fly(impacts.part(part), made, None)
+        fly(impacts.part(part), made)
         if not whole:
             found[part] = made
 
@@ -132,20 +118,27 @@ def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: i
     return None if library is None else calling(library, rtol, budget)
 
 
-def calling(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
-    """A kernel as a function of impacts that fit it, answers to be filled (zeros of ANSWER), and what else to write."""
-    rtol = min(rtol, _LOOSEST)
-    wanted = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "quantity_names"))).decode().split()
+def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray) -> Task:
+    """What a kernel is asked of impacts that fit it.
 
-    def fly(impacts: Impacts, made: np.ndarray, also: Record | None) -> None:
-        given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
-        given |= si_values(impacts.scene, None, None)
-        given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-        columns = [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in wanted]
-        pointers = (ctypes.c_void_p * len(columns))(*(column.ctypes.data for column in columns))
-        varies = bytes(int(np.ndim(given[name])) for name in wanted)
-        into = None if also is None else ctypes.byref(also)
-        size = library.collide(made.size, pointers, varies, rtol, budget, made.ctypes.data, into)
-        assert size == ANSWER.itemsize
+    Arguments:
+        made: answers to be filled, zeros of ANSWER.
+    """
+    asked = Task(library, impacts.angle.size, min(rtol, _LOOSEST), budget)
+    given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
+    given |= si_values(impacts.scene, None, None)
+    given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    asked.columns(
+        [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in names(library, "quantity_names")]
+    )
+    asked.buffer("answers", made)
+    return asked
+
+
+def calling(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
+    """A kernel as a function of impacts that fit it, and answers to be filled (zeros of ANSWER)."""
+
+    def fly(impacts: Impacts, made: np.ndarray) -> None:
+        task(library, impacts, rtol, budget, made).run()
 
     return fly

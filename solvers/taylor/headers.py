@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import sys
-from functools import cache
 
 from .. import emitted
+from ..caches import once
 from ..model import Choice
 
 _NONE = "#error "  # how a header begins that could not be emitted
 
 
-@cache
+@once
 def headers(choice: Choice) -> tuple[str, ...] | None:
     """Texts of the headers of a choice, laws first; None where a law has no recurrence, which is said once."""
     return _sound("no Taylor kernel", _texts(choice, tangent=False))
 
 
-@cache
+@once
 def tangents(choice: Choice) -> tuple[str, ...] | None:
     """Texts of the headers with the derivatives of a choice, laws first; None where a law has none, said once."""
     return _sound("no derivatives by the Taylor kernel", _texts(choice, tangent=True))
@@ -53,6 +53,6 @@ def _folder(tangent: bool) -> str:
     return "taylor/tangent" if tangent else "taylor"
 
 
-@cache  # once a process
+@once  # a process
 def _say(without: str, why: str) -> None:
     sys.stderr.write(f"{without} ({why}): other engines answer\n")

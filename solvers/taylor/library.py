@@ -14,12 +14,12 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from ..compiled import build, cache_folder, compiler
+from ..caches import once
+from ..compiled import build, cache_folder, compiler, more_flags
 from ..cores import usable_cores
 from ..model import Choice, choose
 from .headers import headers, tangents
+from .layout import MOST_STEPS, RESULTS, declarations
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -45,22 +45,6 @@ _DRIVER = (
 )  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
-
-ANSWER = np.dtype(
-    [
-        ("shown", "f8", 5),
-        ("time", "f8"),
-        ("smallest_gap", "f8"),
-        ("turned", "f8"),
-        ("final_gap", "f8"),
-        ("outcome", "i4"),
-        ("certified", "i4"),
-        ("status", "i4"),
-        ("steps", "i4"),
-        ("reversal", "i4"),
-        ("events", "i4"),
-    ]
-)
 
 
 @dataclass(frozen=True)
@@ -133,9 +117,11 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "WITH_LEDGER": int(variant.ledger),
         "WITH_TRAJECTORY": int(variant.trajectory),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
+        "RESULTS": 1 if variant.backward else RESULTS,
+        "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    parts = [f"#define {name} {value}" for name, value in settings.items()]
+    parts = [*(f"#define {name} {value}" for name, value in settings.items()), declarations(variant.ledger)]
     first = ("vector.h", "series.h", "whole.h") if variant.gradients else ("vector.h", "series.h")
     parts += [(_RUNTIME / name).read_text() for name in first]
     parts += emitted
@@ -160,7 +146,8 @@ def _emitted(variant: Variant) -> tuple[str, ...] | None:
 
 
 def _flags(variant: Variant) -> tuple[str, ...]:
-    return FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+    own = FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+    return own + more_flags()
 
 
 def _stem(variant: Variant) -> str:
@@ -190,7 +177,7 @@ def _expected(variant: Variant, flags: tuple[str, ...]) -> Path | None:
     return None if found is None or emitted is None else _place(variant, source(variant, emitted), found[1], flags)
 
 
-@cache
+@once
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
     found, emitted = compiler(), _emitted(variant)
@@ -202,15 +189,8 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     if not library.is_file() and not _built(path, flags, text, library):
         return None
     loaded = ctypes.CDLL(str(library))
-    loaded.collide.restype = ctypes.c_int
-    pointer, number = ctypes.c_void_p, ctypes.c_int
-    loaded.collide.argtypes = [ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, pointer]
-    if variant.gradients:
-        loaded.collide_along.restype = ctypes.c_int
-        buffers = pointer, pointer, pointer
-        loaded.collide_along.argtypes = [
-            ctypes.c_long, pointer, pointer, ctypes.c_double, number, pointer, ctypes.c_uint, *buffers,
-        ]  # fmt: skip
+    loaded.collide.restype = ctypes.c_char_p
+    loaded.collide.argtypes = [ctypes.c_void_p]
     return loaded
 
 

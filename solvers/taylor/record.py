@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -10,27 +9,11 @@ import numpy as np
 
 from ..model import choose
 from ..settings import STEPS
-from .engine import Impacts, Record, calling, variant
-from .library import ANSWER, kernel, knows
+from .engine import Impacts, task, variant
+from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
+from .library import kernel, knows
 
-HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")])
-LEDGER = np.dtype(
-    [
-        (name, "f8")
-        for name in (
-            "initial",
-            "final",
-            "lifted",
-            "normal",
-            "tangential",
-            "capillary",
-            "attraction",
-            "dry",
-            "momentum",
-        )
-    ]
-)
-_LOG_ROOM, _STEP_ROOM = 64, 256  # of a collision; where they are not enough the flight is repeated with more
+_ROOM = 64, 256  # events and steps of a collision
 
 
 class Purpose(IntEnum):
@@ -100,6 +83,7 @@ def recorded(
     keep: bool = True,
     fold: bool = True,
     peaks: bool = False,
+    room: tuple[int, int] = _ROOM,
 ) -> Recorded | None:
     """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
 
@@ -110,6 +94,7 @@ def recorded(
         fold: a partner that equals the sphere is treated as such.
         keep: the steps; else the same kernel flies without writing them down.
         peaks: also the largest margin of the glass criterion; only with a trajectory.
+        room: events and steps of a collision that there is room for; where that is not enough, all are flown again.
     """
     if not knows(impacts.scene):
         return None
@@ -117,31 +102,25 @@ def recorded(
     library = kernel(variant(impacts.scene, choice, rtol, True, ledger, trajectory))
     if library is None:
         return None
-    fly, size = calling(library, rtol, budget), impacts.angle.size
-    keep &= trajectory
-    log_room, step_room = _LOG_ROOM, _STEP_ROOM * size if keep else 0
+    size, keep = impacts.angle.size, keep and trajectory
     margins = np.full(size, -np.inf) if peaks else None
+    log_room, step_room = room[0], room[1] * size
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, LEDGER)
-        rows = np.empty(step_room, _row(library) if keep else ANSWER)  # the kernel fills those that it counts
-        also = Record(log.ctypes.data, books.ctypes.data, rows.ctypes.data, log_room, step_room, 0, purpose)
-        also.peaks = None if margins is None else margins.ctypes.data
-        fly(impacts, answers, also)
-        most = int(answers["events"].max())
-        if most <= log_room and (also.steps <= step_room or not keep):
+        rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel fills those that it counts
+        asked = task(library, impacts, rtol, budget, answers)
+        asked.number("purpose", purpose)
+        asked.buffer("log", log)
+        asked.buffer("books", books)
+        if rows is not None:
+            asked.buffer("rows", rows)
+        if margins is not None:
+            asked.buffer("peaks", margins)
+        steps, most = asked.run(), int(answers["events"].max())
+        if most <= log_room and (rows is None or steps <= rows.size):
             break
-        log_room, step_room = max(most, log_room), max(also.steps, step_room) if keep else 0
-    steps = _steps(library, rows[: also.steps]) if keep else None
-    return Recorded(answers, log, books if ledger else None, steps, margins)
-
-
-def _row(library: ctypes.CDLL) -> np.dtype:
-    states, terms = (ctypes.c_int.in_dll(library, name).value for name in ("row_states", "row_terms"))
-    flags = [(name, "i4") for name in ("phase", "closing", "resting", "film")]
-    return np.dtype([("time", "f8"), ("length", "f8"), ("collision", "i8"), *flags, ("series", "f8", (states, terms))])
-
-
-def _steps(library: ctypes.CDLL, rows: np.ndarray) -> Steps:
-    turned = ctypes.c_int.in_dll(library, "row_turned").value
-    return Steps(rows, None if turned < 0 else turned)
+        log_room, step_room = max(most, log_room), max(steps, step_room)
+    turned = number(library, "row_turned") if trajectory else -1
+    kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
+    return Recorded(answers, log, books if ledger else None, kept, margins)

@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from casadi import SX, Function, integrator, jacobian, reshape, vertcat
 
+from ..caches import own_cache
 from ..chain import Piece
 from ..errors import WetDoubletError
 from ..integrators import IntegrationFailed, Tolerance, plain, quiet
@@ -137,7 +137,7 @@ class Returning:
             raise IntegrationFailed(str(error).strip().splitlines()[-1]) from None
 
 
-@lru_cache(maxsize=64)
+@own_cache(64)
 def returning(flow: Flow, engine: str, told: Tolerance) -> Returning:
     """The integrator of a flow's rates, negated."""
     parts, duration = expressions(flow), SX.sym("duration")
@@ -168,13 +168,13 @@ def _scale(flow: Flow, p: np.ndarray) -> np.ndarray:
     return np.array([sizes.get(name, 1.0) for name in flow.model.state])
 
 
-@lru_cache(maxsize=32)
+@own_cache(32)
 def _jacobian(flow: Flow) -> Function:
     parts = expressions(flow)
     return Function("jacobian", [parts.variables, flow.model.parameters], [jacobian(parts.rates, parts.variables)])
 
 
-@lru_cache(maxsize=32)
+@own_cache(32)
 def _variational(flow: Flow) -> Function:
     """A flow with the inverse of its variational matrix: dW/dt = -W df/dy, W(0) = 1."""
     parts, duration = expressions(flow), SX.sym("duration")

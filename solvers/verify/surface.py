@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 from casadi import SX, Function, integrator, vertcat
 
+from ..caches import own_cache
 from ..errors import WetDoubletError
 from ..integrators import quiet
 from ..phases import Flow, expressions
@@ -58,7 +58,7 @@ def torque(flight: Followed) -> float:
     return total / (4 + float(groups["aspect"])) ** 2
 
 
-@lru_cache(maxsize=32)
+@own_cache(32)
 def _torque(flow: Flow, relative: float, absolute: float) -> Function:
     """Integrator of a flow and of -x F_t: F_t = 8 pi mu a^2 (omega - xi) times the law's logarithm, in the groups."""
     parts, model = expressions(flow), flow.model

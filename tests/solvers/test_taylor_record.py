@@ -13,7 +13,7 @@ import pytest
 from wetdoublet.solvers import Collision, Scene, collide
 from wetdoublet.solvers.compiled import compiler
 from wetdoublet.solvers.model import choose
-from wetdoublet.solvers.taylor import headers, library, record
+from wetdoublet.solvers.taylor import engine, headers, layout, library, record
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9
@@ -159,15 +159,56 @@ def test_decided_at_first_touch():
         np.testing.assert_allclose(mine.trajectory[name], values, rtol=1e-14, atol=0, err_msg=str(name))
 
 
-def test_too_little_room_is_asked_for_again(monkeypatch: pytest.MonkeyPatch):
-    """A log of one event and rows for three steps give the same collision as room for all."""
-    monkeypatch.setattr(record, "_LOG_ROOM", 1)
-    monkeypatch.setattr(record, "_STEP_ROOM", 3)
-    scene, impact = FLIGHTS["bounces"]
-    found = collide(scene, engine="taylor", trajectory=True, rtol=RTOL, **impact)
-    assert found == by_kernel("bounces")
-    assert found.trajectory is not None
-    assert found.trajectory.identical(by_kernel("bounces").trajectory)
+def flown(room: tuple[int, int], keep: bool = True) -> record.Recorded:
+    """Chatter on a rough pendulum, and a short flight beside it, with this room for events and steps at first."""
+    scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
+    speeds = np.array([scene.speed_of(0.06760659), scene.speed_of(3.0)])
+    found = record.recorded(
+        record.Impacts(scene, speeds, np.full(2, 0.7759), {}), True, RTOL, trajectory=True, keep=keep, room=room
+    )
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("room", [(1, 256), (64, 3), (1, 3), (0, 0)])
+def test_too_little_room_is_asked_for_again(room: tuple[int, int]):
+    """A log of one event, rows for three steps, or no room at all give what ample room gives."""
+    found, ample = flown(room), flown((1000, 5000))
+    np.testing.assert_array_equal(found.answers, ample.answers)
+    for mine, whole, count in zip(found.events, ample.events, found.answers["events"], strict=True):
+        np.testing.assert_array_equal(mine[:count], whole[:count])
+    assert found.steps is not None
+    assert ample.steps is not None
+    np.testing.assert_array_equal(found.steps.rows, ample.steps.rows)
+
+
+def test_steps_that_are_not_kept_are_not_written():
+    """A kernel that could write its steps flies without a place for them, also where the log was too small at first."""
+    found = flown((1, 256), keep=False)
+    assert found.steps is None
+    assert found.answers["events"].max() > 64
+    np.testing.assert_array_equal(found.answers["outcome"], flown((1000, 5000)).answers["outcome"])
+
+
+@pytest.mark.parametrize("short", ["answers", "books", "quantities"])
+def test_a_buffer_that_is_too_small_is_refused(short: str):
+    """The kernel is given the size of every buffer, and writes nothing where one does not hold what it would write."""
+    scene = Scene.load("granulation")
+    kernel = library.kernel(engine.variant(scene, choose(scene, True, full=True), RTOL, True, True, True))
+    assert kernel is not None
+    impacts = record.Impacts(scene, np.full(9, scene.speed_of(0.02)), np.full(9, 1.3), {})
+    answers = np.zeros(9, layout.ANSWER)
+    task = engine.task(kernel, impacts, RTOL, 1000, answers)
+    task.buffer("books", np.zeros(9, layout.LEDGER))
+    small = {
+        "answers": answers[:8],
+        "books": np.zeros(8, layout.LEDGER),
+        "quantities": np.zeros(3, layout.BUFFER),
+    }
+    task.buffer(short, small[short])
+    with pytest.raises(MemoryError, match=f"{short}: too small"):
+        task.run()
+    assert (answers == np.zeros(9, layout.ANSWER)).all()
 
 
 @pytest.mark.parametrize("reduced", [True, False])

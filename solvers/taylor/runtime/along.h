@@ -5,7 +5,8 @@
  */
 
 /* Columns of a collision's derivatives: the outputs, then these; only the restitution's are taken backwards. */
-enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED, RESULTS = BACKWARD ? 1 : 8 };
+enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED };
+_Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
 
 /* How near a flight comes to a boundary between outcomes, by its own measures (solvers/sensitivity/nearness.py). */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };

@@ -144,7 +144,7 @@ static void fly(queue *q)
         if (bits(l.alive & l.closing))
             expand_glass(&s, &f.c);
 #if WITH_TRAJECTORY
-        if (q->also->purpose == APPROACH) { /* no glass criterion */
+        if (q->t->purpose == APPROACH) { /* no glass criterion */
             memset(s.glass.result, 0, sizeof s.glass.result);
             s.glass.result[0] = splat(1.0);
         }
@@ -165,7 +165,7 @@ static void fly(queue *q)
 #if WITH_TRAJECTORY
         keep_steps(q, &l, a, h);
 #if GLASS_REACH
-        if (q->also->peaks)
+        if (q->peaks)
             note_peaks(q, &l, &f, &s, h);
 #endif
 #endif
@@ -197,7 +197,7 @@ static void fly(queue *q)
         slow_ones = q->asked ? 0 : slow_ones; /* crawl.h knows nothing of derivatives */
 #endif
 #if WITH_TRAJECTORY
-        slow_ones = q->also->step_room ? 0 : slow_ones; /* only a series makes a row */
+        slow_ones = q->step_room ? 0 : slow_ones; /* only a series makes a row */
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));
@@ -209,30 +209,41 @@ static void fly(queue *q)
     }
 }
 
-static queue asked_for(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers)
+/* Whether a buffer has room for so many rows. */
+static int holds(buffer b, int64_t rows, size_t row)
 {
-    queue q;
-    memset(&q, 0, sizeof q);
-    q.quantities = quantities;
-    q.varies = varies;
-    q.rtol = rtol;
-    q.answers = answers;
-    q.count = count;
-    q.budget = budget;
-    return q;
+    return rows <= b.bytes/(int64_t)row;
 }
 
-/* Collides `count` collisions; answers come zeroed. Returns the size of an answer, so that the caller can check its own idea of it.
- *
- * quantities: a column of each of `quantity_names`; varies: whether it has `count` values or one.
- * also: what else is to be written, or null.
- */
-int collide(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget, answer *answers, record *also)
+/* The buffer of a task that is smaller than what is read from it or written to it; null if none is. */
+static const char *misfit(const task *t)
 {
-    queue q = asked_for(count, quantities, varies, rtol, budget, answers);
-    q.also = also;
-    fly(&q);
-    return (int)sizeof(answer);
+    if (!holds(t->quantities, QUANTITIES, sizeof(buffer)))
+        return "quantities: too small";
+    for (int k = 0; k < QUANTITIES; k++) {
+        const buffer *column = (const buffer *)t->quantities.at + k;
+        if (column->bytes != sizeof(double) && !holds(*column, t->count, sizeof(double)))
+            return "a quantity: too small";
+    }
+    if (!holds(t->answers, t->count, sizeof(answer)))
+        return "answers: too small";
+#if WITH_LEDGER
+    if (!holds(t->books, t->count, sizeof(ledger)))
+        return "books: too small";
+#endif
+#if WITH_TRAJECTORY
+    if (t->peaks.bytes && !holds(t->peaks, t->count, sizeof(double)))
+        return "peaks: too small";
+#endif
+#if GRADIENTS
+    if (!holds(t->by_group, t->count, GROUPS*RESULTS*sizeof(double)))
+        return "by_group: too small";
+    if (!holds(t->gradients, t->count, QUANTITIES*RESULTS*sizeof(double)))
+        return "gradients: too small";
+    if (!holds(t->near, t->count, sizeof(nearness)))
+        return "near: too small";
+#endif
+    return 0;
 }
 
 #if GRADIENTS
@@ -241,29 +252,48 @@ const int proved_by_energy = 1;
 #else
 const int proved_by_energy = 0;
 #endif
+#endif
 
-/* The same with derivatives by the quantities; both buffers come zeroed.
- *
- * by_group: RESULTS for each of `group_names` a collision; gradients: RESULTS for each of `quantity_names`.
- * asked: the groups whose derivatives are carried, as bits.
- * near: for each that separated, the least measure of nearness to a boundary, its kind (along.h), and the least of those
- * measures that are no distances.
+/* Collides `count` collisions, with derivatives by the quantities if the kernel has them; what it writes to comes zeroed.
+ * Returns null, or why nothing was done.
  */
-int collide_along(long count, const double *const *quantities, const unsigned char *varies, double rtol, int budget,
-    answer *answers, unsigned asked, double *by_group, double *gradients, double *near)
+const char *collide(task *t)
 {
-    queue q = asked_for(count, quantities, varies, rtol, budget, answers);
-    q.asked = asked;
-    q.by_group = by_group;
-    q.gradients = gradients;
-    q.near = near;
+    const char *why = misfit(t);
+    if (why || t->count < 1)
+        return why;
+    queue q;
+    memset(&q, 0, sizeof q);
+    q.t = t;
+    q.columns = t->quantities.at;
+    q.rtol = t->rtol;
+    q.answers = t->answers.at;
+    q.count = t->count;
+    q.budget = (int)t->budget;
+    q.log = t->log.at;
+    q.log_room = t->log.bytes/(t->count*(long)sizeof(happening));
+#if WITH_LEDGER
+    q.books = t->books.at;
+#endif
+#if WITH_TRAJECTORY
+    q.written = t->rows.at;
+    q.peaks = t->peaks.bytes ? t->peaks.at : 0;
+    q.step_room = t->rows.bytes/(long)sizeof(step_row);
+#endif
+#if GRADIENTS
+    q.asked = (unsigned)t->asked;
+    q.by_group = t->by_group.at;
+    q.gradients = t->gradients.at;
+    q.near = t->near.at;
+#endif
 #if BACKWARD
     if (!there_and_back(&q))
-        return 0;
+        return "no memory for its tape";
 #else
     fly(&q);
+#if GRADIENTS
     in_quantities(&q, 0);
 #endif
-    return (int)sizeof(answer);
-}
 #endif
+    return 0;
+}

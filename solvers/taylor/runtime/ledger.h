@@ -2,13 +2,6 @@
  * integrals along the flight, and what reversals took. Nothing is made to close: what is left over is the flight's error.
  */
 
-typedef struct {
-    double initial, final; /* kinetic */
-    double lifted;         /* gain of the strings' potential */
-    double normal, tangential, capillary, attraction, dry;
-    double momentum; /* angular momentum over its start value */
-} ledger;
-
 /* What a reversal from this state takes. */
 static void book_reversal(ledger *book, const constants *c, const vec *y, int lane)
 {

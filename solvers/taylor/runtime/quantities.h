@@ -7,7 +7,7 @@ static void in_quantities(const queue *q, long first)
         int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
         vec given[QUANTITIES], slope[GROUPS], row[GROUPS][RESULTS];
         for (int k = 0; k < QUANTITIES; k++)
-            EACH_LANE(lane) given[k][lane] = q->quantities[k][q->varies[k] ? first + (lane < many ? lane : 0) : 0];
+            EACH_LANE(lane) given[k][lane] = quantity(q, k, first + (lane < many ? lane : 0));
         scale(&f.c, given);
         EACH_LANE(lane)
         {

@@ -9,32 +9,11 @@ static const double SLOW = 0.1; /* of v0: an opening velocity below counts as th
 static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
 
-/* What comes back of a collision. */
-typedef struct {
-    double shown[5];    /* restitution, tangential restitution, rotation rate, spin, partner's spin: as far as there are */
-    double time, smallest_gap, turned, final_gap;
-    int32_t outcome, certified, status, steps;
-    int32_t reversal; /* the first criterion met; -1 for none */
-    int32_t events;
-} answer;
-
-typedef struct {
-    double kind, time;
-} happening;
-
-/* What is written besides answers, by kernels that have it; null for nothing. */
-typedef struct {
-    happening *log; /* `log_room` a collision, whose answer counts those that found none as well */
-    void *books;    /* a ledger a collision */
-    void *rows;     /* `step_room` steps of all collisions; `steps` counts those that found none as well */
-    long log_room, step_room, steps;
-    long purpose;  /* as below; kernels with a trajectory heed it */
-    double *peaks; /* a collision each: the largest margin of the glass criterion while closing; null for none */
-} record;
-
-/* A whole collision; the approach alone, without the glass criterion and with nothing proved; one that is over when it
- * falls back or rests, and is proved a stick only while it approaches (solvers/probe.py). */
+/* Purposes: a whole collision; the approach alone, without the glass criterion and with nothing proved; one that is over
+ * when it falls back or rests, and is proved a stick only while it approaches (solvers/probe.py). */
 enum { WHOLE, APPROACH, ESCAPE };
+
+_Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
 
 /* What is fixed for a flight. */
 typedef struct {
@@ -64,11 +43,20 @@ typedef struct {
 enum { FIXED = sizeof(fixed)/sizeof(vec), FLIGHT = sizeof(flights)/sizeof(vec) };
 
 typedef struct {
-    const double *const *quantities; /* columns in SI */
-    const unsigned char *varies;     /* a column has a value for each collision, or one for all */
+    task *t; /* what was asked; its buffers are as large as they say (solvers/taylor/layout.py) */
+    const buffer *columns; /* quantities in SI */
     double rtol;
     answer *answers;
-    record *also;
+    happening *log; /* `log_room` a collision, whose answer counts those that found none as well */
+    long log_room;
+#if WITH_LEDGER
+    ledger *books; /* one a collision */
+#endif
+#if WITH_TRAJECTORY
+    struct step_row *written; /* `step_room` steps of all collisions; the task counts those that found none as well */
+    long step_room;
+    double *peaks; /* one a collision; null for none */
+#endif
     long count, next;
     int budget;
     long queued, taken; /* collisions that are waiting, of `rows` */
@@ -79,7 +67,7 @@ typedef struct {
     double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
-    double *near;                 /* least measure of nearness, its boundary, least of those that are no distances */
+    nearness *near;
     unsigned asked;               /* groups, as bits */
 #endif
 #if BACKWARD
@@ -95,10 +83,17 @@ static void note_on_tape(const queue *q, int kind, long index, int lane, const v
 /* Lanes whose stick may be proved, for the purpose of a flight. */
 static mask provable(const queue *q, mask closing)
 {
-    long purpose = q->also->purpose;
+    long purpose = q->t->purpose;
     return purpose == WHOLE ? splat_mask(-1) : purpose == ESCAPE ? closing : splat_mask(0);
 }
 #endif
+
+/* A quantity of a collision: its own, or the one for all. */
+static inline double quantity(const queue *q, int k, long index)
+{
+    const buffer *column = q->columns + k;
+    return ((const double *)column->at)[column->bytes > (int64_t)sizeof(double) ? index : 0];
+}
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
@@ -113,8 +108,8 @@ static void put(queue *q, long index, int status, int outcome, int certified)
 static void note(queue *q, long index, int kind, double time)
 {
     answer *a = &q->answers[index];
-    if (q->also && q->also->log && a->events < q->also->log_room)
-        q->also->log[index*q->also->log_room + a->events] = (happening){kind, time};
+    if (a->events < q->log_room)
+        q->log[index*q->log_room + a->events] = (happening){kind, time};
     a->events++;
 }
 
@@ -158,7 +153,7 @@ static void fill_queue(queue *q)
         q->next += many;
         vec given[QUANTITIES];
         for (int k = 0; k < QUANTITIES; k++)
-            EACH_LANE(lane) given[k][lane] = q->quantities[k][q->varies[k] ? first + (lane < many ? lane : 0) : 0];
+            EACH_LANE(lane) given[k][lane] = quantity(q, k, first + (lane < many ? lane : 0));
         scale(&f.c, given);
         prepare(&f.c);
 #if GRADIENTS
@@ -208,7 +203,7 @@ static void fill_queue(queue *q)
             if (proved >> lane & 1) {
                 put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
 #if WITH_LEDGER
-                close_book((ledger *)q->also->books + first + lane, &f.c, y, lane);
+                close_book(q->books + first + lane, &f.c, y, lane);
 #endif
                 continue;
             }
@@ -306,10 +301,10 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
 #if GRADIENTS
-        double *near = q->near + 3*l->index[lane];
-        near[0] = l->along.near[lane];
-        near[1] = l->along.boundary[lane];
-        near[2] = l->along.hint[lane];
+        nearness *near = q->near + l->index[lane];
+        near->least = l->along.near[lane];
+        near->boundary = l->along.boundary[lane];
+        near->hint = l->along.hint[lane];
 #if BACKWARD
         note_on_tape(q, ENDED, l->index[lane], lane, l->y, f);
 #else
@@ -318,7 +313,7 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
 #endif
     }
 #if WITH_LEDGER
-    close_book((ledger *)q->also->books + l->index[lane], &f->c, l->y, lane);
+    close_book(q->books + l->index[lane], &f->c, l->y, lane);
 #endif
 }
 

@@ -23,7 +23,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
     int at_touch = l->time[lane] == 0.0 && l->phases[lane] == 0;
     vec after[STATES];
 #if WITH_LEDGER
-    book_reversal((ledger *)q->also->books + l->index[lane], &f->c, l->y, lane);
+    book_reversal(q->books + l->index[lane], &f->c, l->y, lane);
 #endif
     memcpy(after, l->y, sizeof after);
     reversal(&f->c, l->y, after);
@@ -54,7 +54,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         along_near(&l->along, lane, 0.0, CHATTERS);
 #endif
 #if WITH_LEDGER
-        book_rest((ledger *)q->also->books + l->index[lane], l->y, lane);
+        book_rest(q->books + l->index[lane], l->y, lane);
 #endif
         l->y[OPENING][lane] = 0.0;
         l->resting[lane] = -1;
@@ -74,7 +74,7 @@ static void criteria_met(queue *q, flights *l, fixed *f)
         return;
     unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
 #if WITH_TRAJECTORY
-    glass = q->also->purpose == APPROACH ? 0 : glass;
+    glass = q->t->purpose == APPROACH ? 0 : glass;
 #endif
     unsigned elastic = bits(asked & (l->y[GAP] <= f->c.elastic_gap));
     unsigned rough = bits(asked & (l->y[GAP] <= f->c.rough_gap));

@@ -1,6 +1,6 @@
 /* What a flight leaves for the way back: where each step began and what ended it, and what happened to lanes in between. */
 
-enum { BATCH = 512, MOST_STEPS = 300 }; /* collisions on one tape, and steps of a flight that is taken back */
+enum { BATCH = 512 }; /* collisions on one tape, of MOST_STEPS steps each */
 
 typedef struct {
     vec y[STATES]; /* as the step began */

@@ -1,14 +1,14 @@
 /* The steps of a flight as they were taken, a row each: states as polynomials in the time since the step's start. */
 
-typedef struct {
+typedef struct step_row {
     double time, length;
     int64_t collision;
     int32_t phase, closing, resting, film; /* phases are counted from 0 */
     double series[STATES][TERMS];
 } step_row;
 
-/* Where a caller finds the polynomials. */
-const int row_states = STATES, row_terms = TERMS;
+/* How a caller reads them. */
+const int row_states = STATES, row_terms = TERMS, row_bytes = sizeof(step_row);
 #if OBLIQUE && STRINGS
 const int row_turned = ROTATION;
 #elif TURNING_STATE
@@ -22,9 +22,9 @@ static void keep_steps(queue *q, const flights *l, const vec (*a)[TERMS], vec le
 {
     for (unsigned left = bits(l->alive); left; left &= left - 1) {
         int lane = __builtin_ctz(left);
-        if (q->also->steps++ >= q->also->step_room)
+        if (q->t->steps++ >= q->step_room)
             continue;
-        step_row *row = (step_row *)q->also->rows + q->also->steps - 1;
+        step_row *row = q->written + q->t->steps - 1;
         row->time = l->time[lane];
         row->length = length[lane];
         row->collision = l->index[lane];
@@ -53,7 +53,7 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const flights *
     }
     for (unsigned left = bits(l->alive & l->closing); left; left &= left - 1) {
         int lane = __builtin_ctz(left);
-        double *peak = q->also->peaks + l->index[lane];
+        double *peak = q->peaks + l->index[lane];
         *peak = fmax(*peak, 2.0*log(largest[lane]));
     }
 }
@@ -62,7 +62,7 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const flights *
 /* What an event does, and whether the purpose of the flight is fulfilled with it. */
 static void act_for_purpose(queue *q, flights *l, fixed *f, int lane, int event)
 {
-    long purpose = q->also->purpose, index = l->index[lane];
+    long purpose = q->t->purpose, index = l->index[lane];
     int closing = l->closing[lane] != 0;
     act(q, l, f, lane, event);
     if (purpose == WHOLE || !l->alive[lane] || l->index[lane] != index)

@@ -14,6 +14,7 @@
 
 typedef double vec __attribute__((vector_size(8*LANES)));
 typedef int64_t mask __attribute__((vector_size(8*LANES)));
+typedef uint64_t word __attribute__((vector_size(8*LANES))); /* the bits of a double, which may overflow */
 
 #define EACH_LANE(lane) for (int lane = 0; lane < LANES; lane++)
 
@@ -117,7 +118,7 @@ static inline vec vec_exp(vec x)
     p = p*r + 1.0/6.0;
     p = p*r + 0.5;
     p = p*r*r + r;
-    mask power = ((mask)shifted - (mask)magic + 1023) << 52;
+    word power = ((word)shifted - (word)magic + 1023) << 52;
     return only(~dead, p*(vec)power + (vec)power);
 }
 
@@ -127,7 +128,7 @@ static inline vec vec_log(vec x)
     mask sound = (x > 0.0) & (x < INFINITY);
     mask small = x < 2.2250738585072014e-308;
     x = choose(small, x*18014398509481984.0, x);
-    mask high = (mask)x + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd);
+    mask high = (mask)((word)x + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd));
     mask n = (high >> 52) - 1023;
     vec m = (vec)((high & 0x000fffffffffffff) + 0x3fe6a09e667f3bcd);
     vec f = m - 1.0;
@@ -153,7 +154,7 @@ static inline void vec_sin_cos(vec x, vec *sine, vec *cosine)
     const vec magic = splat(6755399441055744.0);
     vec shifted = x*0.63661977236758134308 + magic;
     vec n = shifted - magic;
-    mask quarter = (mask)shifted - (mask)magic;
+    word quarter = (word)shifted - (word)magic;
     vec r = ((x - n*1.57079632673412561417) - n*6.07710050630396597660e-11) - n*2.02226624879595063154e-21;
     vec z = r*r;
     vec s = splat(1.58969099521155010221e-10);
@@ -172,8 +173,8 @@ static inline void vec_sin_cos(vec x, vec *sine, vec *cosine)
     c = 1.0 - (0.5*z - z*z*c);
     mask odd = (quarter & 1) != 0;
     vec a = choose(odd, c, s), b = choose(odd, s, c);
-    *sine = (vec)((mask)a ^ ((quarter & 2) << 62));
-    *cosine = (vec)((mask)b ^ (((quarter + 1) & 2) << 62));
+    *sine = (vec)((word)a ^ ((quarter & 2) << 62));
+    *cosine = (vec)((word)b ^ (((quarter + 1) & 2) << 62));
 }
 
 static inline vec vec_sin(vec x)
