@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 
 from .changes import MERGED, Change, changes_between
-from .compiled import hush
 from .cores import usable_cores
 from .errors import ComputationError, InputError
 from .look import Look
 from .probe import Line
+from .remarks import hush
 from .requests import checked_numbers
 from .samples import first_grid, known, merged, sampled
 from .scene import Scene

@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .compiled import hush
 from .cores import usable_cores
 from .errors import ComputationError, ModelWarning, WetDoubletError
 from .labels import Column, labelled
 from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
+from .remarks import hush
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
 from .settings import FEW, RTOL

@@ -10,10 +10,10 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
-from ..compiled import hush
 from ..cores import usable_cores
 from ..many import OUTCOMES
 from ..model import choose
+from ..remarks import hush
 from ..taylor.library import kernel
 from .environment import environment
 from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, fast_kernel, judge, runs

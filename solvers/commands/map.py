@@ -161,12 +161,15 @@ def _computed(
             if file is not None and journal is not None:
                 write(data, file)
                 journal.remove()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, OSError) as error:
         count = 0 if journal is None else journal.count()
         if journal is None or not count:
             raise
         kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # an interrupt may outrun a count
-        raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
+        if isinstance(error, KeyboardInterrupt):
+            raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
+        rest = f"the same command computes {'the rest' if count < done[1] else 'nothing again'}"
+        raise OSError(error.errno, f"{error.strerror or error} ({kept}; {rest})", error.filename) from error
     if journal is not None and journal.path.exists():
         collisions, lines = journal.others()
         what = [f"{collisions} finished collisions of another request"] if collisions else []
@@ -180,8 +183,9 @@ def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None
 
     if picture is not None:
         from ..draw_map import draw_map
+        from ..files import save
 
-        draw_map(data).savefig(picture, dpi=150)
+        save(draw_map(data), picture, dpi=150)
     if file is None and picture is None:
         click.echo(table(data))
     failed = failures(data)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .. import units
+from .. import files, units
 from ..custom import Package, fields, unknown
 from ..errors import InputError, shown
 from ..packages import open_package
@@ -206,4 +206,4 @@ def put(text: str, file: Path | None) -> None:
     if file is None:
         click.echo(text)
     else:
-        file.write_text(text + "\n", encoding="utf-8")
+        files.write(file, text + "\n")

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from .. import boundary
-from ..compiled import hush
 from ..cores import usable_cores
 from ..errors import ComputationError
 from ..look import Look
 from ..probe import ready
+from ..remarks import hush
 from ..scene import Scene
 from ..settings import RTOL
 from ..taylor.library import knows

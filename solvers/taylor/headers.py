@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from functools import cache
 
 from .. import emitted
 from ..model import Choice
+from ..remarks import say
 
 _NONE = "#error "  # how a header begins that could not be emitted
 
@@ -55,4 +55,4 @@ def _folder(tangent: bool) -> str:
 
 @cache  # once a process
 def _say(without: str, why: str) -> None:
-    sys.stderr.write(f"{without} ({why}): other engines answer\n")
+    say(f"{without} ({why}): other engines answer")

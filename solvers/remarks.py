@@ -1,0 +1,26 @@
+"""Remarks on standard error: one line each, for what a run does without and goes on.
+
+They are no errors and no part of a result. Worker processes are hushed: the one that started them says it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+
+from .errors import one_line
+
+_HUSHED = "WETDOUBLET_HUSHED"
+
+
+def say(line: str) -> None:
+    """Write a remark; where standard error cannot be written, there is none."""
+    if _HUSHED not in os.environ and sys.stderr is not None:
+        with contextlib.suppress(OSError, ValueError):
+            sys.stderr.write(f"{one_line(line)}\n")
+
+
+def hush() -> None:
+    """For a worker process: its remarks are for the process that started it."""
+    os.environ[_HUSHED] = "1"
