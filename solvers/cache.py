@@ -39,6 +39,7 @@ _TEMPORARY = "wetdoublet-cache-"  # prefix in temporary folders
 _DIGITS = 32  # of the digest in a name
 _LARGEST = 1 << 28  # bytes: no entry is as large
 _ROOM = 16 << 20  # bytes that a compiler needs, amply
+_PROBE = 1 << 18  # bytes: more than most entries
 _MEMORY: dict[str, bytes] = {}  # entries for which there is no other place
 _REFUSED: set[Path] = set()  # folders that could not be written, which has been said
 _LOCK = threading.RLock()
@@ -207,6 +208,14 @@ def _alone(found: os.stat_result) -> bool:
 # ---- writing
 
 
+def settle() -> None:
+    """Find out where entries can be written, and say it, before workers do: they are hushed, and share the place."""
+    own = folder()
+    with _LOCK:
+        if own not in _REFUSED and (reason := _written(own, "", bytes(_PROBE))):
+            _refuse(own, reason, os.environ.get(_PRIVATE) or _moved("", bytes(_PROBE)))
+
+
 def _put(name: str, content: bytes) -> None:
     """Put an entry down, in the first place that takes it."""
     own = folder()
@@ -219,13 +228,17 @@ def _put(name: str, content: bytes) -> None:
         if where is None:
             _MEMORY[name] = content
         if own not in _REFUSED:
-            _REFUSED.add(own)
-            kept_in = "in memory" if where is None else f"in {where}"
-            say(f"{own}: {reason}; what is derived or compiled is kept {kept_in} while this runs")
+            _refuse(own, reason, where)
+
+
+def _refuse(own: Path, reason: str, where: str | None) -> None:
+    _REFUSED.add(own)
+    kept_in = "in memory" if where is None else f"in {where}"
+    say(f"{own}: {reason}; what is derived or compiled is kept {kept_in} while this runs")
 
 
 def _written(place: Path, name: str, content: bytes) -> str:
-    """Write an entry; the reason why it cannot be, or ""."""
+    """Write an entry, or without a name only try to; the reason why it cannot be, or ""."""
     stem, _, suffix = name.rpartition(".")
     try:
         if place == folder():
@@ -235,7 +248,8 @@ def _written(place: Path, name: str, content: bytes) -> str:
         _sweep(place, _MAKING)
         with held_file(place, _MAKING) as (descriptor, beside):
             write_all(descriptor, content)
-            beside.replace(place / f"{stem}.{_digest(content)}.{suffix}")
+            if name:
+                beside.replace(place / f"{stem}.{_digest(content)}.{suffix}")
     except OSError as error:
         return error.strerror or str(error)
     return ""

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .cache import settle
+from .compilers import compiler
 from .cores import usable_cores
 from .errors import ComputationError, ModelWarning, WetDoubletError
 from .labels import Column, labelled
@@ -123,6 +125,9 @@ def _in_parallel(request: Request, blocks: list[np.ndarray], cores: int) -> Iter
 
     from loky import ProcessPoolExecutor  # starts workers without running the caller's script again
 
+    settle()
+    if request.engine != "cvodes":
+        compiler()  # what is missing is said here
     run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
     pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
     waiting: dict[Any, np.ndarray] = {}

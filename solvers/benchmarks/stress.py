@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
+from ..cache import settle
 from ..cores import usable_cores
 from ..many import OUTCOMES
 from ..model import choose
@@ -127,6 +128,8 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
     from concurrent.futures import as_completed
 
     from loky import ProcessPoolExecutor
+
+    settle()
 
     alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # threads of numpy's would only get in the way
     pool, done = ProcessPoolExecutor(max_workers=cores, initializer=_deaf, env=alone), False

@@ -139,6 +139,7 @@ def _computed(
 
     journal = None if file is None else Journal(file.with_name(file.name + ".partial"))
     done = (0, 0)
+    begun = journal is None or not journal.path.exists()
     try:
         with bar("collisions") as shown:
 
@@ -164,6 +165,8 @@ def _computed(
     except (KeyboardInterrupt, OSError) as error:
         count = 0 if journal is None else journal.count()
         if journal is None or not count:
+            if isinstance(error, OSError) and begun and journal is not None:
+                journal.path.unlink(missing_ok=True)  # nothing whole is in it
             raise
         kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # an interrupt may outrun a count
         if isinstance(error, KeyboardInterrupt):
