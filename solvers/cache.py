@@ -176,8 +176,9 @@ def _whole(path: Path, digest: str) -> bytes | None:
             found = os.fstat(file.fileno())
             if stat.S_ISREG(found.st_mode) and found.st_size <= _LARGEST and _alone(found):
                 content = file.read()
-    except OSError:  # gone, or not to be read now: nothing is known against it
-        return None
+    except OSError as error:
+        if error.errno != errno.ELOOP:  # gone, or not to be read now: nothing is known against it
+            return None
     if content is not None and _digest(content) == digest:
         return content
     try:
