@@ -15,9 +15,9 @@ import signal
 import subprocess
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 from . import cache
 from .errors import InputError
@@ -42,8 +42,7 @@ class CannotCompile(Exception):
     """A file did not become a library; the message is the reason, in a few words."""
 
 
-@dataclass(frozen=True)
-class Compiler:
+class Compiler(NamedTuple):
     """A C compiler that works.
 
     Arguments:
@@ -57,12 +56,6 @@ class Compiler:
     def __str__(self) -> str:
         """As one would type it."""
         return shlex.join(self.command)
-
-
-@dataclass(frozen=True)
-class _Done:
-    status: int
-    said: str  # standard output, then standard error
 
 
 @lru_cache(maxsize=1)
@@ -172,9 +165,9 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
     That it does is kept with its version, size and date, so that the next process need not try again.
     """
     try:
-        asked = _run((*command, "--version"), limit)
-        version = next(iter(asked.said.strip().splitlines()), "")
-        if asked.status or not version:
+        status, said = _run((*command, "--version"), limit)
+        version = next(iter(said.strip().splitlines()), "")
+        if status or not version:
             return "it does not say its version"
         content = "\0".join([*command, version, *(_identity(word) for word in command), _TRIAL])
         name = f"compiler-{hashlib.sha256(content.encode(errors='replace')).hexdigest()[:32]}.txt"
@@ -204,11 +197,11 @@ def _try(command: tuple[str, ...], limit: float) -> None:
     with cache.room() as place:
         (place / "source.c").write_text(_TRIAL)
         program = _compiled(command, (), place, limit)
-        if _ran(program, place, limit).status != _ANSWER:
+        if _ran(program, place, limit)[0] != _ANSWER:
             raise CannotCompile("what it compiles does not run")
 
 
-def _ran(program: bytes, place: Path, limit: float) -> _Done:
+def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
     try:
         with cache.in_memory(program) as descriptor:  # the folder may be one from which nothing is run
             return _run((f"/proc/self/fd/{descriptor}",), limit, passed=(descriptor,))
@@ -222,17 +215,21 @@ def _ran(program: bytes, place: Path, limit: float) -> _Done:
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
     """What a compiler makes of `source.c` in a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
     made = place / "made"
-    done = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
-    if done.status:
-        said = done.said.strip().splitlines() or ["no message"]
-        raise CannotCompile(next((line for line in said if "error" in line), said[-1]))
+    status, said = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
+    if status:
+        lines = said.strip().splitlines() or ["no message"]
+        raise CannotCompile(next((line for line in lines if "error" in line), lines[-1]))
     if not made.is_file():
         raise CannotCompile("nothing came of it")
     return made.read_bytes()
 
 
-def _run(command: tuple[str, ...], limit: float, place: Path | None = None, passed: tuple[int, ...] = ()) -> _Done:
-    """Run a command in a process group of its own, of which nothing is left when this returns or raises.
+def _run(
+    command: tuple[str, ...], limit: float, place: Path | None = None, passed: tuple[int, ...] = ()
+) -> tuple[int, str]:
+    """Run a command in a process group of its own; its status and what it says, errors last.
+
+    If this raises, nothing is left of the group.
 
     Raises:
         TimeoutExpired, OSError: it has not ended; it cannot be run.
@@ -257,7 +254,7 @@ def _run(command: tuple[str, ...], limit: float, place: Path | None = None, pass
         _STOPPED.discard(process)
     if stopped or process.returncode in _INTERRUPTED:
         raise KeyboardInterrupt
-    return _Done(process.returncode, (out + b"\n" + err).decode(errors="replace"))
+    return process.returncode, (out + b"\n" + err).decode(errors="replace")
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:

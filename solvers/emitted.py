@@ -15,7 +15,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .cache import kept
 from .errors import CheckFailed
 
 _PACKAGE = f"{__package__.rsplit('.', 1)[0]}.generated"
@@ -131,6 +130,8 @@ def derivation() -> str:
 
 def derived_once(name: str, derived: Callable[[], str]) -> str:
     """A text that is derived where the cache has none of that name from this derivation."""
+    from .cache import kept
+
     stem, _, suffix = name.rpartition(".")
     return kept(f"emitted-{derivation()[:32]}-{stem}.{suffix}", lambda: derived().encode()).decode()
 

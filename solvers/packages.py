@@ -6,7 +6,6 @@ import hashlib
 import json
 from pathlib import Path
 
-from .cache import kept
 from .custom import ACCEPTED, Package
 from .emitted import derivation, library_digest
 from .errors import CheckFailed, InputError
@@ -54,6 +53,8 @@ def _sha256(path: Path) -> str:
 
 
 def _of_file(path: Path) -> Package:
+    from .cache import kept
+
     key = hashlib.sha256(b"\0".join([path.read_bytes(), derivation().encode(), library_digest().encode()])).hexdigest()
 
     def derived() -> bytes:
