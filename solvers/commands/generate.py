@@ -25,7 +25,8 @@ _SHOWN = 5  # extra files named in the message; the listing has them all
 def command(model: str | None, out: str | None, check: bool, template: bool) -> None:
     """Derive the equations and emit them as CasADi functions.
 
-    With MODEL.py its laws are derived, checked and emitted into DIR, for --model DIR of the other commands.
+    With MODEL.py, which is run as Python, its laws are derived, checked and emitted into DIR, for --model DIR of the
+    other commands.
 
     \b
     Example:

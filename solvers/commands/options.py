@@ -33,7 +33,9 @@ rtol = click.option("--rtol", metavar="R", help="Relative tolerance, 1e-13..1e-3
 engine = click.option("--engine", metavar="E", help="cvodes, rosenbrock or taylor [the best for the scene].")
 plot = click.option("--plot", metavar="FILE.png", help="Draw a picture: .png, .pdf or .svg.")
 output = click.option("-o", "output", metavar="FILE", help="Write to FILE instead of standard output.")
-model = click.option("--model", "model", metavar="DIR", help="A user's model: folder of `generate`, or MODEL.py.")
+model = click.option(
+    "--model", "model", metavar="DIR", help="A user's model, which is run: folder of `generate`, or MODEL.py."
+)
 changes = click.option(
     "--set",
     "changes",
