@@ -183,7 +183,7 @@ def _whole(path: Path, digest: str) -> bytes | None:
         return content
     try:
         path.unlink()
-        say(f"{path} was damaged: it is made again")  # by the one process that has removed it
+        say(f"{path} was damaged: it is made again", only_here=True)  # only one process has removed it
     except FileNotFoundError:
         pass
     except OSError as error:
