@@ -69,6 +69,7 @@ def compiler() -> Compiler | None:
     if _GIVEN_UP in os.environ:
         return None
     tried: set[tuple[str, ...]] = set()
+    failed: list[str] = []
     wanted = os.environ.get("CC", "").strip()
     for named in (*([wanted] if wanted else []), *_COMPILERS):
         command = _command(named)
@@ -81,10 +82,11 @@ def compiler() -> Compiler | None:
             if isinstance(found, Compiler):
                 return found
             wrong = found
+            failed += [f"{named}: {wrong}"] if named != wanted else []
         if named == wanted:
             say(f"CC={named} is no compiler here ({wrong}): another is looked for")
     say(
-        "no C compiler (cc, gcc, clang): there is no Taylor kernel, other engines answer; "
+        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): there is no Taylor kernel, other engines answer; "
         "their integrators run interpreted, about five times slower"
     )
     return None
