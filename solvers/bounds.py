@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy as np
 
+from .cache import settle
 from .changes import MERGED, Change, changes_between
-from .compiled import hush
 from .cores import usable_cores
 from .errors import ComputationError, InputError
 from .look import Look
 from .probe import Line
+from .remarks import hush
 from .requests import checked_numbers
 from .samples import first_grid, known, merged, sampled
 from .scene import Scene
@@ -153,6 +154,7 @@ def _traces(
     if len(parts) > 1:
         from loky import get_reusable_executor
 
+        settle()
         pool = get_reusable_executor(max_workers=len(parts) - 1, initializer=hush)
         others = [pool.submit(trace, scene, part, span, rtol) for part in parts[1:]]
     yield trace(scene, parts[0], span, rtol, tell)

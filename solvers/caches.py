@@ -85,24 +85,34 @@ class Locks:
             return self._of.setdefault(key, threading.RLock())
 
 
-def once(build: Callable[P, T]) -> Callable[P, T]:
+class Once(Generic[P, T]):
+    """A function whose results are kept for all threads, each made by one of them while others wait for it."""
+
+    def __init__(self, build: Callable[P, T]) -> None:
+        self.__wrapped__ = build
+        self._kept: dict[Hashable, T] = {}
+        self._making = Locks()
+        update_wrapper(self, build)
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
+        key = (args, tuple(sorted(kwargs.items())))
+        try:
+            return self._kept[key]
+        except KeyError:
+            pass
+        with self._making(key):
+            if key not in self._kept:
+                self._kept[key] = self.__wrapped__(*args, **kwargs)
+        return self._kept[key]
+
+    def cache_clear(self) -> None:
+        """Forget all results: the next caller makes them again."""
+        self._kept.clear()
+
+
+def once(build: Callable[P, T]) -> Once[P, T]:
     """Decorate a function of hashable arguments: its result is kept, and made by one thread while others wait for it.
 
     Other arguments do not wait. An error is not kept: the next caller tries again.
     """
-    kept: dict[Hashable, T] = {}
-    making = Locks()
-
-    def found(*args: P.args, **kwargs: P.kwargs) -> T:
-        key = (args, tuple(sorted(kwargs.items())))
-        try:
-            return kept[key]
-        except KeyError:
-            pass
-        with making(key):
-            if key not in kept:
-                kept[key] = build(*args, **kwargs)
-        return kept[key]
-
-    update_wrapper(found, build)
-    return found
+    return Once(build)

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .emitted import cached, executed
+from .emitted import derived_once, executed
 from .errors import InputError, did_you_mean
 from .schema import FIELDS, TABLES, Field, Range, Raw
 
@@ -41,15 +41,19 @@ class Package:
 
     Arguments:
         text: its manifest.
-        folder: where its files are; None for a model that is only described (a map read back from a file).
+        folder: where its files are, or the model file that they were derived from.
+        files: their texts by path, where they are in no folder.
+
+    A model that is only described (a map read back from a file) has neither.
     """
 
     text: str = field(repr=False)
     folder: Path | None = field(default=None, compare=False)
+    files: Mapping[str, str] | None = field(default=None, compare=False, repr=False)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle what it is, not what has been loaded: a worker verifies the files again."""
-        return Package, (self.text, self.folder)
+        return Package, (self.text, self.folder, self.files)
 
     @cached_property
     def manifest(self) -> dict[str, Any]:
@@ -162,7 +166,7 @@ class Package:
 
             return user_structure_text(source, self.name, name)
 
-        return cached(f"{self.digest[:16]}-{name}.py", derived).read_text(encoding="utf-8")
+        return derived_once(f"{self.digest[:16]}-{name}.py", derived)
 
     def structure_header(self, name: str, tangent: bool = False) -> str:
         """C header of a structure that it changes, or of its tangent, for the kernel; derived on first use."""
@@ -174,7 +178,7 @@ class Package:
             return user_structure_header_text(source, self.name, name, tangent)
 
         kind = "tangent-" if tangent else ""
-        return cached(f"{self.digest[:16]}-{kind}{name}.h", derived).read_text(encoding="utf-8")
+        return derived_once(f"{self.digest[:16]}-{kind}{name}.h", derived)
 
     def law_header(self, slot: str, name: str, slopes: bool = False) -> str:
         """C header of a law as its structures call it, or of its slopes; derived on first use."""
@@ -186,7 +190,7 @@ class Package:
             return user_law_header_text(source, self.name, slot, name, slopes)
 
         kind = "slopes-" if slopes else ""
-        return cached(f"{self.digest[:16]}-{kind}{slot}_{name}.h", derived).read_text(encoding="utf-8")
+        return derived_once(f"{self.digest[:16]}-{kind}{slot}_{name}.h", derived)
 
     @cached_property
     def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
@@ -212,7 +216,7 @@ class Package:
             raise InputError("--model", self.name, ACCEPTED, "is only described here, its files are not at hand")
         file = self.folder / path
         try:
-            content = file.read_bytes()
+            content = file.read_bytes() if self.files is None else self.files.get(path, "").encode()
         except OSError:
             content = b""
         if hashlib.sha256(content).hexdigest() != self.manifest["files"].get(path):

@@ -8,11 +8,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
-import shutil
-import tempfile
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -74,7 +71,7 @@ def module(name: str, derived: Callable[[], str] | None = None) -> ModuleType:
         return import_module(f"{_PACKAGE}.{name}")
     if derived is None:
         raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
-    return executed(f"{_PACKAGE}.{name}", cached(f"{name}.py", derived).read_bytes())
+    return executed(f"{_PACKAGE}.{name}", derived_once(f"{name}.py", derived).encode())
 
 
 def text(name: str) -> str:
@@ -86,7 +83,7 @@ def text(name: str) -> str:
     kind, _, rest = name.rpartition(".")
     slot, _, law_name = rest.partition("_")
     derived = (lambda: _derived_law(slot, law_name)) if kind else (lambda: _derived_structure(name))
-    return cached(f"{name}.py", derived).read_text(encoding="utf-8")
+    return derived_once(f"{name}.py", derived)
 
 
 def header(path: str) -> str:
@@ -96,7 +93,7 @@ def header(path: str) -> str:
         return (_FOLDER / path).read_text(encoding="utf-8")
     name, tangent = Path(path).stem, "tangent" in Path(path).parts
     kind = "tangent" if tangent else "kernel"
-    return cached(f"{kind}-{name}.h", lambda: _derived_header(name, tangent)).read_text(encoding="utf-8")
+    return derived_once(f"{kind}-{name}.h", lambda: _derived_header(name, tangent))
 
 
 def committed(path: str) -> bool:
@@ -133,48 +130,18 @@ def derivation() -> str:
     return found.hexdigest()
 
 
-def cached(name: str, derived: Callable[[], str]) -> Path:
-    """The cached file of that name, derived if it is not there. Safe with several processes: moved into place whole."""
-    path = _cache() / "emitted" / derivation()[:32] / name
-    if path.is_file():
-        return path
+def derived_once(name: str, derived: Callable[[], str]) -> str:
+    """A text that is derived where the cache has none of that name from this derivation."""
+    from .cache import kept
+
+    stem, _, suffix = name.rpartition(".")
+    return kept(f"emitted-{derivation()[:32]}-{stem}.{suffix}", lambda: _alone(derived).encode()).decode()
+
+
+def _alone(derived: Callable[[], str]) -> str:
+    """What is derived, by one thread at a time."""
     with _DERIVING:
-        if path.is_file():  # by another thread, meanwhile
-            return path
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        beside = path.with_name(f".{path.name}.{os.getpid()}")
-        beside.write_bytes(derived().encode())
-        beside.replace(path)
-    return path
-
-
-def cached_folder(key: str, derived: Callable[[], Mapping[str, str]]) -> Path:
-    """The cached folder of files under a key, derived if it is not there; as safe as `cached`."""
-    folder = _cache() / "models" / key[:32]
-    if folder.is_dir():
-        return folder
-    with _DERIVING:
-        files = derived()
-    folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    beside = Path(tempfile.mkdtemp(prefix=f".{key[:8]}-", dir=folder.parent))  # 0700
-    try:
-        for name, text in files.items():
-            (beside / name).parent.mkdir(parents=True, exist_ok=True)
-            (beside / name).write_bytes(text.encode())
-        try:
-            beside.rename(folder)
-        except OSError:  # another process was faster: its folder is the same
-            if not folder.is_dir():
-                raise
-    finally:
-        shutil.rmtree(beside, ignore_errors=True)
-    return folder
-
-
-def _cache() -> Path:
-    from .compiled import cache_folder  # imports casadi
-
-    return cache_folder()
+        return derived()
 
 
 def _derived_structure(name: str) -> str:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from .files import write, write_all
 from .many import Block
 
 
@@ -63,9 +63,12 @@ class Journal:
         """Put down a block, in a single write."""
         columns = {name: values.tolist() for name, values in block.items()}
         text = json.dumps({"where": where.tolist(), "columns": columns}).encode()
-        with self.path.open("ab", buffering=0) as file:
-            # begins a line of its own, should the last one be torn
-            file.write(b"\n%s %s %s\n" % (self.key, _checksum(text), text))
+        try:
+            with self.path.open("ab", buffering=0) as file:
+                # begins a line of its own, should the last one be torn
+                write_all(file.fileno(), b"\n%s %s %s\n" % (self.key, _checksum(text), text))
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(self.path)) from error
 
     def remove(self) -> None:
         """Remove what is kept of this request; the file too, unless another request's work is in it."""
@@ -76,9 +79,7 @@ class Journal:
         if not others:
             self.path.unlink(missing_ok=True)
             return
-        beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
-        beside.write_bytes(b"\n".join(others) + b"\n")
-        beside.replace(self.path)
+        write(self.path, b"\n".join(others) + b"\n")
 
 
 def _checksum(text: bytes) -> bytes:

@@ -15,13 +15,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .compiled import hush
+from .cache import settle
+from .compilers import compiler
 from .cores import usable_cores
 from .errors import ComputationError, WetDoubletError
 from .labels import Column, labelled
 from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
+from .remarks import hush
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
 from .settings import FEW, RTOL
@@ -134,6 +136,9 @@ def _in_parallel(
 
     from loky import ProcessPoolExecutor  # starts workers without running the caller's script again
 
+    settle()
+    if request.engine != "cvodes":
+        compiler()  # what is missing is said here
     if machine_code:
         run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
     pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+import json
 from pathlib import Path
 
 from .custom import ACCEPTED, Package
-from .emitted import cached_folder, derivation, library_digest
+from .emitted import derivation, library_digest
 from .errors import CheckFailed, InputError
 
 
@@ -53,14 +53,17 @@ def _sha256(path: Path) -> str:
 
 
 def _of_file(path: Path) -> Package:
+    from .cache import kept
+
     key = hashlib.sha256(b"\0".join([path.read_bytes(), derivation().encode(), library_digest().encode()])).hexdigest()
 
-    def derived() -> Mapping[str, str]:
+    def derived() -> bytes:
         from .derived import derived_package  # imports sympy when it is called
 
         made = derived_package(path, None)
         if not made.files:
             raise CheckFailed(f"{path}: {made.failed}")
-        return made.files
+        return json.dumps(dict(made.files)).encode()
 
-    return _of_folder(cached_folder(key, derived), "--model")
+    files = json.loads(kept(f"model-{key[:32]}.json", derived))
+    return Package(files["manifest.json"], path, files)

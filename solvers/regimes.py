@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..generated import scaling
+from . import files
 from .custom import Package
 from .errors import InputError
 from .journal import Journal
@@ -260,13 +262,12 @@ def scene_of(data: xarray.Dataset) -> Scene:
 
 
 def write(data: xarray.Dataset, path: str | Path) -> None:
-    """Write a map as NetCDF4, complete or not at all."""
-    target = Path(path)
-    beside = target.with_name(f".{target.name}.writing")
-    try:
-        data.to_netcdf(
-            beside, engine="h5netcdf", encoding={name: {"zlib": True} for name in QUANTITIES if name in data}
-        )
-        beside.replace(target)
-    finally:
-        beside.unlink(missing_ok=True)
+    """Write a map as NetCDF4, complete or not at all. OSError if it cannot be written."""
+    from h5netcdf import File
+    from xarray.backends import H5NetCDFStore
+
+    made = io.BytesIO()  # a disk that is full ends HDF5, and this process with it
+    with File(made, "w") as file:
+        encoding = {name: {"zlib": True} for name in QUANTITIES if name in data}
+        data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
+    files.write(path, made.getbuffer())

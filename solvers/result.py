@@ -148,8 +148,9 @@ class Collision:
             ValueError: the collision was computed without `trajectory=True`.
         """
         from .draw import draw
+        from .files import save
 
         figure = draw(self)
         if path is not None:
-            figure.savefig(path, dpi=150)
+            save(figure, path, dpi=150)
         return figure

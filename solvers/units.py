@@ -1,11 +1,13 @@
 """A number with its unit, read as an SI float of the dimension that is demanded.
 
 The commonest spellings stand in a table of exact decimal factors, so that a preset never waits for pint
-(0.4 s) and its numbers are correctly rounded. Everything else goes to pint, which also judges the dimension.
+(0.4 s) and its numbers are correctly rounded. Everything else goes to pint, which also judges the dimension; what it
+has said of a unit is kept in our cache. Pint's own cache, a pickle in a folder that nobody checks, is not used.
 """
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from decimal import Context, Decimal
@@ -17,6 +19,8 @@ from .errors import InputError, did_you_mean, nearest
 
 if TYPE_CHECKING:
     import pint
+
+Powers = dict[str, float]
 
 DIMENSIONS = {
     "m": "a length",
@@ -150,11 +154,8 @@ def _pint_factor(unit: str, si: str, text: str, field: str, accepted: str) -> fl
     try:
         if not _UNIT.fullmatch(unit):
             raise ValueError(unit)
-        registry = _registry()
-        size: Any
-        our_size: Any
-        size, root = registry.get_root_units(registry.parse_units(unit))
-        our_size, ours = registry.get_root_units(registry.parse_units(si))  # pint's root of mass is the gram
+        size, root = _judged(unit)
+        our_size, ours = _judged(si)
     except _PINT_SAYS_NO:
         known = [name for name, (kind, _) in COMMON.items() if kind == si]
         hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
@@ -167,13 +168,12 @@ def _pint_factor(unit: str, si: str, text: str, field: str, accepted: str) -> fl
 
 def _demanded(si: str) -> str:
     """Return in words what is measured in a coherent SI unit, of the table or a model's own."""
-    return DIMENSIONS[si] if si in DIMENSIONS else _in_words(_root(si))
+    return DIMENSIONS[si] if si in DIMENSIONS else _in_words(_judged(si)[1])
 
 
-def _in_words(root: Any) -> str:
+def _in_words(powers: Powers) -> str:
     """Return what a product of pint's root units measures: `a force`, or a power product of SI units."""
-    powers = _powers(root)
-    named = next((words for si, words in _WORDS.items() if _powers(_root(si)) == powers), None)
+    named = next((words for si, words in _WORDS.items() if _judged(si)[1] == powers), None)
     if named:
         return named
     si = {"gram": "kg", "meter": "m", "second": "s", "ampere": "A", "kelvin": "K", "mole": "mol", "radian": "rad"}
@@ -181,25 +181,31 @@ def _in_words(root: Any) -> str:
     return f"in {' '.join(parts)}"
 
 
-def _powers(root: Any) -> dict[str, Any]:
-    return dict(_registry().Quantity(1, root).unit_items())
-
-
 @cache
-def _root(si: str) -> Any:
-    registry = _registry()
-    return registry.get_root_units(registry.parse_units(si))[1]
+def _judged(unit: str) -> tuple[float, Powers]:
+    """Return how many of pint's root units a unit is, and their powers; any of _PINT_SAYS_NO if it is unknown.
+
+    Pint's root of mass is the gram, and the radian is one.
+    """
+    import hashlib
+    from importlib.metadata import version
+
+    from .cache import kept
+
+    content = json.dumps(["pint", version("pint"), unit])
+
+    def asked() -> bytes:
+        registry = _registry()
+        size: Any
+        size, root = registry.get_root_units(registry.parse_units(unit))
+        return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items())]).encode()
+
+    size, powers = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", asked))
+    return size, powers
 
 
 @cache
 def _registry() -> pint.UnitRegistry[Any]:
-    """Return pint's registry, from its cache on disk where there may be one."""
-    from pickle import PickleError
-
     import pint
 
-    try:
-        return pint.UnitRegistry(cache_folder=":auto:")
-    except (OSError, EOFError, PickleError, AttributeError, ImportError, ValueError):
-        # a folder that cannot be written, or a cache that cannot be read: do without
-        return pint.UnitRegistry()
+    return pint.UnitRegistry()

@@ -99,20 +99,8 @@ def _quantity(model: UserModel, name: str) -> dict[str, object]:
     }
 
 
-def write(files: Mapping[str, str], folder: Path) -> list[Path]:
-    """Write a package into a folder; what an earlier one has left there is removed, other files stay."""
-    for name in _earlier(folder) - files.keys():
-        (folder / name).unlink(missing_ok=True)
-    written = []
-    for name, text in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(text.encode())
-        written.append(path)
-    return written
-
-
-def _earlier(folder: Path) -> set[str]:
+def earlier(folder: Path) -> set[str]:
+    """Relative paths of the files of a package that has been written into a folder; others are not among them."""
     try:
         listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["files"]
     except (OSError, ValueError, KeyError, TypeError):

@@ -1,4 +1,4 @@
-"""Write all emitted modules to a folder, or compare the package's own folder with what would be written."""
+"""All emitted modules as texts; the package's own folder beside what would be written."""
 
 from __future__ import annotations
 
@@ -68,17 +68,6 @@ def emitted() -> Mapping[str, str]:
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return MappingProxyType(dict(sorted(files.items())))
-
-
-def generate(out: Path = GENERATED) -> list[Path]:
-    """Derive and emit everything into `out`; returns the files written."""
-    written = []
-    for name, text in emitted().items():
-        path = out / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(text.encode())
-        written.append(path)
-    return written
 
 
 def check(folder: Path = GENERATED) -> list[str]:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from statistics import median
 from typing import Any
 
-from ..compiled import compiler
+from ..compilers import compiler
 from .markdown import table
 
 Record = dict[str, Any]

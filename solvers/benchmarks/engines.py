@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..compiled import compiler
+from ..compilers import compiler
 from ..locate import LOOSEST
 from ..many import OUTCOMES, collide_many
 from ..model import choose, load

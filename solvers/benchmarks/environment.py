@@ -11,7 +11,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from ..compiled import FLAGS, compiler
+from ..compiled import FLAGS
+from ..compilers import compiler
 from ..cores import usable_cores
 
 _PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "scikit-sundae", "numba", "diffrax", "jax")
@@ -41,7 +42,7 @@ def environment() -> dict[str, Any]:
         "load": list(os.getloadavg()) if hasattr(os, "getloadavg") else None,
         "system": platform.platform(),
         "python": platform.python_version(),
-        "compiler": f"{found[1]}, {' '.join(FLAGS)}" if found else None,
+        "compiler": f"{found.version}, {' '.join(FLAGS)}" if found else None,
         **{name: _version(name) for name in _PACKAGES},
     }
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import locate as locating
-from ..compiled import compiler
+from ..compilers import compiler
 from ..many import OUTCOMES, collide_many
 from ..model import Model
 from ..phases import Phase

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..compiled import compiler
+from ..compilers import compiler
 from ..many import collide_many
 from ..sensitivity.kernel import along
 from ..sensitivity.many import gradients_many

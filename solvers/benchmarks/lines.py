@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..bounds import boundary
-from ..compiled import compiler
+from ..compilers import compiler
 from ..many import OUTCOMES, collide_many
 from ..scene import Scene
 from ..simulate import collide

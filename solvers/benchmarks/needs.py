@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..compiled import compiler
+from ..compilers import compiler
 from ..many import collide_many
 from ..scene import Scene
 from ..sensitivity.gradients import sensitivities

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from ..files import save
 from .features import FEATURES
 from .plots_more import gradient_curves, near_curves
 
@@ -51,7 +52,7 @@ def draw(record: Record, folder: Path) -> list[Path]:
             pictures.append(("gradients.png", gradient_curves))
         for name, make in pictures:
             files.append(folder / name)
-            make(record).savefig(files[-1], dpi=200)
+            save(make(record), files[-1], dpi=200)
     return files
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from .. import files
 from .plots import draw
 from .run import Record
 from .tables import report
@@ -15,6 +16,6 @@ def write(record: Record, folder: Path) -> tuple[str, list[Path]]:
     folder.mkdir(parents=True, exist_ok=True)
     text = report(record)
     data, tables = folder / "bench.json", folder / "bench.md"
-    data.write_text(json.dumps(record, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    tables.write_text(text, encoding="utf-8")
+    files.write(data, json.dumps(record, indent=1, allow_nan=False) + "\n")
+    files.write(tables, text)
     return text, [data, tables, *draw(record, folder)]

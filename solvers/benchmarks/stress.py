@@ -10,10 +10,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
-from ..compiled import hush
+from ..cache import settle
 from ..cores import usable_cores
 from ..many import OUTCOMES
 from ..model import choose
+from ..remarks import hush
 from ..taylor.engine import variant
 from ..taylor.library import Variant, kernel
 from .environment import environment
@@ -137,6 +138,8 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
     from concurrent.futures import as_completed
 
     from loky import ProcessPoolExecutor
+
+    settle()
 
     alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # threads of numpy's would only get in the way
     pool, done = ProcessPoolExecutor(max_workers=cores, initializer=_deaf, env=alone), False

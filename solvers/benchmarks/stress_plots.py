@@ -13,6 +13,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from ..changes import GRAZE
+from ..files import save
 from ..ticks import plain
 from .stress import Stress
 from .stress_check import FAST
@@ -28,7 +29,7 @@ def draw(found: Stress, folder: Path) -> list[Path]:
     with rc_context(_RC):
         for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
             files.append(folder / name)
-            make(found).savefig(files[-1], dpi=160)
+            save(make(found), files[-1], dpi=160)
     return files
 
 

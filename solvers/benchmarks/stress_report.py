@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import files
 from ..changes import GRAZE
 from .markdown import ms, table
 from .stress import DISAGREEMENTS, WORST, Stress, record
@@ -22,9 +23,9 @@ def write(found: Stress, folder: Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     data, text = folder / "stress.json", folder / "stress.md"
     kept = record(found) | {"tables": tables(found)}
-    data.write_text(json.dumps(kept, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    files.write(data, json.dumps(kept, indent=1, allow_nan=False) + "\n")
     scenes = worst(found, folder / "worst")
-    text.write_text(report(found, scenes), encoding="utf-8")
+    files.write(text, report(found, scenes))
     return [data, text, *draw(found, folder), *scenes]
 
 
@@ -58,14 +59,14 @@ def worst(found: Stress, folder: Path) -> list[Path]:
     take("cost", [(one, f"{_dearest(one)}") for one in by_cost[:5]])
     for earlier in folder.glob("*-[0-9][0-9].toml"):
         earlier.unlink()
-    files = []
+    scenes = []
     for one, why in picked.values():
         name, said = why.split("\n", 1)
         folder.mkdir(parents=True, exist_ok=True)
-        files.append(folder / f"{name}.toml")
+        scenes.append(folder / f"{name}.toml")
         header = "".join(f"# {line}\n" for line in (one.case.name, re.sub(r"[^\x20-\x7e]", "?", said)))
-        files[-1].write_text(header + one.case.scene.to_toml(), encoding="utf-8")
-    return files
+        files.write(scenes[-1], header + one.case.scene.to_toml())
+    return scenes
 
 
 def _dearest(one: Verdict) -> str:

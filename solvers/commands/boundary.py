@@ -80,8 +80,9 @@ def command(
     options.put(json.dumps(shown.to_dict(), indent=2, allow_nan=False) if as_json else str(shown), file)
     if picture is not None:
         from ..boundary_plot import draw
+        from ..files import save
 
-        draw(scene, found).savefig(picture, dpi=150)
+        save(draw(scene, found), picture, dpi=150)
     if found.failed:
         at, reason = found.failed[0]
         raise CheckFailed(

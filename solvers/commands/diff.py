@@ -32,7 +32,7 @@ def command(
 ) -> None:
     """Compare A and B: `library`, presets, scene files, models, or two folders of `generate`.
 
-    --set changes entries of B. Models are put into the scene of --scene; so is `library`.
+    --set changes entries of B. Models are put into the scene of --scene; so is `library`. A MODEL.py is run as Python.
 
     \b
     Example:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import click
 
 from ..errors import InputError, did_you_mean
+from ..files import write_all_in
 from . import options
 
 KINDS = ("c", "latex")
@@ -54,8 +55,5 @@ def command(
         from ..ccode import texts
     else:
         from ..fmu import texts
-    files = texts(scene)
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
-        click.echo(str(folder / name))
+    for file in write_all_in(folder, texts(scene)):
+        click.echo(str(file))

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from ..errors import CheckFailed, InputError
+from ..files import write_all_in
 from . import options
 
 OWN = Path(__file__).resolve().parents[2] / "generated"  # found, not imported: it may be stale or broken
@@ -24,7 +25,8 @@ _SHOWN = 5  # extra files named in the message; the listing has them all
 def command(model: str | None, out: str | None, check: bool, template: bool) -> None:
     """Derive the equations and emit them as CasADi functions.
 
-    With MODEL.py its laws are derived, checked and emitted into DIR, for --model DIR of the other commands.
+    With MODEL.py, which is run as Python, its laws are derived, checked and emitted into DIR, for --model DIR of the
+    other commands.
 
     \b
     Example:
@@ -50,8 +52,7 @@ def command(model: str | None, out: str | None, check: bool, template: bool) -> 
     from ...derive.emit import write
 
     if not check:
-        folder.mkdir(parents=True, exist_ok=True)
-        click.echo("\n".join(str(path) for path in write.generate(folder)))
+        click.echo("\n".join(map(str, write_all_in(folder, write.emitted()))))
     elif differences := write.check():
         click.echo("\n".join(differences))
         raise CheckFailed(_advice(differences))
@@ -82,8 +83,10 @@ def _model(source: str, out: str | None, check: bool) -> None:
                 f"{folder} is not what {source} gives; `wetdoublet generate {source} --out {out}` mends it"
             )
         return
-    folder.mkdir(parents=True, exist_ok=True)
-    written = user.write(made.files, folder)
+    before = user.earlier(folder)
+    written = write_all_in(folder, made.files)
+    for name in before - made.files.keys():
+        (folder / name).unlink(missing_ok=True)
     click.echo(f"\n{len(written)} files in {folder}; use it with --model {folder}")
 
 

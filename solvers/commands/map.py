@@ -139,6 +139,7 @@ def _computed(
 
     journal = None if file is None else Journal(file.with_name(file.name + ".partial"))
     done = (0, 0)
+    begun = journal is None or not journal.path.exists()
     try:
         with bar("collisions") as shown:
 
@@ -162,12 +163,17 @@ def _computed(
             if file is not None and journal is not None:
                 write(data, file)
                 journal.remove()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, OSError) as error:
         count = 0 if journal is None else journal.count()
         if journal is None or not count:
+            if isinstance(error, OSError) and begun and journal is not None:
+                journal.path.unlink(missing_ok=True)  # nothing whole is in it
             raise
         kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # an interrupt may outrun a count
-        raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
+        if isinstance(error, KeyboardInterrupt):
+            raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
+        rest = f"the same command computes {'the rest' if count < done[1] else 'nothing again'}"
+        raise OSError(error.errno, f"{error.strerror or error} ({kept}; {rest})", error.filename) from error
     if journal is not None and journal.path.exists():
         collisions, lines = journal.others()
         what = [f"{collisions} finished collisions of another request"] if collisions else []
@@ -181,8 +187,9 @@ def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None
 
     if picture is not None:
         from ..draw_map import draw_map
+        from ..files import save
 
-        draw_map(data).savefig(picture, dpi=150)
+        save(draw_map(data), picture, dpi=150)
     if file is None and picture is None:
         click.echo(table(data))
     failed = failures(data)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .. import units
+from .. import files, units
 from ..custom import Package, fields, unknown
 from ..errors import InputError, shown
 from ..packages import open_package
@@ -33,7 +33,9 @@ rtol = click.option("--rtol", metavar="R", help="Relative tolerance, 1e-13..1e-3
 engine = click.option("--engine", metavar="E", help="cvodes, rosenbrock or taylor [the best for the scene].")
 plot = click.option("--plot", metavar="FILE.png", help="Draw a picture: .png, .pdf or .svg.")
 output = click.option("-o", "output", metavar="FILE", help="Write to FILE instead of standard output.")
-model = click.option("--model", "model", metavar="DIR", help="A user's model: folder of `generate`, or MODEL.py.")
+model = click.option(
+    "--model", "model", metavar="DIR", help="A user's model, which is run: folder of `generate`, or MODEL.py."
+)
 changes = click.option(
     "--set",
     "changes",
@@ -206,4 +208,4 @@ def put(text: str, file: Path | None) -> None:
     if file is None:
         click.echo(text)
     else:
-        file.write_text(text + "\n", encoding="utf-8")
+        files.write(file, text + "\n")

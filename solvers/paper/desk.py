@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from .. import boundary
-from ..compiled import hush
+from ..cache import settle
 from ..cores import usable_cores
 from ..errors import ComputationError
 from ..look import Look
 from ..probe import ready
+from ..remarks import hush
 from ..scene import Scene
 from ..settings import RTOL
 from ..taylor.library import knows
@@ -175,6 +176,7 @@ def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[
         return [function(item) for item in items]
     from loky import get_reusable_executor
 
+    settle()
     pool = get_reusable_executor(max_workers=usable_cores(), initializer=hush)
     return list(pool.map(function, items))
 

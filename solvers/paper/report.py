@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 from pathlib import Path
 
+from .. import files
 from ..scene import Scene
 from .parts import Comparison, Part, Table
 from .printed import CITATION, NOT_COMPARED, PRINTED
@@ -35,10 +36,10 @@ code { font-size: 0.86em; } img { max-width: 100%; height: auto; } .table { over
 
 def write(parts: Sequence[Part], folder: Path, how: str) -> list[Path]:
     """Write report.md and report.html into `folder`; `how` says how it was computed."""
-    files = [(folder / "report.md", markdown(parts, how)), (folder / "report.html", page(parts, how))]
-    for file, text in files:
-        file.write_text(text, encoding="utf-8")
-    return [file for file, _ in files]
+    both = [(folder / "report.md", markdown(parts, how)), (folder / "report.html", page(parts, how))]
+    for file, text in both:
+        files.write(file, text)
+    return [file for file, _ in both]
 
 
 def compared(parts: Iterable[Part]) -> Table:

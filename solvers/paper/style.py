@@ -11,6 +11,8 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..files import save
+
 COLUMN = 8.8  # cm
 DPI = 300
 _INCH = 2.54
@@ -44,7 +46,7 @@ def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
     with rc_context(_RC):
         figure = Figure(figsize=(width / _INCH, height / _INCH), layout="constrained")
         yield figure
-        figure.savefig(file, dpi=DPI)
+        save(figure, file, dpi=DPI)
 
 
 def panel(figure: Figure) -> Axes:

@@ -7,6 +7,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .. import files
 from ..scene import Scene
 from .desk import Desk
 from .parts import Part, Picture
@@ -40,7 +41,7 @@ def make(desk: Desk, folder: Path) -> Part:
         }
     )
     _draw(lines, folder / "table1.png")
-    (folder / "table1.tex").write_text(document(lines), encoding="utf-8")
+    files.write(folder / "table1.tex", document(lines))
     words = (
         "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
         f"typed in. Laws: {described(bridged)}; {described(tethered)}. The paper's own table is a "

@@ -170,11 +170,12 @@ class Sensitivities:
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
+        from ..files import save
         from .tornado import draw
 
         figure = draw(self)
         if path is not None:
-            figure.savefig(path, dpi=150)
+            save(figure, path, dpi=150)
         return figure
 
 

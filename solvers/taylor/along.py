@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..compiled import compiler
+from ..compilers import compiler
 from ..model import choose
 from ..scene import Scene
 from ..settings import STEPS

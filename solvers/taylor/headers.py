@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-
 from .. import emitted
 from ..caches import once
 from ..model import Choice
+from ..remarks import say
 
 _NONE = "#error "  # how a header begins that could not be emitted
 
@@ -55,4 +54,4 @@ def _folder(tangent: bool) -> str:
 
 @once  # a process
 def _say(without: str, why: str) -> None:
-    sys.stderr.write(f"{without} ({why}): other engines answer\n")
+    say(f"{without} ({why}): other engines answer")

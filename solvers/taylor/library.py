@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-import hashlib
 import platform
-import sys
-import tempfile
 from collections.abc import Collection
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -14,10 +11,13 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..cache import has, kept, loaded
 from ..caches import once
-from ..compiled import build, cache_folder, compiler, more_flags
+from ..compilers import CannotCompile, compiler, key, more_flags, stop
+from ..compilers import library as compiled
 from ..cores import usable_cores
 from ..model import Choice, choose
+from ..remarks import say
 from .headers import headers, tangents
 from .layout import MOST_STEPS, RESULTS, declarations
 
@@ -156,25 +156,24 @@ def _stem(variant: Variant) -> str:
     return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{own}"
 
 
-def _place(variant: Variant, text: str, version: str, flags: tuple[str, ...]) -> Path:
-    """Where the library of a source lies, if it has been compiled."""
+def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
+    """Name of the library of a source in the cache."""
     machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
-    content = "\0".join([text, version, " ".join(flags), machine])
-    return cache_folder() / f"{_stem(variant)}-{hashlib.sha256(content.encode()).hexdigest()[:32]}.so"
+    return f"{_stem(variant)}-{key(text, flags, machine)}.so"
 
 
 def at_hand(variant: Variant) -> bool:
     """Whether the library of a variant has been compiled before; nothing is derived or compiled to see."""
-    if not any(cache_folder().glob(f"{_stem(variant)}-*.so")):
+    if not has(f"{_stem(variant)}-"):
         return False  # its headers need not even have been derived
-    place = _expected(variant, _flags(variant))
-    return place is not None and place.is_file()
+    entry = _expected(variant, _flags(variant))
+    return entry is not None and has(entry.removesuffix("so"))
 
 
 @cache
-def _expected(variant: Variant, flags: tuple[str, ...]) -> Path | None:
-    found, emitted = compiler(), _emitted(variant)
-    return None if found is None or emitted is None else _place(variant, source(variant, emitted), found[1], flags)
+def _expected(variant: Variant, flags: tuple[str, ...]) -> str | None:
+    emitted = _emitted(variant)
+    return None if compiler() is None or emitted is None else _entry(variant, source(variant, emitted), flags)
 
 
 @once
@@ -183,30 +182,28 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     found, emitted = compiler(), _emitted(variant)
     if found is None or emitted is None:
         return None
-    path, version = found
     text, flags = source(variant, emitted), _flags(variant)
-    library = _place(variant, text, version, flags)
-    if not library.is_file() and not _built(path, flags, text, library):
+    try:
+        library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
+    except (CannotCompile, OSError) as error:
+        _once(f"{found} cannot compile the Taylor kernel ({error}): other engines answer")
         return None
-    loaded = ctypes.CDLL(str(library))
-    loaded.collide.restype = ctypes.c_char_p
-    loaded.collide.argtypes = [ctypes.c_void_p]
-    return loaded
+    library.collide.restype = ctypes.c_char_p
+    library.collide.argtypes = [ctypes.c_void_p]
+    return library
 
 
 def compile_all(variants: Collection[Variant]) -> None:
     """Have the kernels of several variants, compiled side by side where they are not there yet."""
     if len(variants) > 1:
         with ThreadPoolExecutor(usable_cores()) as pool:  # compilers are processes of their own
-            list(pool.map(kernel, variants))
+            try:
+                list(pool.map(kernel, variants))
+            except BaseException:
+                stop()
+                raise
 
 
-def _built(path: str, flags: tuple[str, ...], text: str, library: Path) -> bool:
-    """Compile; safe with several processes."""
-    with tempfile.TemporaryDirectory(prefix="wetdoublet-") as work:
-        written = Path(work) / "kernel.c"
-        written.write_text(text)
-        said = build(path, flags, written, library)
-    if said:
-        sys.stderr.write(f"{path} cannot compile the Taylor kernel ({said}): other engines answer\n")
-    return not said
+@cache
+def _once(line: str) -> None:
+    say(line)

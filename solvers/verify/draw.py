@@ -15,6 +15,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from .. import ticks
+from ..files import save
 from ..scene import Scene
 from ..show import name_of
 from .budget import LOSSES
@@ -55,7 +56,7 @@ def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
         f"{title}: energy of rotation released against losses, and the restitution that they leave", fontsize=11
     )
     if path is not None:
-        figure.savefig(path, dpi=130)
+        save(figure, path, dpi=130)
     return figure
 
 

@@ -14,7 +14,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from wetdoublet.derive.emit.write import GENERATED, check, emitted, generate
+from wetdoublet.derive.emit.write import GENERATED, check, emitted
+from wetdoublet.solvers.files import write_all_in
 
 DERIVE = GENERATED.parent / "derive"
 # as committed, which is as emitted by the first test: nothing is derived to collect these tests
@@ -71,7 +72,7 @@ def test_an_extra_file_is_named(copy: Path):
 
 def test_generate_repairs_and_makes_the_folder(tmp_path: Path):
     """What generate writes into a new folder, check finds nothing wrong with."""
-    written = generate(tmp_path / "new")
+    written = write_all_in(tmp_path / "new", emitted())
     assert check(tmp_path / "new") == []
     assert {path.relative_to(tmp_path / "new").as_posix() for path in written} == TEXTS.keys()
 

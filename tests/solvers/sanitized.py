@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.cores import usable_cores
 from wetdoublet.solvers.numbers import si_values
 from wetdoublet.solvers.taylor.along import carried

@@ -26,7 +26,7 @@ from wetdoublet.solvers.benchmarks.reference import Reference, reference
 from wetdoublet.solvers.benchmarks.tables import equal_error, failures, report
 from wetdoublet.solvers.benchmarks.tasks import TASKS, Impact, Task
 from wetdoublet.solvers.benchmarks.work import work
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 

@@ -231,7 +231,7 @@ def test_scenes():
 def test_generate_and_verify(module, tmp_path):
     """`generate` lists what it wrote, `--check` what differs; `verify` prints its report; both exit 1 on a failure."""
     differences = ["--- generated/a.py", "extra: generated/b.py"]
-    module("wetdoublet.derive.emit.write", generate=lambda out: [out / "a.py"], check=lambda: differences)
+    module("wetdoublet.derive.emit.write", emitted=lambda: {"a.py": "A = 1\n"}, check=lambda: differences)
     out = tmp_path / "new" / "folder"
     result = run("generate", "--out", str(out))
     assert (result.exit_code, result.stdout.split()) == (0, [str(out / "a.py")]) and out.is_dir()

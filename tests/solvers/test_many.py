@@ -1,8 +1,5 @@
 """Many collisions at once: the same as one by one, whatever the engine, the cores and the compiler."""
 
-import os
-import shutil
-import stat
 import subprocess
 import sys
 from functools import partial
@@ -12,7 +9,7 @@ import pytest
 import xarray as xr
 from loky import process_executor
 from wetdoublet.solvers import Scene, collide, collide_many, gradients_many, many
-from wetdoublet.solvers.compiled import build, cache_folder, compiled, compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.numbers import numbers
 
@@ -197,71 +194,6 @@ def test_without_a_compiler(monkeypatch, capfd):
         assert (fast[name] == slow[name]).all()
     for name in EVERYTHING:
         np.testing.assert_allclose(fast[name], slow[name], rtol=1e-9, atol=1e-15)
-
-
-@pytest.mark.skipif(
-    compiler() is None or shutil.which("true") is None, reason="no compiler, or no program that is none"
-)
-@pytest.mark.parametrize("named", ["no-such-compiler", "true"])
-def test_a_compiler_that_is_none(named, tmp_path, monkeypatch, capfd):
-    """CC that is missing is said and another is taken; one that compiles nothing is a failure to compile, no crash."""
-    monkeypatch.setenv("CC", named)
-    compiler.cache_clear()
-    try:
-        found = compiler()
-    finally:
-        compiler.cache_clear()
-    assert found is not None
-    if named == "true":
-        (tmp_path / "empty.c").write_text("")
-        assert build(found[0], (), tmp_path / "empty.c", tmp_path / "out.so") == "no library came of it"
-    else:
-        assert "CC=no-such-compiler is no compiler here" in capfd.readouterr().err
-
-
-@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
-def test_a_compiler_that_is_interrupted(tmp_path, capfd):
-    """A compiler that Ctrl-C ends is an interrupt, not one that cannot compile; nothing is said of it."""
-    killed = tmp_path / "cc"
-    killed.write_text("#!/bin/sh\nkill -INT $$\n")
-    killed.chmod(0o700)
-    with pytest.raises(KeyboardInterrupt):
-        build(str(killed), (), tmp_path / "any.c", tmp_path / "out.so")
-    assert capfd.readouterr().err == ""
-
-
-@pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")
-def test_a_cache_that_others_can_write_to_is_refused(tmp_path, monkeypatch):
-    """Code is never loaded from a folder that others can write to; a private one is made in its place."""
-    shared, private = tmp_path / "shared", tmp_path / "private"
-    shared.mkdir()
-    shared.chmod(0o777)
-    found = {}
-    for folder in (shared, private):
-        monkeypatch.setenv("WETDOUBLET_CACHE", str(folder))
-        cache_folder.cache_clear()
-        try:
-            found[folder] = cache_folder()
-        finally:
-            cache_folder.cache_clear()
-    assert found[private] == private
-    assert found[shared] not in (shared, private)
-    assert not any(stat.S_IMODE(folder.stat().st_mode) & 0o022 for folder in found.values())
-    found[shared].rmdir()
-
-
-def test_the_cache_is_used_again(tmp_path, monkeypatch):
-    """A function is compiled once and then loaded; the library is addressed by its content."""
-    from casadi import SX, Function
-
-    if compiler() is None:
-        pytest.skip("no compiler")
-    monkeypatch.setattr("wetdoublet.solvers.compiled.cache_folder", lambda: tmp_path)
-    x = SX.sym("x")
-    for factor in (2, 2, 3):
-        assert float(compiled(Function("scaled", [x], [factor * x]))(1.5)) == factor * 1.5
-    assert len(list(tmp_path.glob("scaled-*.so"))) == 2
-    assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_a_script_without_a_guard_runs_once(tmp_path):

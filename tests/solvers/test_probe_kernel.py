@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.look import Look
 from wetdoublet.solvers.probe import Line
 

@@ -19,7 +19,7 @@ from wetdoublet.solvers import (
     trajectory_sensitivities,
 )
 from wetdoublet.solvers.benchmarks.derivatives import gradient_table, gradients
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.sensitivity import uncertainty
 from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 

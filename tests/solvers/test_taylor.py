@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_many, many
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.taylor import engine, library
 from wetdoublet.solvers.taylor.record import recorded
 
@@ -157,18 +158,14 @@ def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.Captu
     assert without.restitution.values[0] == few.restitution.values[0]
 
 
-def test_a_kernel_is_compiled_once(tmp_path: Any, monkeypatch: pytest.MonkeyPatch):
+def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """The library is addressed by its content and found again by the next process; nothing else is left behind."""
-    monkeypatch.setattr(library, "cache_folder", lambda: tmp_path)
-    built = []
-    monkeypatch.setattr(library, "_built", lambda *given: built.append(given) or _BUILT(*given))
-    scene = Scene.load("granulation-dry-bridge")
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
+    scene, kept = Scene.load("granulation-dry-bridge"), []
     for _ in range(2):
         library.kernel.cache_clear()
         collide_many(scene, stokes=0.5, angle=0.0, engine="taylor")
+        kept.append([(path.name, path.stat().st_mtime_ns) for path in tmp_path.iterdir()])
     library.kernel.cache_clear()
-    assert len(built) == 1
-    assert [path.suffix for path in tmp_path.iterdir()] == [".so"]
-
-
-_BUILT = library._built
+    assert kept[0] == kept[1]
+    assert [(name.partition("-")[0], Path(name).suffix) for name, _ in kept[0]] == [("taylor", ".so")]

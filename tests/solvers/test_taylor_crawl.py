@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_many
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.taylor import engine
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.taylor import engine, library
 
 HEADER = (library._RUNTIME / "damped.h").read_text()

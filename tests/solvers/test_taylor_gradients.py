@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
 from wetdoublet.solvers.cli import cli
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.numbers import si_values
 from wetdoublet.solvers.sensitivity import many
 from wetdoublet.solvers.sensitivity.choice import chosen
@@ -259,7 +259,7 @@ def test_the_engine_that_is_chosen(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     assert sensitivities(scene, OF, **asked, method="adjoint").engine == "rosenbrock"
     assert sensitivities(scene, **asked, hessian={"liquid.viscosity": 1.0}).engine == "rosenbrock"
     assert chosen(scene, (*OF, "energy.capillary"), (True,), 1e-9, 1000) == "rosenbrock"
-    monkeypatch.setattr(library, "cache_folder", lambda: tmp_path)
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     assert chosen(scene, OF, (True,), 1e-9, 100) == "rosenbrock"
     assert chosen(scene, OF, (True,), 1e-9, 101) == "taylor"
     plain = gradients_many(scene, **asked, of=OF)

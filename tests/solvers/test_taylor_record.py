@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Collision, Scene, collide
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.model import choose
 from wetdoublet.solvers.taylor import engine, headers, layout, library, record
 
@@ -220,7 +220,7 @@ def test_who_does_not_ask_does_not_pay(reduced: bool):
     found = compiler()
     assert paths is not None
     assert found is not None
-    command = [found[0], "-E", "-P", "-x", "c", "-"]
+    command = [*found.command, "-E", "-P", "-x", "c", "-"]
     seen = subprocess.run(
         command, input=library.source(variant, paths), capture_output=True, text=True, check=True
     ).stdout

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.taylor import library
 
 RUNTIME = Path(library.__file__).with_name("runtime")
@@ -70,7 +70,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     text = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
     text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "whole.h", "roots.h"))
     (folder / "runtime.c").write_text(text + HARNESS)
-    command = [found[0], *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
+    command = [*found.command, *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     loaded = ctypes.CDLL(str(folder / "runtime.so"))
     loaded.first.restype = ctypes.c_double

@@ -125,23 +125,3 @@ def test_junk_is_an_input_error(text):
         assert math.isfinite(read(text))
     except InputError as error:
         assert len(str(error).splitlines()) == 1
-
-
-def test_registry_without_a_cache(monkeypatch):
-    """Where pint's cache cannot be written, units are read all the same."""
-    import pint
-    from wetdoublet.solvers import units
-
-    plain = pint.UnitRegistry
-
-    def refuse(cache_folder=None):
-        if cache_folder:
-            raise PermissionError(cache_folder)
-        return plain()
-
-    monkeypatch.setattr(pint, "UnitRegistry", refuse)
-    units._registry.cache_clear()
-    try:
-        assert read("1 inch") == pytest.approx(0.0254)
-    finally:
-        units._registry.cache_clear()

@@ -26,7 +26,7 @@ import numpy as np
 import xarray as xr
 from wetdoublet import solvers
 from wetdoublet.solvers import Scene, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
-from wetdoublet.solvers.compiled import compiler
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.phases import Flow, Region

@@ -1,0 +1,91 @@
+"""Files that a user asks for: written whole or not at all, and every byte checked.
+
+What is to be written is made in memory and put down beside its place, then moved there: a full disk costs the new file,
+never the old one, and no library has the last word on what the system has not taken.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def write(path: str | Path, content: bytes | memoryview | str) -> None:
+    """Write a file; text as UTF-8.
+
+    Raises:
+        OSError: it cannot be written; `filename` is the path, and what was there is there still.
+    """
+    target = Path(os.path.realpath(path))  # a link stays one
+    data = content.encode() if isinstance(content, str) else content
+    try:
+        if _replaceable(target):
+            _replace(target, data)
+        else:
+            _fill(os.open(target, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666), data)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from error
+
+
+def write_all_in(folder: Path, files: Mapping[str, str]) -> list[Path]:
+    """Write texts by relative path below a folder, which is made; returns the files. OSError as `write` raises it."""
+    written = []
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write(path, text)
+        written.append(path)
+    return written
+
+
+def save(figure: Figure, path: str | Path, dpi: int) -> None:
+    """Write a picture, of the kind that its name ends in. OSError as `write` raises it."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=dpi, format=Path(path).suffix.lstrip(".").lower() or None)
+    write(path, drawn.getbuffer())
+
+
+def write_all(descriptor: int, data: bytes | memoryview) -> None:
+    """Write everything. OSError if the system does not take it."""
+    left = memoryview(data)
+    while left:
+        left = left[os.write(descriptor, left) :]
+
+
+def _replaceable(target: Path) -> bool:
+    """Whether a new file may take the place: nothing is there, or a plain file in a folder that takes files."""
+    try:
+        found = target.lstat()
+    except FileNotFoundError:
+        return True
+    return stat.S_ISREG(found.st_mode) and found.st_nlink == 1 and os.access(target.parent, os.W_OK)
+
+
+def _replace(target: Path, data: bytes | memoryview) -> None:
+    beside = target.with_name(f".{target.name[:100]}.{os.getpid()}.{os.urandom(4).hex()}.writing")
+    try:
+        descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+        with suppress(OSError, AttributeError):
+            os.fchmod(descriptor, stat.S_IMODE(target.stat().st_mode))
+        _fill(descriptor, data)
+        beside.replace(target)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _fill(descriptor: int, data: bytes | memoryview) -> None:
+    try:
+        write_all(descriptor, data)
+    except BaseException:
+        with suppress(OSError):
+            os.close(descriptor)
+        raise
+    os.close(descriptor)  # which may be when the system says that it has no room

@@ -1,0 +1,104 @@
+"""Names that live while their process does: files and folders being made, which anyone may sweep once it is gone.
+
+Whoever makes one holds a lock on it, which the system lets go when the process ends, however it ends. What can be
+locked by another is therefore left over. Where there are no such locks nothing is swept.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # not POSIX
+    fcntl = None  # type: ignore[assignment]
+
+_TRIES = 5
+
+
+@contextmanager
+def held_file(folder: Path, prefix: str) -> Iterator[tuple[int, Path]]:
+    """A new file in a folder, open for writing, for this user alone; removed at the end unless it has been renamed.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    for _ in range(_TRIES):
+        descriptor, name = tempfile.mkstemp(prefix=prefix, dir=folder)
+        path = Path(name)
+        try:
+            if _hold(descriptor, path):
+                yield descriptor, path
+                return
+        finally:
+            os.close(descriptor)
+            path.unlink(missing_ok=True)
+    raise OSError(f"{folder}: what is made there is removed at once")
+
+
+@contextmanager
+def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
+    """A new folder in a folder, for this user alone; removed at the end with what is in it.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    for _ in range(_TRIES):
+        path = Path(tempfile.mkdtemp(prefix=prefix, dir=folder))
+        try:
+            descriptor = os.open(path, os.O_RDONLY) if fcntl is not None else -1
+            try:
+                if descriptor < 0 or _hold(descriptor, path):
+                    yield path
+                    return
+            finally:
+                if descriptor >= 0:
+                    os.close(descriptor)
+        finally:
+            shutil.rmtree(path, ignore_errors=True)
+    raise OSError(f"{folder}: what is made there is removed at once")
+
+
+def _hold(descriptor: int, path: Path) -> bool:
+    """Lock it; False if somebody has swept it before that."""
+    if fcntl is None:
+        return True
+    with contextlib.suppress(OSError):  # a file system without locks
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+    try:
+        return os.path.samestat(os.fstat(descriptor), path.lstat())
+    except FileNotFoundError:
+        return False
+
+
+def sweep(folder: Path, prefix: str) -> None:
+    """Remove this user's files and folders of that prefix whose makers are gone."""
+    if fcntl is None:
+        return
+    with contextlib.suppress(OSError):
+        for path in folder.glob(f"{prefix}*"):
+            _sweep(path)
+
+
+def _sweep(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        found = path.lstat()
+        kind = stat.S_IFMT(found.st_mode)
+        if found.st_uid != os.getuid() or kind not in (stat.S_IFREG, stat.S_IFDIR):
+            return
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if kind == stat.S_IFDIR:
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
+        finally:
+            os.close(descriptor)

@@ -1,0 +1,200 @@
+"""Compilers: which are accepted, how long they may take, and what happens where none does its work."""
+
+from __future__ import annotations
+
+import os
+import select
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide_many
+from wetdoublet.solvers.compilers import CannotCompile, compiler, library
+from wetdoublet.solvers.integrators import locator
+from wetdoublet.solvers.taylor.library import kernel
+
+REAL = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang") or ""
+pytestmark = pytest.mark.skipif(os.name != "posix" or compiler() is None or not REAL, reason="no compiler, or no sh")
+FLAGS = ("-shared", "-fPIC")
+# What a script does beside calling the real compiler. The trial's own source is the one with a main.
+ON_MORE = "[ -z $source ] || grep -q main $source ||"
+
+
+def script(path: Path, does: str) -> Path:
+    """A compiler that does something first; `$source` is the file that it is to compile."""
+    path.parent.mkdir(exist_ok=True)
+    find = 'for word in "$@"; do case "$word" in *source.c) source=$word;; esac; done'
+    path.write_text(f'#!/bin/sh\n{find}\n{does}\nexec {REAL} "$@"\n')
+    path.chmod(0o700)
+    return path
+
+
+@pytest.fixture
+def anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[pytest.MonkeyPatch]:
+    """Compilers are looked for again, with a cache of the test's own; no trace is left for other tests."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("WETDOUBLET_NO_COMPILER", "")  # so that it is restored
+    monkeypatch.delenv("WETDOUBLET_NO_COMPILER")
+    compiler.cache_clear()
+    yield monkeypatch
+    compiler.cache_clear()
+
+
+@pytest.mark.parametrize(
+    ("named", "does", "command"),
+    [
+        ("my compilers/cc", "", ("{path}",)),
+        ("'{path}' -g", "", ("{path}", "-g")),
+        ("env LANG=C '{path}'", "", ("{env}", "LANG=C", "{path}")),
+        ("cc", r"printf 'pr\351sent\n' >&2; [ $1 != --version ] || { printf 'version \351\n'; exit; }", ("{path}",)),
+    ],
+    ids=["a path with spaces", "with options", "behind another", "not UTF-8"],
+)
+def test_a_compiler_of_ones_own(
+    named: str, does: str, command: tuple[str, ...], tmp_path: Path, anew: pytest.MonkeyPatch
+):
+    """CC is a path, or words as a shell reads them; what it says need not be UTF-8."""
+    path = script(tmp_path / "my compilers" / "cc", does)
+    anew.chdir(tmp_path)
+    anew.setenv("CC", named.format(path=path) if "{" in named else str(path))
+    found = compiler()
+    assert found is not None
+    assert found.command == tuple(word.format(path=path, env=shutil.which("env")) for word in command)
+    assert library("int one = 1;", FLAGS).startswith(b"\x7fELF" if sys.platform.startswith("linux") else b"")
+
+
+@pytest.mark.parametrize(
+    ("does", "wrong"),
+    [
+        (None, "there is no such program"),
+        ("exit 0", "it does not say its version"),
+        ("[ $1 = --version ] || exit 0", "nothing came of it"),
+        ("[ $1 = --version ] || { echo error: no licence >&2; exit 1; }", "error: no licence"),
+        ("grep -q main $source 2>/dev/null && sed -i s/42/41/ $source", "what it compiles does not run"),
+        ("sleep 600", "it has not ended after 0.2 s"),
+        ("[ $1 = --version ] || { sleep 600 & wait; }", "it has not ended after 0.2 s"),
+    ],
+    ids=["missing", "silent", "compiles nothing", "fails", "for another machine", "hangs", "hangs when it compiles"],
+)
+def test_what_is_no_compiler(
+    does: str | None, wrong: str, tmp_path: Path, anew: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+):
+    """A compiler is accepted only once it has compiled a program that runs; one line names what it does not do."""
+    path = tmp_path / "cc"
+    if does is not None:
+        script(path, does)
+    (tmp_path / "bin").mkdir()
+    for tool in ("sh", "grep", "sed", "sleep", "as", "ld"):
+        (tmp_path / "bin" / tool).symlink_to(shutil.which(tool) or "")
+    anew.setenv("CC", str(path))
+    anew.setenv("PATH", str(tmp_path / "bin"))
+    if "0.2 s" in wrong:
+        anew.setenv("WETDOUBLET_COMPILE_SECONDS", "0.2")
+    assert compiler() is None  # no other is on the path
+    said = capfd.readouterr().err.splitlines()
+    assert said[0] == f"CC={path} is no compiler here ({wrong}): another is looked for"
+    assert (len(said), said[1].partition(":")[0]) == (2, "no C compiler (cc, gcc, clang)")
+
+
+def test_a_trial_is_kept(tmp_path: Path, anew: pytest.MonkeyPatch):
+    """A compiler that has been tried is not tried again, unless it is another."""
+    log = tmp_path / "log"
+    path = script(tmp_path / "cc", f"[ -z $source ] || echo tried >> {log}")
+    anew.setenv("CC", str(path))
+    for _ in range(2):
+        compiler.cache_clear()
+        assert compiler() is not None
+    assert log.read_text().splitlines() == ["tried"]
+    script(path, f": another; [ -z $source ] || echo tried >> {log}")
+    compiler.cache_clear()
+    assert compiler() is not None
+    assert log.read_text().splitlines() == ["tried"] * 2
+
+
+def test_the_limit_is_a_time(anew: pytest.MonkeyPatch):
+    """A limit that is none names its setting."""
+    for text in ("soon", "0", "-1", "nan"):
+        anew.setenv("WETDOUBLET_COMPILE_SECONDS", text)
+        with pytest.raises(InputError, match=f'WETDOUBLET_COMPILE_SECONDS: "{text}" is no time; accepted: .* above 0'):
+            compiler()
+
+
+def test_a_compiler_that_is_interrupted(tmp_path: Path, anew: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]):
+    """A compiler that Ctrl-C ends is an interrupt, not one that cannot compile; nothing is said of it."""
+    anew.setenv("CC", str(script(tmp_path / "cc", f"{ON_MORE} kill -INT $$")))
+    with pytest.raises(KeyboardInterrupt):
+        library("int one = 1;", FLAGS)
+    assert capfd.readouterr().err == ""
+
+
+def test_what_cannot_be_compiled(anew: pytest.MonkeyPatch):
+    """The first error that the compiler names is the reason."""
+    with pytest.raises(CannotCompile, match="error"):
+        library("int one = ;", FLAGS)
+
+
+@contextmanager
+def alive(path: Path) -> Iterator[Callable[[], bool]]:
+    """Whether anything still holds a pipe that it has said a word into; the first call waits for the word."""
+    os.mkfifo(path)
+    with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK), "rb", buffering=0) as pipe:
+
+        def asked() -> bool:
+            ready, _, _ = select.select([pipe], [], [], 60)
+            return not ready or bool(pipe.read(64))
+
+        yield asked
+
+
+def hanging(path: Path, pipe: Path) -> Path:
+    """A compiler that hangs, with a process that it has started, except on the trial."""
+    return script(path, f"{ON_MORE} {{ exec 9> {pipe}; echo >&9; sleep 600 & wait; }}")
+
+
+def test_a_compiler_that_hangs(tmp_path: Path, anew: pytest.MonkeyPatch):
+    """It is ended with all that it has started, and not asked again."""
+    with alive(tmp_path / "pipe") as compiling:
+        anew.setenv("CC", str(hanging(tmp_path / "cc", tmp_path / "pipe")))
+        assert compiler() is not None
+        anew.setenv("WETDOUBLET_COMPILE_SECONDS", "0.5")
+        with pytest.raises(CannotCompile, match=r"it has not ended after 0.5 s \(WETDOUBLET_COMPILE_SECONDS\)"):
+            library("int one = 1;", FLAGS)
+        assert compiler() is None
+        assert not (compiling() and compiling())  # a word, if it came so far, and the end
+
+
+def test_an_interrupt_while_it_compiles(tmp_path: Path, anew: pytest.MonkeyPatch):
+    """Ctrl-C ends the command and its compilers, however long they would have taken."""
+    command = [sys.executable, "-m", "wetdoublet.solvers", "map", "granulation", "--stokes", "0.01:0.5:11", "--angle"]
+    with alive(tmp_path / "pipe") as compiling:
+        anew.setenv("CC", str(hanging(tmp_path / "cc", tmp_path / "pipe")))
+        with subprocess.Popen([*command, "0:80:10"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+            assert compiling()
+            running.send_signal(signal.SIGINT)
+            out, said = running.communicate(timeout=60)
+        assert (running.returncode, out, said) == (130, b"", b"interrupted\n")
+        while compiling():  # words of others
+            pass
+
+
+def test_a_compiler_that_fails(tmp_path: Path, anew: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]):
+    """The interpreted engines answer, and a line for each says why."""
+    scene, impact = Scene.load("granulation-dry-bridge"), {"stokes": 0.5, "angle": 0.3}
+    expected = collide_many(scene, **impact, engine="rosenbrock")
+    path = script(tmp_path / "cc", f"{ON_MORE} {{ echo error: no licence >&2; exit 1; }}")
+    anew.setenv("CC", str(path))
+    kernel.cache_clear()
+    locator.cache_clear()
+    try:
+        found = collide_many(scene, **impact, engine="taylor")
+    finally:
+        kernel.cache_clear()
+        locator.cache_clear()
+    assert found.restitution.values == expected.restitution.values
+    (said,) = capfd.readouterr().err.splitlines()
+    assert said == f"{path} cannot compile the Taylor kernel (error: no licence): other engines answer"
