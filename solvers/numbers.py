@@ -100,6 +100,17 @@ def _as_given(scene: Scene, speed: float, stokes: float) -> float:
 
 
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
+# Ranges of groups and scales, for products and quotients of several to stay within a double's; lower ends for those
+# that others are divided by.
+_RANGES = (
+    dict.fromkeys(("adhesion", "weight", "obliquity"), (0.0, 1e100))
+    | dict.fromkeys(("stokes", "aspect", "capillary", "string_ratio", "rupture_gap"), (1e-100, 1e100))
+    | dict.fromkeys(("time", "energy"), (1e-300, 1e300))
+)
+_SCALES: dict[str, Formula] = {
+    "time": (lambda film_thickness, speed: film_thickness / speed, ("film_thickness", "speed")),
+    "energy": (lambda mass, speed: mass * speed * speed, ("reduced_mass", "speed")),
+}
 _VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "generalised_centrifugal")
 
 
@@ -144,18 +155,21 @@ def law_module(scene: Scene, slot: str, name: str) -> Any:
 
 
 def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
-    """A group by its emitted formula; InputError where it leaves the range of a double."""
+    """A group or scale by its formula; InputError where it leaves the range that can be computed with."""
     function, arguments = formula
     given = [values[argument] for argument in arguments]
     try:
         value = float(function(*given))
     except (OverflowError, ZeroDivisionError):
         value = math.inf
-    if math.isfinite(value):
+    least, most = _RANGES.get(name, (0.0, math.inf))
+    if least <= abs(value) <= most and math.isfinite(value):
         return value
     entry = "impact.speed" if "speed" in arguments else arguments[0]
     shown = dict(zip(arguments, given, strict=True)).get("speed", given[0])
-    raise InputError(entry, shown, f"quantities whose {name} number is within a double's range", "is too far off")
+    kind = "scale" if name in _SCALES else "number"
+    span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
+    raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
 
 
 def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
@@ -174,14 +188,15 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
         if all(argument in values for argument in formula[1]):
             groups[name] = _finite(name, formula, values)
     x0 = scene.liquid.film_thickness
+    scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
     return Numbers(
         groups=groups,
         angle=angle,
         speed=speed,
         length=x0,
-        time=x0 / speed,
+        time=scales["time"],
         rate=groups["initial_rate"],
-        energy=scene.reduced_mass * speed**2,
+        energy=scales["energy"],
         stokes=_as_given(scene, speed, groups["stokes"]),
         centrifugal=groups.get("centrifugal"),
         capillary=groups.get("capillary"),

@@ -232,8 +232,9 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
             scene = grid.scene.with_entries(entries) if entries else grid.scene
         except InputError:  # its collisions are marked as failed
             continue
-        speeds = grid.values if grid.impact == "speed" else grid.values / scene.stokes_per_speed
-        converted[(slice(None), *index)] = speeds if other == "speed" else speeds * scene.stokes_per_speed
+        with np.errstate(all="ignore"):  # collisions out of range are marked as failed
+            speeds = grid.values if grid.impact == "speed" else grid.values / scene.stokes_per_speed
+            converted[(slice(None), *index)] = speeds if other == "speed" else speeds * scene.stokes_per_speed
         if scene.bridge is not None:
             centrifugal[(slice(None), slice(None), *index)] = _centrifugal(scene, speeds, grid.angle)
     coordinates[other] = (grid.dims[1:], converted, labels[other])
@@ -249,10 +250,14 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
 def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> list[list[float]]:
     known = si_values(scene, None, None)
     fixed = {name: known[name] for name in scaling.ARGUMENTS["centrifugal"] if name in known}
-    return [
-        [float(scaling.centrifugal(**fixed, speed=speed, angle=angle)) for speed in speeds.tolist()]
-        for angle in angles.tolist()
-    ]
+
+    def one(speed: float, angle: float) -> float:
+        try:
+            return float(scaling.centrifugal(**fixed, speed=speed, angle=angle))
+        except (OverflowError, ZeroDivisionError):
+            return math.inf
+
+    return [[one(speed, angle) for speed in speeds.tolist()] for angle in angles.tolist()]
 
 
 def scene_of(data: xarray.Dataset) -> Scene:

@@ -22,6 +22,7 @@ CRITERIA = {
     "rough": "reversed by contact of the surfaces' roughness",
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+_MANY = 40  # events: more are rebound after rebound
 _LABEL = 24  # columns of the names on the left
 _FIRST, _LAST = 9, 3  # events shown of a flight that has more
 _SCALE = 100.0  # a ledger whose terms exceed the initial energy by more than this is not given in percent of it
@@ -94,6 +95,8 @@ def _stuck(collision: Collision) -> str:
     if last in CUT_OFFS:
         return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
     when = "" if collision.until else " at first touch"
+    if not collision.certified and len(collision.events) > _MANY and last == "fell back":
+        return "decided, not proved: rebound after rebound, none higher than the one before"
     if not collision.certified:
         return f"decided{when}, not proved: energy below the barrier"
     if scene.bridge is None and scene.pendulum is None and scene.attraction is None:

@@ -32,6 +32,8 @@ _RENAMED = {
     "mass": "reduced_mass",
     "length": "string_length",
 }
+_MOST = 1e30  # magnitude of an SI quantity, and its inverse the least
+_NEVER = ("glass_transition_pressure", "youngs_modulus")  # so large that a criterion is never met
 _NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall judge
 
 
@@ -65,14 +67,26 @@ def collided(
 def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:
     """The impacts of a request in SI, and which collisions they are: the others are bad input, or may be."""
     scene = request.scene
-    if not request.vary:
-        speed = request.speed if request.speed is not None else np.asarray(request.stokes) / scene.stokes_per_speed
-        return Impacts(scene, speed, request.angle, {}), np.ones(request.size, bool)
-    values, sound = _quickly(request) if _plain(request) else _one_by_one(request)
-    unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
-    speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
+    values: dict[str, np.ndarray] = {}
+    with np.errstate(all="ignore"):  # what leaves a double's range is not usual
+        if request.vary:
+            values, sound = _quickly(request) if _plain(request) else _one_by_one(request)
+            unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+        else:
+            sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
+        speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
+        for name, column in (values or si_values(scene, None, None)).items():
+            sound &= _usual(column, name)
+        sound &= _usual(speed)
     impacts = Impacts(scene, speed, request.angle, values)
-    return impacts.part(np.flatnonzero(sound)), sound
+    return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
+
+
+def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
+    """Where an SI quantity is of a magnitude with which nothing leaves a double's range; else `numbers` shall judge."""
+    size = np.abs(values)
+    most = 1e200 if name in _NEVER else _MOST
+    return (size == 0) | ((size >= 1 / _MOST) & (size <= most))
 
 
 def _plain(request: Request) -> bool:
