@@ -274,3 +274,25 @@ def test_what_a_kill_leaves_is_swept(shelf: Path):
         for process in running:
             process.kill()
             process.communicate()
+
+
+_SWEEPING = """
+import sys
+from pathlib import Path
+from wetdoublet.solvers.locks import held_file, held_folder, sweep
+
+place = Path(sys.argv[1])
+for _ in range(300):
+    with held_folder(place, ".making-") as folder, held_file(place, ".making-") as (_, file):
+        (folder / "object").touch()
+        sweep(place, ".making-")
+        assert (folder / "object").exists() and file.exists()
+"""
+
+
+@posix
+def test_what_is_alive_is_not_swept(tmp_path: Path):
+    """Two processes that make and sweep without end, each while the other is at it, never take what is in use."""
+    running = [subprocess.Popen([sys.executable, "-c", _SWEEPING, str(tmp_path)]) for _ in range(2)]
+    assert [process.wait(60) for process in running] == [0, 0]
+    assert not list(tmp_path.iterdir())
