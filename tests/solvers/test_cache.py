@@ -282,7 +282,7 @@ from pathlib import Path
 from wetdoublet.solvers.locks import held_file, held_folder, sweep
 
 place = Path(sys.argv[1])
-for _ in range(300):
+for _ in range(100):
     with held_folder(place, ".making-") as folder, held_file(place, ".making-") as (_, file):
         (folder / "object").touch()
         sweep(place, ".making-")
