@@ -52,18 +52,26 @@ def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
     """
     for _ in range(_TRIES):
         path = Path(tempfile.mkdtemp(prefix=prefix, dir=folder))
+        descriptor = _opened(path)
         try:
-            descriptor = os.open(path, os.O_RDONLY) if fcntl is not None else -1
-            try:
-                if descriptor < 0 or _hold(descriptor, path):
-                    yield path
-                    return
-            finally:
-                if descriptor >= 0:
-                    os.close(descriptor)
+            if fcntl is None or (descriptor is not None and _hold(descriptor, path)):
+                yield path
+                return
         finally:
+            if descriptor is not None:
+                os.close(descriptor)
             shutil.rmtree(path, ignore_errors=True)
     raise OSError(f"{folder}: what is made there is removed at once")
+
+
+def _opened(folder: Path) -> int | None:
+    """Descriptor of a folder; None where folders have none, or if somebody has swept it."""
+    if fcntl is None:
+        return None
+    try:
+        return os.open(folder, os.O_RDONLY)
+    except FileNotFoundError:
+        return None
 
 
 def _hold(descriptor: int, path: Path) -> bool:

@@ -64,7 +64,6 @@ COMMANDS = {
     "out.txt": ["collide", "granulation", "-o"],
     "out.json": ["collide", "granulation", "--json", "-o"],
     "flight.png": ["collide", "granulation", "--plot"],
-    "map.pdf": [*MAP, "--plot"],
     "code": ["export", "granulation", "--to", "c", "--out"],
 }
 
