@@ -127,7 +127,6 @@ def test_what_varies():
 
 def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.MonkeyPatch):
     """A lane without budget leaves its collision to Rosenbrock: the same answer, and `collide` says whose it is."""
-    monkeypatch.setattr(engine, "BUDGET", 5)
     impossible = recorded(_one("granulation", 0.02, 1.3), True, 1e-9, ledger=True, budget=5)
     assert impossible is not None
     assert impossible.answers["status"].tolist() == [2]
