@@ -18,7 +18,7 @@ from .cache import settle
 from .changes import MERGED, Change, changes_between
 from .cores import usable_cores
 from .errors import ComputationError, InputError
-from .look import Look
+from .look import Look, blank
 from .probe import Line
 from .remarks import hush
 from .requests import checked_numbers
@@ -34,7 +34,7 @@ _WORTH, _WORTH_BY_KERNEL = 4, 100  # angles that are worth starting a process fo
 _TOGETHER = 16  # lines that are sampled together
 _FINER, _SHARPER = 2, 1e-2  # a line that fails once: more samples, and a tolerance that is so much smaller
 _HOLE = 4.5  # spacings of the first grid over which collisions may be missing
-_SLOW = 8  # collisions that Rosenbrock is asked for where more are missing
+_SLOW = 8  # collisions that are asked for again where more are missing
 
 
 @dataclass(frozen=True)
@@ -219,7 +219,7 @@ def _block(
 
 
 def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) -> np.ndarray:
-    """Samples that leave no wide hole: where the kernel handed over many in a row Rosenbrock is asked for some.
+    """Samples that leave no wide hole: where many in a row were handed over some are asked for with more patience.
 
     Raises:
         ComputationError: that fails too.
@@ -236,7 +236,9 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
             np.linspace(low, high, min(_SLOW, math.ceil((high - low) / spacing)) + 2)[1:-1] for low, high in holes
         ]
         fresh = np.exp(np.concatenate(inside))
-        samples = merged(samples, look.by_rosenbrock(np.full(fresh.size, angle), fresh))
+        found = blank(fresh)
+        found["outcome"] = look.outcomes(np.full(fresh.size, angle), fresh)
+        samples = merged(samples, found)
         spacing = max(spacing, *((high - low) / _SLOW for low, high in holes))
     low, high = np.exp(holes[0])
     raise ComputationError(

@@ -183,7 +183,7 @@ def _by_outcomes(
     open_, closed = [(low, high, before, after)], []
     while open_:
         grids = [np.geomspace(first, last, _PARTS + 1)[1:-1] for first, last, _, _ in open_]
-        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids), most=1)
+        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids))
         parts = np.split(seen, np.cumsum([len(grid) for grid in grids])[:-1])
         narrower = []
         for (first, last, one, other), grid, own in zip(open_, grids, parts):

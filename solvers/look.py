@@ -13,6 +13,7 @@ from .model import choose, load
 from .numbers import numbers, si_values
 from .samples import OUTCOMES, SAMPLE
 from .scene import Scene
+from .settings import STEPS
 from .taylor import probe as by_kernel
 from .taylor.engine import RIGID
 from .taylor.library import knows
@@ -61,29 +62,42 @@ class Look:
             self._by_rosenbrock(found[k : k + 1], float(angle[k]))
         return found
 
-    def outcomes(self, angle: np.ndarray, stokes: np.ndarray, most: int = 4) -> np.ndarray:
-        """Outcomes alone (indices of OUTCOMES, -1 for none).
+    def outcomes(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        """Outcomes alone (indices of OUTCOMES, -1 for none, with its reason), by all steps that a collision may cost.
 
-        Arguments:
-            most: collisions that Rosenbrock is asked for where the kernel hands them over.
+        What the kernel has spent them on is given up; what it hands over otherwise goes to Rosenbrock.
         """
-        found = self._whole(angle, stokes) if self.kernel else None
-        if found is None:
+        told = self._told(angle, stokes, STEPS) if self.kernel else None
+        if told is None:
             return self.by_rosenbrock(angle, stokes)["outcome"]
-        for k in np.flatnonzero(found["outcome"] < 0)[:most].tolist():
-            self._by_rosenbrock(found[k : k + 1], float(angle[k]))
-        return found["outcome"]
+        for k in np.flatnonzero(told["spent"]).tolist():
+            self._give_up(float(angle[k]), float(stokes[k]), told[k])
+        for k in np.flatnonzero((told["outcome"] < 0) & ~told["spent"]).tolist():
+            told["outcome"][k] = self.by_rosenbrock(angle[k : k + 1], stokes[k : k + 1])["outcome"][0]
+        return told["outcome"]
+
+    def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
+        n = numbers(self.scene, self.scene.speed_of(stokes), angle)
+        self.reasons[angle, stokes] = (
+            f"{STEPS} steps do not decide the outcome: {told['events']} events by t = {told['time'] * n.time:.6g} s, "
+            f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
+        )
 
     def reason(self, angle: float) -> str:
         """Why a collision at an angle could not be computed."""
         return next((text for (at, _), text in self.reasons.items() if at == angle), "no collision could be computed")
 
+    def _told(self, angle: np.ndarray, stokes: np.ndarray, budget: int) -> np.ndarray | None:
+        told = by_kernel.looked(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
+        if told is not None:
+            self.collisions += int(np.count_nonzero(~told["at_touch"]))
+        return told
+
     def _whole(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
         speed = stokes / self.scene.stokes_per_speed
-        told = by_kernel.looked(self.scene, speed, angle, self.rtol)
+        told = self._told(angle, stokes, by_kernel.LOOK_BUDGET)
         if told is None:
             return None
-        self.collisions += int(np.count_nonzero(~told["at_touch"]))
         found = blank(stokes)
         for name in ("outcome", "reversal", "events", "restitution", "time"):
             found[name] = told[name]

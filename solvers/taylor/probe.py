@@ -16,9 +16,9 @@ from .engine import Impacts
 from .one import FELL_BACK, TURNED
 from .record import Purpose, Recorded, Steps, recorded
 
-NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/queue.h)
+NO_BUDGET, CHATTER = 2, 4  # statuses of a flight that has spent its steps (runtime/queue.h)
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
-_LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
+LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
 _FINER = 12  # parts of the surroundings of a maximum, again and again
 _ZOOMS = 4
@@ -27,6 +27,7 @@ _ZOOMS = 4
 LOOK = np.dtype(
     [
         ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 handed over
+        ("spent", "?"),  # handed over because its steps were spent
         ("reversal", "i1"),  # the first criterion met, in the order glass, elastic, rough; -1 for none
         ("at_touch", "?"),  # decided at initial contact
         ("events", "i4"),  # how many
@@ -65,7 +66,7 @@ def looked(
     rtol: float,
     purpose: Purpose = Purpose.WHOLE,
     solids: Mapping[str, np.ndarray] | None = None,
-    budget: int = _LOOK_BUDGET,
+    budget: int = LOOK_BUDGET,
 ) -> np.ndarray | None:
     """An array of LOOK: collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
 
@@ -80,13 +81,15 @@ def looked(
         others = {name: values[which] for name, values in (solids or {}).items()}
         impacts = Impacts(scene, speed[which], angle[which], others)
         told = recorded(
-            impacts, oblique, rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False, peaks=True
-        )
+            impacts, oblique, rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
+            peaks=True, events=False,
+        )  # fmt: skip
         if told is None or told.peaks is None:
             return None
         answers = told.answers
         part = np.zeros(which.size, LOOK)
         part["outcome"] = np.where(answers["status"] <= 1, answers["outcome"], -1)
+        part["spent"] = np.isin(answers["status"], (NO_BUDGET, CHATTER))
         part["at_touch"] = answers["time"] == 0
         part["restitution"] = answers["shown"][:, 0]
         part["glass"] = told.peaks

@@ -83,6 +83,7 @@ def recorded(
     keep: bool = True,
     fold: bool = True,
     peaks: bool = False,
+    events: bool = True,
     room: tuple[int, int] = _ROOM,
 ) -> Recorded | None:
     """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
@@ -93,6 +94,7 @@ def recorded(
         purpose: other than WHOLE only with a trajectory.
         fold: a partner that equals the sphere is treated as such.
         keep: the steps; else the same kernel flies without writing them down.
+        events: also what happened when; else answers only count it.
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are flown again.
     """
@@ -104,21 +106,22 @@ def recorded(
         return None
     size, keep = impacts.angle.size, keep and trajectory
     margins = np.full(size, -np.inf) if peaks else None
-    log_room, step_room = room[0], room[1] * size
+    log_room, step_room = room[0] * events, room[1] * size
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, LEDGER)
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel fills those that it counts
         asked = task(library, impacts, rtol, budget, answers)
         asked.number("purpose", purpose)
-        asked.buffer("log", log)
+        if events:
+            asked.buffer("log", log)
         asked.buffer("books", books)
         if rows is not None:
             asked.buffer("rows", rows)
         if margins is not None:
             asked.buffer("peaks", margins)
         steps, most = asked.run(), int(answers["events"].max())
-        if most <= log_room and (rows is None or steps <= rows.size):
+        if (most <= log_room or not events) and (rows is None or steps <= rows.size):
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
     turned = number(library, "row_turned") if trajectory else -1

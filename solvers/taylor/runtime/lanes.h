@@ -188,7 +188,7 @@ static void fly(queue *q)
         l.steps += 1;
         l.crept = (l.crept + 1) & creeps;
         l.stride = h;
-        mask spent = l.alive & (lost | (l.steps > q->budget) | (l.phases > MOST_PHASES));
+        mask spent = l.alive & (lost | (l.steps > q->budget));
         unsigned slow_ones = bits(l.alive & ~falls & ~spent & (l.crept > PATIENCE));
 #if BACKWARD
         spent |= only_if_full(q, l.alive);
@@ -203,7 +203,7 @@ static void fly(queue *q)
             park(q, &l, &f, __builtin_ctz(slow_ones));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
             int lane = __builtin_ctz(failed);
-            int status = lost[lane] ? NOT_FINITE : l.steps[lane] > q->budget ? NO_BUDGET : CHATTER;
+            int status = lost[lane] ? NOT_FINITE : l.phases[lane] > MANY_PHASES ? CHATTER : NO_BUDGET;
             finish(q, &l, &f, lane, status, STICK, 0);
         }
     }

@@ -2,8 +2,8 @@
 
 enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
 enum { STICK, SEPARATES, BOUNCES };
-enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE };
-enum { MOST_PHASES = 400, SHOWN = 8 };
+enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE }; /* CHATTER: no budget, after many phases */
+enum { MANY_PHASES = 400, SHOWN = 8 };
 static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
