@@ -57,14 +57,31 @@ class OrbitalProof:
         if not self._drifts and self.beside.decided(y, phase):
             self.theorem = self.beside.theorem
             return True
-        self.theorem = not (self._drifts or self.model.strings)
+        self.theorem = self.proves
         if self.model.strings:
             return self._cycles.count(y, phase, slice(1)) > CYCLES and self.holds(y)
         turned_back = phase.resting or (phase.motion == CLOSING and y[1] > -STILL)
         return bool((turned_back or self._drifts) and self.holds(y))
 
-    def holds(self, y: np.ndarray) -> bool:
-        """Whether the margin is below zero at some gap ahead by more than its error."""
+    @property
+    def proves(self) -> bool:
+        """Whether `holds` is a theorem for this model."""
+        return not (self._drifts or self.model.strings)
+
+    def settles(self, y: np.ndarray) -> bool:
+        """Whether a doublet with the surface arm is held once it turns as one body at the edge of the shear.
+
+        It is, as with the other arm, but for the angular momentum that the surface arm makes in the film meanwhile:
+        no theorem, for chatter that nothing else ends.
+        """
+        return self._drifts and not self.model.strings and self.holds(y, settled=True)
+
+    def holds(self, y: np.ndarray, settled: bool = False) -> bool:
+        """Whether the margin is below zero at some gap ahead by more than its error.
+
+        Arguments:
+            settled: count on omega = xi at the edge of the shear with the surface arm as well.
+        """
         gap, opening, orbit = map(float, y[:3])
         if not gap < self.end:
             return False
@@ -75,12 +92,12 @@ class OrbitalProof:
         inward, attraction = self._work(edges, y, orbit), self._work(edges, y, 0.0)
         found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbit), self.p).full())
         slips = found[self.model.names("orbital").index("slip")]
-        needed = opening**2 / 2 - inward + self._exchange(edges[1:], y, found)
+        needed = opening**2 / 2 - inward + self._exchange(edges[1:], y, found, settled or not self._drifts)
         turned = (self.obliquity**2 / 16) * abs(orbit) * np.maximum(-slips, 0.0)
         error = opening**2 + abs(opening) + 2 * np.abs(attraction) + np.abs(inward) + turned
         return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
 
-    def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray) -> np.ndarray:
+    def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray, settled: bool) -> np.ndarray:
         """What the shear can still turn of the spin into motion of the orbit, as far as each of these gaps.
 
         Beyond the edge of the shear only what it does before omega = xi there.
@@ -89,13 +106,13 @@ class OrbitalProof:
         slips, energy = found[names.index("slip")], found[names.index(self.lever)]
         possible: np.ndarray = np.where(slips < 0, energy, 0.0)
         beyond = gaps > self.edge
-        if self._drifts or self.model.strings or not beyond.any():
+        if not settled or self.model.strings or not beyond.any():
             return possible
         rigid = self.model.values("rigid_rotation", np.array([self.edge, *y[1:]]), self.p)
         if y[2] >= rigid["orbit"]:
             return np.where(beyond, 0.0, possible)
-        settled = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbit, and spin where it is a state
-        left = np.asarray(self.model.function("orbital")(self._states(gaps, settled, rigid["orbit"]), self.p).full())
+        at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbit, and spin where it is a state
+        left = np.asarray(self.model.function("orbital")(self._states(gaps, at_edge, rigid["orbit"]), self.p).full())
         return np.where(beyond, energy - left[names.index(self.lever)], possible)
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:

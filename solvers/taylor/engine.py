@@ -18,6 +18,7 @@ from ..model import Choice, choose
 from ..numbers import si_values
 from ..scene import Scene
 from ..settings import STEPS
+from .endless import decide
 from .layout import ANSWER, Task, names
 from .library import LARGEST_ORDER, Variant, kernel, knows
 
@@ -115,7 +116,16 @@ def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: i
         return None
     choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
     library = kernel(variant(scene, choice, rtol, rotation, few=few))
-    return None if library is None else calling(library, rtol, budget)
+    if library is None:
+        return None
+    fly = calling(library, rtol, budget)
+
+    def decided(impacts: Impacts, made: np.ndarray) -> None:
+        fly(impacts, made)
+        if not impacts.others:
+            decide(made, scene, impacts.speed, impacts.angle, choice, rtol)
+
+    return decided
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray) -> Task:

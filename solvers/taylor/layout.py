@@ -13,7 +13,8 @@ import numpy as np
 BUFFER = np.dtype([("at", np.uintp), ("bytes", "i8")], align=True)
 ANSWER = np.dtype(
     [
-        ("shown", "f8", 5),  # restitution, tangential restitution, rotation rate, spin, partner's spin
+        # restitution, tangential restitution, rotation rate, spin, partner's spin; handed over: states after the gap
+        ("shown", "f8", 5),
         ("time", "f8"),
         ("smallest_gap", "f8"),
         ("turned", "f8"),

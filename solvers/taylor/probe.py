@@ -12,11 +12,12 @@ import numpy as np
 
 from ..numbers import Numbers
 from ..scene import Scene
+from .endless import CHATTER
 from .engine import Impacts
 from .one import FELL_BACK, TURNED
 from .record import Purpose, Recorded, Steps, recorded
 
-NO_BUDGET, CHATTER = 2, 4  # statuses of a flight that has spent its steps (runtime/queue.h)
+NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/queue.h)
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
 LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at

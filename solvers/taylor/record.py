@@ -9,6 +9,7 @@ import numpy as np
 
 from ..model import choose
 from ..settings import STEPS
+from .endless import decide
 from .engine import Impacts, task, variant
 from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
 from .library import kernel, knows
@@ -124,6 +125,8 @@ def recorded(
         if (most <= log_room or not events) and (rows is None or steps <= rows.size):
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
+    if purpose == Purpose.WHOLE and not impacts.others:
+        decide(answers, impacts.scene, impacts.speed, impacts.angle, choice, rtol)
     turned = number(library, "row_turned") if trajectory else -1
     kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
     return Recorded(answers, log, books if ledger else None, kept, margins)

@@ -295,6 +295,9 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
 #elif OBLIQUE && STRINGS
     a->turned = l->y[ROTATION][lane];
 #endif
+    if (status > PROVED_AT_TOUCH) /* handed over: where it has come to */
+        for (int state = OPENING; state < MODEL_STATES; state++)
+            a->shown[state - OPENING] = l->y[state][lane];
     if (status == DECIDED && outcome != STICK) {
         vec shown[OUTPUTS];
         outputs(&f->c, l->y, shown);
