@@ -47,7 +47,7 @@ def listening() -> Iterator[io.StringIO]:
     with _COUNTING:
         _listeners += 1
         if not isinstance(sys.stderr, _Sieve):
-            sys.stderr = _Sieve(sys.stderr)  # type: ignore[assignment]
+            sys.stderr = _Sieve(sys.stderr)
     _HEARD.text = heard
     try:
         yield heard

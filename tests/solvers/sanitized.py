@@ -48,10 +48,6 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "film tangential": ("granulation", {"model.tangential": "film"}),
     "small angle": ("pendulum", {"pendulum.law": "small-angle"}),
     "corrected glass": ("pendulum", {"model.glass": "film-corrected"}),
-    **{
-        f"bridge {law}": ("granulation", {"bridge.law": law})
-        for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
-    },
     "own rupture": ("granulation", {"bridge.law": "willett", "bridge.rupture": "own"}),
     **{f"film {film}": ("granulation", {"model.film": film}) for film in ("infinite", "cavitating", "constant-volume")},
     "wall": ("granulation-dry-bridge", WALL),
@@ -62,6 +58,10 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "attraction and bridge": ("granulation", PULL),
     "wall that attracts": ("granulation-dry-bridge", WALL | PULL | {"model.film": "cavitating"}),
     "strings and bridge": ("granulation", {"pendulum.length": "0.5 m"}),
+    **{
+        f"bridge {law}": ("granulation", {"bridge.law": law})
+        for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
+    },
 }
 Flown = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
@@ -84,7 +84,7 @@ KINDS: dict[str, Flown] = {
     "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),
     "trajectory": _recorded(trajectory=True, room=(4, 4)),
     "steps not kept": _recorded(ledger=True, trajectory=True, keep=False, room=(1, 1)),
-    "approach": _recorded(trajectory=True, purpose=Purpose.APPROACH),
+    "approach": _recorded(trajectory=True, purpose=Purpose.APPROACH, keep=False, fold=False, peaks=True),
     "escape": _recorded(trajectory=True, purpose=Purpose.ESCAPE),
     "forwards": _carried(backward=False),
     "backwards": _carried(backward=True),

@@ -190,7 +190,7 @@ def test_steps_that_are_not_kept_are_not_written():
     np.testing.assert_array_equal(found.answers["outcome"], flown((1000, 5000)).answers["outcome"])
 
 
-@pytest.mark.parametrize("short", ["answers", "books", "quantities"])
+@pytest.mark.parametrize("short", ["answers", "books", "quantities", "peaks"])
 def test_a_buffer_that_is_too_small_is_refused(short: str):
     """The kernel is given the size of every buffer, and writes nothing where one does not hold what it would write."""
     scene = Scene.load("granulation")
@@ -204,6 +204,7 @@ def test_a_buffer_that_is_too_small_is_refused(short: str):
         "answers": answers[:8],
         "books": np.zeros(8, layout.LEDGER),
         "quantities": np.zeros(3, layout.BUFFER),
+        "peaks": np.zeros(8),
     }
     task.buffer(short, small[short])
     with pytest.raises(MemoryError, match=f"{short}: too small"):

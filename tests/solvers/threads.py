@@ -10,10 +10,14 @@ of them; exit status 1 if one does not, or fails. `--quick` leaves out what take
 from __future__ import annotations
 
 import argparse
+import atexit
 import hashlib
 import io
 import math
+import os
+import shutil
 import sys
+import tempfile
 import threading
 import time
 import warnings
@@ -34,12 +38,14 @@ from wetdoublet.solvers.verify.backward import backward
 from wetdoublet.solvers.verify.budget import restitution_budget
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.sample import flights
+from yielding import LAW  # beside this script
 
 GRANULATION, PENDULUM = "granulation", "pendulum"
 IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "60 deg"}
 MANY = {"stokes": np.geomspace(0.01, 0.3, 300), "angle": np.linspace(0.0, 1.4, 300)}
 FEW = {"stokes": np.geomspace(0.02, 0.3, 6), "angle": 0.9}
 WRT = ("liquid.viscosity", "bridge.volume", "impact.angle")
+MODEL = Path(tempfile.gettempdir()) / f"wetdoublet-threads-{os.getpid()}" / "mine.py"
 SCENE = Path(solvers.__file__).parent / "presets" / "pendulum.toml"
 
 
@@ -130,6 +136,10 @@ LONG: dict[str, Callable[[], Any]] = {
     "boundary sensitivities": lambda: solvers.boundary_sensitivities(GRANULATION, angle=0.9, wrt=WRT),
     "boundary, drawn": _drawn_boundary,
     "map, drawn": _drawn_map,
+    "a model of one's own": lambda: collide(Scene.load(GRANULATION, model=MODEL), stokes=0.1, angle=0.9),
+    "a structure derived": lambda: collide_many(
+        Scene.load(GRANULATION).with_entries({"attraction.hamaker": 1e-19, "model.film": "constant-volume"}), **FEW
+    ),
     "band": lambda: solvers.band(GRANULATION, {"liquid.viscosity": "5 %"}, "impact.stokes", [0.03, 0.2], samples=8),
     "budget": lambda: restitution_budget(GRANULATION, stokes=[0.05, 0.1], angle=[0.5, 0.9]),
     "conserved": lambda: [str(one) for one in conserved("", flights(Scene.load(GRANULATION), (0.9,)))],
@@ -201,6 +211,9 @@ def main() -> int:
     asked = parser.parse_args()
     warnings.simplefilter("ignore", solvers.ModelWarning)
     calls = QUICK if asked.quick else QUICK | LONG
+    MODEL.parent.mkdir(mode=0o700)
+    atexit.register(shutil.rmtree, MODEL.parent)
+    MODEL.write_text(LAW)
     if compiler() is None:
         calls = {name: call for name, call in calls.items() if "taylor" not in name}
     before = sys.stderr
