@@ -185,7 +185,7 @@ def together(calls: Mapping[str, Callable[[], Any]], count: int, seconds: float)
         ready.wait()
         place = own * len(names) // count
         done = 0
-        while done == 0 or time.monotonic() < end:
+        while time.monotonic() < end or done < len(names) / count:  # together at least once round
             name = names[(place + done) % len(names)]
             try:
                 said = _digest(calls[name]())
