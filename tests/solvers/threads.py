@@ -115,16 +115,16 @@ QUICK: dict[str, Callable[[], Any]] = {
     "a remark": _remarked,
     "an integration that fails": _failing,
     "few by rosenbrock": lambda: collide_many(GRANULATION, engine="rosenbrock", **FEW),
-    "few by cvodes": lambda: collide_many(GRANULATION, engine="cvodes", **FEW),
     "many by taylor": lambda: collide_many(GRANULATION, of=("rotation", "contact_time"), **MANY),
     "a map": _mapped,
-    "a small map": lambda: regime_map(GRANULATION, stokes=FEW["stokes"], angle=[0.4, 0.9], engine="rosenbrock"),
     "boundary": _traced,
     "sensitivities": lambda: sensitivities(GRANULATION, wrt=WRT, engine="rosenbrock", **IMPACT),
-    "adjoint": lambda: sensitivities(GRANULATION, wrt=WRT, method="adjoint", engine="cvodes", **IMPACT),
     "gradients": lambda: gradients_many(GRANULATION, wrt=WRT, engine="taylor", stokes=MANY["stokes"], angle=0.9),
 }
 LONG: dict[str, Callable[[], Any]] = {
+    "few by cvodes": lambda: collide_many(GRANULATION, engine="cvodes", **FEW),
+    "a small map": lambda: regime_map(GRANULATION, stokes=FEW["stokes"], angle=[0.4, 0.9], engine="rosenbrock"),
+    "adjoint": lambda: sensitivities(GRANULATION, wrt=WRT, method="adjoint", engine="cvodes", **IMPACT),
     "collide with a partner": lambda: collide(
         Scene.load(GRANULATION).with_entries({"partner.radius": "0.2 mm", "partner.mass": "40 ug"}), **IMPACT
     ),
