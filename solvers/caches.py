@@ -13,7 +13,7 @@ from collections import deque
 from collections.abc import Callable, Hashable
 from contextlib import AbstractContextManager
 from functools import lru_cache, update_wrapper
-from typing import Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -90,20 +90,19 @@ class Once(Generic[P, T]):
 
     def __init__(self, build: Callable[P, T]) -> None:
         self.__wrapped__ = build
-        self._kept: dict[Hashable, T] = {}
+        self._kept: dict[Hashable, Any] = {}
         self._making = Locks()
         update_wrapper(self, build)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         key = (args, tuple(sorted(kwargs.items())))
-        try:
-            return self._kept[key]
-        except KeyError:
-            pass
-        with self._making(key):
-            if key not in self._kept:
-                self._kept[key] = self.__wrapped__(*args, **kwargs)
-        return self._kept[key]
+        found = self._kept.get(key, self)  # itself for nothing: what is made may be None
+        if found is self:
+            with self._making(key):
+                found = self._kept.get(key, self)
+                if found is self:
+                    found = self._kept[key] = self.__wrapped__(*args, **kwargs)
+        return cast("T", found)
 
     def cache_clear(self) -> None:
         """Forget all results: the next caller makes them again."""

@@ -21,7 +21,7 @@ from .errors import CheckFailed
 _PACKAGE = f"{__package__.rsplit('.', 1)[0]}.generated"
 _FOLDER = Path(__file__).resolve().parents[1] / "generated"
 _DERIVE = _FOLDER.with_name("derive")
-_DERIVING = threading.RLock()  # sympy is not for several threads
+DERIVING = threading.RLock()  # held by whoever uses sympy: it is not for several threads
 
 
 @cache
@@ -140,7 +140,7 @@ def derived_once(name: str, derived: Callable[[], str]) -> str:
 
 def _alone(derived: Callable[[], str]) -> str:
     """What is derived, by one thread at a time."""
-    with _DERIVING:
+    with DERIVING:
         return derived()
 
 

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 from .custom import ACCEPTED, Package
-from .emitted import derivation, library_digest
+from .emitted import DERIVING, derivation, library_digest
 from .errors import CheckFailed, InputError
 
 
@@ -60,7 +60,8 @@ def _of_file(path: Path) -> Package:
     def derived() -> bytes:
         from .derived import derived_package  # imports sympy when it is called
 
-        made = derived_package(path, None)
+        with DERIVING:
+            made = derived_package(path, None)
         if not made.files:
             raise CheckFailed(f"{path}: {made.failed}")
         return json.dumps(dict(made.files)).encode()

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..emitted import DERIVING
 from ..model import choose
 from .report import Finding
 
 if TYPE_CHECKING:
+    from ...derive.checks import Check
     from ..custom import Package
     from ..scene import Scene
 
@@ -24,16 +26,28 @@ def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
 
     chosen = choose(scene, oblique=True, full=True).laws if scene is not None else ()
     laws = {slot: LAWS[slot][name] for slot, name in chosen if name in LAWS[slot]}
-    for check in symbolic_checks(laws):
+    for check in _alone(symbolic_checks(laws)):
         yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)
     if scene is not None and scene.package is not None:
         yield from _of_the_model(scene.package)
+
+
+def _alone(checks: Iterable[Check]) -> Iterator[Check]:
+    """Each check made while no other thread derives anything."""
+    left = iter(checks)
+    while True:
+        with DERIVING:
+            check = next(left, None)
+        if check is None:
+            return
+        yield check
 
 
 def _of_the_model(package: Package) -> Iterator[Finding]:
     """The checks of a user's model, out of the model file that it was emitted from."""
     from ...derive.checks.user import model_checks
 
-    _, checks = model_checks(Path(f"{package.name}.py"), package.source, package.name)
+    with DERIVING:
+        _, checks = model_checks(Path(f"{package.name}.py"), package.source, package.name)
     for check in checks:
         yield Finding(f"Model: {package.name}", check.name, check.statement, check.figure, "", check.ok)
