@@ -75,7 +75,7 @@ class Atlas(Boundaries):
 
     Attributes:
         over: dotted name of x.
-        span, window: of x (rad or SI) and of the Stokes number.
+        span: of x, rad or SI.
         at: x of the lines; `angles` are their impact angles.
         curves, points: boundaries, and where they meet, turn or change in kind.
         unsettled: places (x, St) that could not be brought into agreement, and why.
@@ -84,7 +84,6 @@ class Atlas(Boundaries):
 
     over: str = ANGLE
     span: tuple[float, float] = (0.0, 1.0)
-    window: tuple[float, float] = STOKES
     at: tuple[float, ...] = ()
     curves: tuple[Curve, ...] = ()
     points: tuple[Point, ...] = ()
@@ -345,9 +344,10 @@ def _made(
         collisions=plane.collisions + traced.collisions,
         failures=tuple(traced.failures),
         resolution=traced.resolution,
+        scene=plane.scene,
+        window=plane.stokes,
         over=plane.over,
         span=plane.span,
-        window=plane.stokes,
         at=tuple(x.tolist()),
         curves=tuple(curves),
         points=tuple(points),

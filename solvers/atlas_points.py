@@ -60,19 +60,18 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
 
 def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
     """What happens at places on a curve, as numbers: the kind of change, and the criterion."""
-    normal = _normals(arc, at)
-    count = len(at)
-    labels, reversal, _ = plane.seen(
-        np.clip(np.vstack([at - BESIDE * normal, at + BESIDE * normal]), 0, 1), most=0 if plane.kernel else 2 * count
-    )
-    right = np.where(labels[:count] == arc.right, reversal[:count], -2)
-    left = np.where(labels[count:] == arc.left, reversal[count:], -2)
     if 2 not in (arc.right, arc.left):
-        return np.zeros(count, dtype=int)
-    bounce, other = (left, right) if arc.left == 2 else (right, left)
-    after_rebound = (other >= 0) if 0 in (arc.right, arc.left) else np.zeros(count, dtype=bool)
-    codes: np.ndarray = 1 + 3 * after_rebound + np.maximum(bounce, 0)
-    return np.where((bounce < 0) | (other < -1), _NONE, codes)
+        return np.zeros(len(at), dtype=int)
+    aside = BESIDE * _normals(arc, at) * (1 if arc.left == 2 else -1)
+    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0 if plane.kernel else len(at))
+    criterion = np.where(labels == 2, reversal, -2)
+    codes: np.ndarray = 1 + np.maximum(criterion, 0)
+    known = criterion >= 0
+    if 0 in (arc.right, arc.left):
+        before = plane.first_criterion(np.clip(at - aside, 0, 1))
+        codes += 3 * (before >= 0)
+        known &= before > -2
+    return np.where(known, codes, _NONE)
 
 
 def _decoded(code: int) -> tuple[str, int]:

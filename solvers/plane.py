@@ -12,9 +12,10 @@ from .errors import InputError
 from .many import run
 from .requests import Request, checked_numbers, checked_vary
 from .scene import Scene
-from .taylor.engine import answers
+from .taylor.engine import STEPS, answers
 from .taylor.library import knows
 from .taylor.many import impacts_of
+from .taylor.record import Purpose, recorded
 
 ANGLE = "impact.angle"
 LEAST_ANGLE = 1e-5  # rad: a plane that begins head-on begins here, where collisions are still oblique
@@ -80,8 +81,8 @@ class Plane:
         """Outcomes by their index in OUTCOMES; -1 where none is to be had, or Rosenbrock would be asked too often."""
         return self.seen(points)[0]
 
-    def seen(self, points: np.ndarray, most: int = _RESOLVED) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Outcomes, the first rebound criterion met (-1 for none; -2: not known) and restitution, at points.
+    def seen(self, points: np.ndarray, most: int = _RESOLVED) -> tuple[np.ndarray, np.ndarray]:
+        """Outcomes, and the first rebound criterion met (-1 for none; -2: not known), at points.
 
         Arguments:
             most: collisions that Rosenbrock is asked for where the kernel hands them over.
@@ -89,7 +90,7 @@ class Plane:
         request = self._request(points)
         self.collisions += request.size
         outcome = np.full(request.size, -1)
-        reversal, restitution = np.full(request.size, -2), np.zeros(request.size)
+        reversal = np.full(request.size, -2)
         if self.kernel:
             impacts, sound = impacts_of(request)
             threads = usable_cores() if request.size > _THREADED else 1
@@ -98,17 +99,30 @@ class Plane:
                 where = np.flatnonzero(sound)
                 outcome[where] = np.where(told["status"] <= 1, told["outcome"], -1)
                 reversal[where] = told["reversal"]
-                restitution[where] = told["shown"][:, 0]
         else:
             most = request.size
         left = np.flatnonzero(outcome < 0)
         if left.size > most:  # spread: they are often neighbours
             left = left[np.linspace(0, left.size - 1, most).round().astype(int)]
         if left.size:
-            block = run(request.part(left), True)
-            outcome[left] = block["outcome"]
-            restitution[left] = block["restitution"]
-        return outcome, reversal, restitution
+            outcome[left] = run(request.part(left), True)["outcome"]
+        return outcome, reversal
+
+    def first_criterion(self, points: np.ndarray) -> np.ndarray:
+        """The rebound criterion that the first approach meets (-1 for none; -2: not known), at points.
+
+        A stick may come back and meet one later, so the whole collision does not say it.
+        """
+        found = np.full(points.shape[0], -2)
+        if self.kernel:
+            impacts, sound = impacts_of(self._request(points))
+            oblique = bool(impacts.angle[0] > 0)
+            told = recorded(impacts, oblique, self.rtol, trajectory=True, budget=STEPS, purpose=Purpose.ESCAPE,
+                            keep=False, fold=False)  # fmt: skip
+            if told is not None:
+                known = told.answers["status"] <= 1
+                found[np.flatnonzero(sound)] = np.where(known, told.answers["reversal"], -2)
+        return found
 
     def _request(self, points: np.ndarray) -> Request:
         x, size = self.x(points), points.shape[0]
