@@ -19,7 +19,7 @@ from .atlas_points import FOLD, Stretch, named, stretches
 from .bounds import STOKES, Boundaries, Traced, trace
 from .changes import Change
 from .errors import InputError
-from .plane import ANGLE, LEAST_ANGLE, Plane, check_plane
+from .plane import ANGLE, Plane, check_plane
 from .regions import Slab, apart, labelled, slabs
 from .samples import OUTCOMES
 from .scene import Scene
@@ -218,7 +218,7 @@ def atlas(
 def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Traced:
     """The seed lines."""
     if plane.over == ANGLE:
-        at = np.maximum(x, LEAST_ANGLE)
+        at = np.maximum(x, plane.least)
         return trace(plane.scene, at, plane.stokes, plane.rtol, lambda done: tell(done, x.size))
     whole = Traced([], [], 0, 0.0)
     for one in x.tolist():
@@ -337,7 +337,7 @@ def _made(
     curves.sort(key=lambda one: (one.x[0], one.stokes[0], one.x[-1]))
     points = [Point(name, float(plane.x(place)), float(plane.stokes_at(place))) for name, place in places]
     points.sort(key=lambda one: (one.x, one.stokes))
-    angles = np.maximum(x, LEAST_ANGLE) if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
+    angles = np.maximum(x, plane.least) if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
     return Atlas(
         angles=tuple(angles.tolist()),
         changes=tuple(traced.changes),

@@ -18,7 +18,9 @@ from .taylor.many import impacts_of
 from .taylor.record import Purpose, recorded
 
 ANGLE = "impact.angle"
-LEAST_ANGLE = 1e-5  # rad: a plane that begins head-on begins here, where collisions are still oblique
+# rad: a plane that begins head-on begins here, where collisions are still oblique; St* moves with the square of the
+# angle. Where nothing attracts a doublet takes the longer to separate the less oblique it is.
+LEAST_ANGLE, LEAST_UNBOUND = 1e-5, 1e-3
 _RESOLVED = 2  # collisions of a batch that Rosenbrock is asked for where the kernel hands them over
 _THREADED = 20_000  # collisions that are worth several cores
 
@@ -67,6 +69,13 @@ class Plane:
         return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.decades])
 
     @property
+    def least(self) -> float:
+        """The least angle (rad) that is looked at."""
+        scene = self.scene
+        bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
+        return LEAST_ANGLE if bound else LEAST_UNBOUND
+
+    @property
     def decades(self) -> float:
         """Height of the window in ln St."""
         return math.log(self.stokes[1] / self.stokes[0])
@@ -74,7 +83,7 @@ class Plane:
     def scene_at(self, x: float) -> tuple[Scene, float]:
         """The scene at a value of the entry, and its impact angle (rad)."""
         if self.over == ANGLE:
-            return self.scene, max(x, LEAST_ANGLE)
+            return self.scene, max(x, self.least)
         return self.scene.with_entries({self.over: x}), float(self.scene.angle or 0.0)
 
     def labels(self, points: np.ndarray) -> np.ndarray:
@@ -126,7 +135,7 @@ class Plane:
 
     def _request(self, points: np.ndarray) -> Request:
         x, size = self.x(points), points.shape[0]
-        angle = np.maximum(x, LEAST_ANGLE) if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
+        angle = np.maximum(x, self.least) if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
         return Request(
             scene=self.scene,
             stokes=self.stokes_at(points),

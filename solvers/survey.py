@@ -18,6 +18,7 @@ _SAME = 3e-5  # of the window: meeting points that are nearer are one
 _COVERED, _SLACK = 5e-3, 5e-4  # distances within which a curve that is known is looked for about a seed, a lattice's edge
 _SAME_PLACE = 1e-6  # within which a seed is on it
 _STEP = 1e-3  # the first, from a seed
+_ZOOMS = 4  # times that an interval with a third outcome in it is divided
 
 
 @dataclass
@@ -72,7 +73,7 @@ class Survey:
                 return
         self._start(place, below, above)
 
-    def _seek_between(self, low: np.ndarray, high: np.ndarray) -> None:
+    def _seek_between(self, low: np.ndarray, high: np.ndarray, zooms: int = _ZOOMS) -> None:
         parts = np.linspace(0, 1, 50)[:, None]
         at = low + parts * (high - low)
         labels = self.plane.labels(at)
@@ -87,10 +88,12 @@ class Survey:
             found = crossings(
                 self.plane.labels, centre[None], along[None], np.array([length / 2]), np.array([right]), np.array([left])
             )[0]
-            if np.isnan(found).any():
-                self.failures.append((centre, "a change of outcome was seen and could not be located"))
-            else:
+            if not np.isnan(found).any():
                 self._start(found, right, left)
+            elif zooms:  # a third outcome lies between
+                self._seek_between(at[one], at[other], zooms - 1)
+            elif not any(np.linalg.norm(point.place - centre) < _SAME for point in self.meetings):
+                self.failures.append((centre, "a change of outcome was seen and could not be located"))
 
     def _start(self, place: np.ndarray, one: int, other: int) -> None:
         """Follow the curve through a place both ways."""
