@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .atlas import Atlas, atlas
+    from .atlases import Atlas, atlas
     from .bounds import Boundaries, boundary
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .many import collide_many
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .simulate import collide
 
 _HOMES = {
-    "Atlas": "atlas",
+    "Atlas": "atlases",
     "Boundaries": "bounds",
     "BoundarySensitivities": "sensitivity.boundaries",
     "CheckFailed": "errors",
@@ -37,7 +37,7 @@ _HOMES = {
     "Scene": "scene",
     "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
-    "atlas": "atlas",
+    "atlas": "atlases",
     "band": "sensitivity.uncertainty",
     "boundary": "bounds",
     "boundary_sensitivities": "sensitivity.boundaries",

@@ -230,7 +230,7 @@ def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
     if not np.allclose(first.arc.points[-1], last.arc.points[0], rtol=0, atol=_AT):
         return parts, FOLD
     whole = Arc(np.vstack([first.arc.points, last.arc.points[1:]]), first.arc.right, first.arc.left)
-    return [part for part in parts if part not in ending] + [replace(first, arc=whole)], ""
+    return [part for part in parts if part is not one and part is not other] + [replace(first, arc=whole)], ""
 
 
 def _between_branches(point: Meeting) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .atlas import Atlas
+from .atlases import Atlas
 from .many import OUTCOMES
 from .plane import ANGLE
 

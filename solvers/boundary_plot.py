@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from . import ticks
-from .atlas import LINES, Atlas, Curve, Point, atlas
+from .atlases import LINES, Atlas, Curve, Point, atlas
 from .draw_map import COLOURS
 from .errors import InputError
 from .files import save

@@ -249,9 +249,10 @@ def branches(labels: Labels, centre: np.ndarray, radius: float, ahead: float | N
     if ahead is not None:
         angles = np.unique(np.concatenate([angles, (ahead + np.linspace(-0.1, 0.1, _AHEAD)) % math.tau]))
     inside = centre + radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    kept = np.all((inside >= 0) & (inside <= 1), axis=1)
+    rounding = 1e-9 * radius
+    kept = np.all((inside >= -rounding) & (inside <= 1 + rounding), axis=1)
     seen = np.full(angles.size, -1)
-    seen[kept] = labels(inside[kept])
+    seen[kept] = labels(np.clip(inside[kept], 0, 1))
     known = np.flatnonzero(seen >= 0)
     if known.size < 2:
         return []

@@ -35,8 +35,9 @@ class Plane:
         stokes: lowest and highest Stokes number.
 
     Attributes:
+        edge: the lowest x as it is given: the span begins at a small angle where that is head-on.
         collisions: how many have been asked for.
-        resolved: how many a batch may ask of Rosenbrock.
+        kernel: whether the Taylor kernel integrates.
     """
 
     scene: Scene
@@ -44,18 +45,26 @@ class Plane:
     span: tuple[float, float]
     stokes: tuple[float, float]
     rtol: float
+    edge: float = field(init=False)
     collisions: int = field(default=0, init=False)
     kernel: bool = field(default=True, init=False)
 
     def __post_init__(self) -> None:
-        """Ask once whether there is a kernel for the scene."""
+        """Ask once whether there is a kernel for the scene; begin where collisions are oblique."""
         self.kernel = knows(self.scene)
+        self.edge = self.span[0]
+        if self.over == ANGLE:
+            self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]
 
     def x(self, points: np.ndarray) -> np.ndarray:
         """The entry at points, rad or SI."""
         low, high = self.span
         across = points[..., 0]
         return np.where(across >= 1, high, low + across * (high - low))
+
+    def shown(self, points: np.ndarray) -> np.ndarray:
+        """The entry at points; what is on the lower edge of the window is on the edge that was given."""
+        return np.where(points[..., 0] <= 0, self.edge, self.x(points))
 
     def stokes_at(self, points: np.ndarray) -> np.ndarray:
         """Stokes numbers at points."""
@@ -69,13 +78,6 @@ class Plane:
         return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.decades])
 
     @property
-    def least(self) -> float:
-        """The least angle (rad) that is looked at."""
-        scene = self.scene
-        bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
-        return LEAST_ANGLE if bound else LEAST_UNBOUND
-
-    @property
     def decades(self) -> float:
         """Height of the window in ln St."""
         return math.log(self.stokes[1] / self.stokes[0])
@@ -83,7 +85,7 @@ class Plane:
     def scene_at(self, x: float) -> tuple[Scene, float]:
         """The scene at a value of the entry, and its impact angle (rad)."""
         if self.over == ANGLE:
-            return self.scene, max(x, self.least)
+            return self.scene, x
         return self.scene.with_entries({self.over: x}), float(self.scene.angle or 0.0)
 
     def labels(self, points: np.ndarray) -> np.ndarray:
@@ -135,7 +137,7 @@ class Plane:
 
     def _request(self, points: np.ndarray) -> Request:
         x, size = self.x(points), points.shape[0]
-        angle = np.maximum(x, self.least) if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
+        angle = x if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
         return Request(
             scene=self.scene,
             stokes=self.stokes_at(points),
@@ -146,6 +148,12 @@ class Plane:
             engine="taylor" if self.kernel else "rosenbrock",
             of=(),
         )
+
+
+def _least(scene: Scene) -> float:
+    """The least angle (rad) that is looked at."""
+    bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
+    return LEAST_ANGLE if bound else LEAST_UNBOUND
 
 
 def check_plane(

@@ -155,7 +155,7 @@ def _show_atlas(
     picture: Path | None,
     file: Path | None,
 ) -> None:
-    from ..atlas import atlas
+    from ..atlases import atlas
 
     with bar("lines") as tell:
         found = atlas(scene, over=over, span=across, stokes=span, rtol=rtol, progress=tell)

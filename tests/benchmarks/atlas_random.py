@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.arcs import CHORD
-from wetdoublet.solvers.atlas import Atlas, atlas
+from wetdoublet.solvers.atlases import Atlas, atlas
 from wetdoublet.solvers.plane import ANGLE, check_plane
 from wetdoublet.solvers.regions import apart
 from wetdoublet.solvers.schema import BRIDGE_LAWS, FILM_LAWS

@@ -218,8 +218,7 @@ def atlas(
 def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Traced:
     """The seed lines."""
     if plane.over == ANGLE:
-        at = np.maximum(x, plane.least)
-        return trace(plane.scene, at, plane.stokes, plane.rtol, lambda done: tell(done, x.size))
+        return trace(plane.scene, x, plane.stokes, plane.rtol, lambda done: tell(done, x.size))
     whole = Traced([], [], 0, 0.0)
     for one in x.tolist():
         scene, angle = plane.scene_at(one)
@@ -330,14 +329,14 @@ def _made(
     curves = [
         Curve(
             OUTCOMES[one.arc.right], OUTCOMES[one.arc.left], one.kind,
-            tuple(plane.x(one.arc.points).tolist()), tuple(plane.stokes_at(one.arc.points).tolist()),
+            tuple(plane.shown(one.arc.points).tolist()), tuple(plane.stokes_at(one.arc.points).tolist()),
         )
         for one in parts
     ]  # fmt: skip
     curves.sort(key=lambda one: (one.x[0], one.stokes[0], one.x[-1]))
-    points = [Point(name, float(plane.x(place)), float(plane.stokes_at(place))) for name, place in places]
+    points = [Point(name, float(plane.shown(place)), float(plane.stokes_at(place))) for name, place in places]
     points.sort(key=lambda one: (one.x, one.stokes))
-    angles = np.maximum(x, plane.least) if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
+    angles = x if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
     return Atlas(
         angles=tuple(angles.tolist()),
         changes=tuple(traced.changes),
@@ -347,8 +346,8 @@ def _made(
         scene=plane.scene,
         window=plane.stokes,
         over=plane.over,
-        span=plane.span,
-        at=tuple(x.tolist()),
+        span=(plane.edge, plane.span[1]),
+        at=(plane.edge, *x[1:].tolist()),
         curves=tuple(curves),
         points=tuple(points),
         unsettled=tuple((float(plane.x(at)), float(plane.stokes_at(at)), why) for at, why in unsettled),
