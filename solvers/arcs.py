@@ -63,7 +63,8 @@ def _turns(x: np.ndarray) -> list[int]:
 
 def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
     """The turning point of x about the middle one of three points, from places where horizontals cross the curve."""
-    place, half = near[1], 0.5 * abs(near[2, 1] - near[0, 1])
+    place: np.ndarray = near[1]
+    half = 0.5 * abs(near[2, 1] - near[0, 1])
     low, high = (arc.left, arc.right) if near[2, 1] > near[0, 1] else (arc.right, arc.left)
     if half < 1e-9:
         return place  # a cusp, or its like

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from .survey import Arc, Meeting
 TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
 CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"
 CRITICAL = "St* meets Ce*"
-BESIDE = 1e-7  # of the window: distance from a curve at which collisions say what happens there
+BESIDE = 1e-8  # of the window: distance from a curve at which collisions say what happens there
 _AT = 1e-9  # of the window: two places that are one
 _PARTS, _NARROWED = 16, 6  # places between two where a change along a curve is looked for, and how often
 _LOOKS = 9  # places along a curve at which its barrier is looked at
@@ -53,7 +54,7 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
         if not codes.size:
             codes = _filled(_codes(plane, arc, arc.points.mean(axis=0)[None]))
         codes = np.concatenate([codes[:1], codes, codes[-1:]])[: len(arc.points)]
-        for part, code in _cut(plane, arc, codes, lambda at, own=arc: _codes(plane, own, at), points):
+        for part, code in _cut(plane, arc, codes, points):
             found += _at_barriers(plane, Stretch(part, *_decoded(code)), points)
     return found, points
 
@@ -103,13 +104,12 @@ def _cut(
     plane: Plane,
     arc: Arc,
     codes: np.ndarray,
-    codes_at: Callable[[np.ndarray], np.ndarray],
     points: list[tuple[str, np.ndarray]],
 ) -> list[tuple[Arc, int]]:
     """A curve in parts of one code each; where they meet is located and named."""
     parts, first, begin = [], 0, arc.points[0]
     for k in np.flatnonzero(np.diff(codes)).tolist():
-        place = _located(plane, arc, k, codes_at, int(codes[k]))
+        place = _located(plane, arc, k, int(codes[k]))
         points.append((KIND if (codes[k] > 3) != (codes[k + 1] > 3) else CRITERION, place))
         parts.append((Arc(np.vstack([begin, arc.points[first + 1 : k + 1], place]), arc.right, arc.left), codes[k]))
         first, begin = k, place
@@ -117,16 +117,14 @@ def _cut(
     return [(part, int(code)) for part, code in parts]
 
 
-def _located(
-    plane: Plane, arc: Arc, k: int, codes_at: Callable[[np.ndarray], np.ndarray], before: int
-) -> np.ndarray:
+def _located(plane: Plane, arc: Arc, k: int, before: int) -> np.ndarray:
     """Where the code ceases to be `before`, between two points of a curve."""
     one, other = arc.points[k], arc.points[k + 1]
     for _ in range(_NARROWED):
         places = _between(plane, arc, one, other, _PARTS)
         if not len(places):
             break
-        codes = codes_at(places)
+        codes = _codes(plane, arc, places)
         places, codes = places[codes != _NONE], codes[codes != _NONE]
         differs = np.flatnonzero(codes != before)
         j = int(differs[0]) if differs.size else len(places)
@@ -150,7 +148,8 @@ def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: 
         plane.labels, centres, np.tile(normal, (count, 1)), np.full(count, max(0.2 * length, 1e-9)),
         np.full(count, arc.right), np.full(count, arc.left),
     )  # fmt: skip
-    return found[~np.isnan(found[:, 0])]
+    located: np.ndarray = found[~np.isnan(found[:, 0])]
+    return located
 
 
 def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:
@@ -161,7 +160,7 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
     inner = np.unique(np.linspace(0, len(arc.points) - 1, _LOOKS).round().astype(int))[1:-1]
     seen = [(int(k), _passes_saddle(plane, arc.points[k], stretch.kind == REVERSED)) for k in inner]
     known = [(k, saddle) for k, saddle in seen if saddle is not None]
-    for (k, before), (last, after) in zip(known, known[1:]):
+    for (k, before), (last, after) in pairwise(known):
         if before != after:
             one, other = arc.points[k], arc.points[last]
             while np.linalg.norm(other - one) > _AT:

@@ -18,6 +18,7 @@ from .arcs import CHORD, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .bounds import STOKES, Boundaries, Traced, trace
 from .changes import Change
+from .continuation import crossings
 from .errors import InputError
 from .plane import ANGLE, Plane, check_plane
 from .regions import Slab, apart, labelled, slabs
@@ -33,6 +34,7 @@ _CHECKED = 4096  # random collisions that are held against the regions
 _ROUNDS = 3  # in which what does not agree is looked at more closely
 _FINER_ROWS, _MORE = 769, 12  # of a column through a collision that does not agree; most of those columns a round
 _AGREES = 1e-6  # in ln St: a line and a curve
+_ROUGHLY = 50 * CHORD  # of the window: a curve near a vertical tangent, and a line
 _NEAR = 2 * CHORD  # of the window: closer to a curve nothing is said
 
 
@@ -53,7 +55,13 @@ class Curve:
 
     def to_dict(self) -> dict[str, Any]:
         """As in the JSON object of `wetdoublet boundary --angle LO:HI`."""
-        return {"from": self.before, "to": self.after, "kind": self.kind, "x": list(self.x), "stokes": list(self.stokes)}
+        return {
+            "from": self.before,
+            "to": self.after,
+            "kind": self.kind,
+            "x": list(self.x),
+            "stokes": list(self.stokes),
+        }
 
 
 @dataclass(frozen=True)
@@ -155,15 +163,12 @@ class Atlas(Boundaries):
         lines += [f"not settled at {shown(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
-        return "\n".join(
-            [
-                *lines,
-                "",
-                f"sought with {len(self.at)} lines, {shown(spacing):.3g} apart, and strips of {self.resolution:.2%} in "
-                f"St on them; {self.collisions} collisions; between its points a curve is straight to within "
-                f"{sought['chord_stokes']:.1e} of St",
-            ]
+        told = (
+            f"sought with {len(self.at)} lines, {shown(spacing):.3g} apart, and strips of {self.resolution:.2%} in St "
+            f"on them; {self.collisions} collisions; straight lines between the points of a curve are within "
+            f"{sought['chord_stokes']:.1e} of St"
         )
+        return "\n".join([*lines, "", told])
 
 
 def atlas(
@@ -239,9 +244,7 @@ def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarr
     ]
 
 
-def _settled(
-    plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray
-) -> Atlas:
+def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Atlas:
     """The atlas of a survey, after what does not agree with it has been looked at more closely."""
     random = np.random.default_rng(20121).random((_CHECKED, 2))
     points = np.vstack([at.reshape(-1, 2), random])
@@ -285,12 +288,11 @@ def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
     if wrong.size <= _MORE:
         return wrong
     ordered = wrong[np.argsort(points[wrong, 0], kind="stable")]
-    return ordered[np.linspace(0, ordered.size - 1, _MORE).round().astype(int)]
+    some: np.ndarray = ordered[np.linspace(0, ordered.size - 1, _MORE).round().astype(int)]
+    return some
 
 
-def _against_lines(
-    plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced
-) -> list[tuple[np.ndarray, str]]:
+def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced) -> list[tuple[np.ndarray, str]]:
     """Where a line and the curves do not agree."""
     found: list[tuple[np.ndarray, str]] = []
     for at, line, failure in zip(x.tolist(), traced.changes, traced.failures, strict=True):
@@ -301,20 +303,40 @@ def _against_lines(
         crossed = [
             (y, OUTCOMES[arc.right], OUTCOMES[arc.left]) for arc in arcs for y, _ in passes(arc.points, 0, across)
         ]
-        for one in line:
-            own = plane.points(np.array([at]), np.array([one.stokes]))[0]
-            if not any(_is(one, own, place) for place in crossed):
-                found.append((own, f"the line here changes from {one.before} to {one.after}, where no curve passes"))
-        changes = [(plane.points(np.array([at]), np.array([one.stokes]))[0], one) for one in line]
-        for place in crossed:
-            if 0 < place[0] < 1 and not any(_is(one, own, place) for own, one in changes):
-                found.append((np.array([across, place[0]]), "a curve passes here, which the line does not show"))
+        own = [(plane.points(np.array([at]), np.array([one.stokes]))[0], one) for one in line]
+        found += [
+            (place, f"the line here changes from {one.before} to {one.after}, where no curve passes")
+            for place, one in own
+            if not any(_is(one, place, passing) for passing in crossed)
+        ]
+        found += [
+            (np.array([across, passing[0]]), "a curve passes here, which the line does not show")
+            for passing in crossed
+            if 0 < passing[0] < 1 and not any(_is(one, place, passing) for place, one in own)
+        ]
+        found += _apart(plane, own)
     return found
 
 
+def _apart(plane: Plane, changes: list[tuple[np.ndarray, Change]]) -> list[tuple[np.ndarray, str]]:
+    """Changes on a line that do not lie where collisions change their outcome."""
+    if not changes:
+        return []
+    places = np.array([place for place, _ in changes])
+    low, high = (np.array([OUTCOMES.index(getattr(one, side)) for _, one in changes]) for side in ("before", "after"))
+    count = len(changes)
+    located = crossings(plane.labels, places, np.tile([0.0, 1.0], (count, 1)), np.full(count, 1e-4), low, high)
+    distance = np.abs(located[:, 1] - places[:, 1]) * plane.decades
+    return [
+        (place, f"the line changes here, and collisions do so {far:.1e} beside it (relative, in St)")
+        for (place, _), far in zip(changes, distance, strict=True)
+        if not far < _AGREES
+    ]
+
+
 def _is(change: Change, at: np.ndarray, place: tuple[float, str, str]) -> bool:
-    """Whether a change on a line is where a curve passes; near a vertical tangent straight lines are less exact."""
-    return place[1:] == (change.before, change.after) and abs(place[0] - at[1]) < 50 * CHORD
+    """Whether a change on a line is where a curve passes; straight lines between its points are less exact."""
+    return place[1:] == (change.before, change.after) and abs(place[0] - at[1]) < _ROUGHLY
 
 
 def _made(

@@ -1,4 +1,4 @@
-"""Boundaries as a picture: the regions of each outcome filled, the curves between them, and the points where they meet."""
+"""Boundaries as a picture: the regions of each outcome filled, the curves between them, and where these meet."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def draw(scene: Scene, found: Boundaries) -> Figure:
     Arguments:
         found: as `boundary` or `atlas` returns it.
     """
-    dots = not isinstance(found, Atlas) and 1 < len(set(found.angles)) and len(found.angles) <= _MOST_DOTS
+    dots = not isinstance(found, Atlas) and len(set(found.angles)) > 1 and len(found.angles) <= _MOST_DOTS
     whole = found if isinstance(found, Atlas) else _filled(scene, found)
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
@@ -78,11 +78,11 @@ def draw(scene: Scene, found: Boundaries) -> Figure:
         axes.plot(np.array(one.x) / factor, one.stokes, color=_INK, linewidth=1.5, solid_capstyle="round", zorder=3)
     if dots:
         _dots(axes, found)
-    handles = _handles(regions, low, high)
+    handles = _handles(regions)
     handles += _mark(axes, whole.points, factor, low, high)
     handles += _doubts(axes, found, whole, factor)
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), fontsize=8, frameon=False)
-    place_names(figure, axes, _raster(regions, factor), _PALE_COLOURS)
+    place_names(figure, axes, _raster(regions, factor))
     return figure
 
 
@@ -182,11 +182,13 @@ def _dots(axes: Axes, found: Boundaries) -> None:
         axes.plot(*zip(*pairs), "o", color=_INK, markersize=2.6, zorder=4, clip_on=False)
 
 
-def _handles(whole: Atlas, low: float, high: float) -> list[Any]:
+def _handles(whole: Atlas) -> list[Any]:
     """Legend of the outcomes that the picture shows."""
     seen = {label for slab in whole.slabs() for label in slab.labels}
     return [
-        Patch(facecolor=_PALE_COLOURS[label], edgecolor=_INK, linewidth=0.5, label=f"{_LETTERS[label]}: {OUTCOMES[label]}")
+        Patch(
+            facecolor=_PALE_COLOURS[label], edgecolor=_INK, linewidth=0.5, label=f"{_LETTERS[label]}: {OUTCOMES[label]}"
+        )
         for label in sorted(seen)
     ]
 

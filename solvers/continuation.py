@@ -83,7 +83,8 @@ def crossings(
                 ends.append(interval)
         open_ = np.array(kept, dtype=int)
         at = np.array([np.linspace(*pair, _PARTS + 1) for pair in ends]).reshape(len(ends), _PARTS + 1)
-    return np.clip(found, 0.0, 1.0)
+    located: np.ndarray = np.clip(found, 0.0, 1.0)
+    return located
 
 
 def _inside(centre: np.ndarray, along: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -193,16 +194,15 @@ def _tangent(points: list[np.ndarray]) -> np.ndarray:
     return tangent
 
 
-def _to_edge(
-    labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, branch: Branch
-) -> np.ndarray | None:
+def _to_edge(labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, branch: Branch) -> np.ndarray | None:
     """Where the curve meets the edge that the way from `last` to `beyond` crosses first."""
     way = beyond - last
-    parts = []
-    for axis in (0, 1):
-        for edge in (0.0, 1.0):
-            if way[axis] != 0 and (edge - last[axis]) * way[axis] >= 0:
-                parts.append(((edge - last[axis]) / way[axis], axis, edge))
+    parts = [
+        ((edge - last[axis]) / way[axis], axis, edge)
+        for axis in (0, 1)
+        for edge in (0.0, 1.0)
+        if way[axis] != 0 and (edge - last[axis]) * way[axis] >= 0
+    ]
     part, axis, edge = min(parts)
     place = last + part * way
     place[axis] = edge

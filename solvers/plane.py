@@ -1,4 +1,4 @@
-"""A plane of collisions as the unit square: an entry of the scene across, the logarithm of the Stokes number upwards."""
+"""A plane of collisions as the unit square: an entry of the scene across, the logarithm of St upwards."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from .errors import InputError
 from .many import run
 from .requests import Request, checked_numbers, checked_vary
 from .scene import Scene
-from .taylor.engine import STEPS, answers
+from .settings import STEPS
+from .taylor.engine import answers
 from .taylor.library import knows
 from .taylor.many import impacts_of
 from .taylor.record import Purpose, recorded
@@ -171,7 +172,7 @@ def check_plane(
         values = checked_vary(scene, {over: list(span)}, label)[over]
         plane = Plane(scene, over, _ascending("span", values), ends, rtol)
         if scene.angle is None:
-            raise InputError("impact.angle", None, "an angle, as angle = \"60 deg\" in [impact] or --set impact.angle")
+            raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
         for x in plane.span:
             plane.scene_at(x)  # what the scene itself refuses
     return plane

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,7 +27,6 @@ def place_names(
     figure: Figure,
     axes: Axes,
     outcome: Callable[[np.ndarray, np.ndarray], np.ndarray],
-    colours: Sequence[tuple[float, float, float]],
 ) -> None:
     """Write each region's name in it, or its letters where there is no room; nothing where these do not fit either.
 
@@ -45,10 +44,12 @@ def place_names(
     places = axes.transData.inverted().transform(pixels.reshape(-1, 2))
     labels = outcome(places[:, 0], places[:, 1]).reshape(rows, columns)
     labels = _without_marks(axes, labels, pixels)
-    renderer = canvas.get_renderer()
+    renderer = canvas.get_renderer()  # type: ignore[no-untyped-call]
     for label, region in _regions(labels):
         for name in _NAMES[label]:
-            text = axes.text(0, 0, name, fontsize=_FONT, ha="center", va="center", color=_INK, linespacing=1.1, zorder=7)
+            text = axes.text(
+                0, 0, name, fontsize=_FONT, ha="center", va="center", color=_INK, linespacing=1.1, zorder=7
+            )
             size = text.get_window_extent(renderer)
             at = _room(region, int(size.width / _CELL) + 2, int(size.height / _CELL) + 2)
             if at is None:

@@ -1,4 +1,4 @@
-"""All curves between outcomes in a plane: sought from a lattice and from seed lines, followed from meeting to meeting."""
+"""All curves between outcomes in a plane: sought from a lattice and seed lines, followed from meeting to meeting."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from .plane import Plane
 LONGEST = 0.03  # step of a continuation, of the window
 _MOST_CURVES = 400
 _SAME = 3e-5  # of the window: meeting points that are nearer are one
-_COVERED, _SLACK = 5e-3, 5e-4  # distances within which a curve that is known is looked for about a seed, a lattice's edge
+_COVERED, _SLACK = (
+    5e-3,
+    5e-4,
+)  # distances within which a curve that is known is looked for about a seed, a lattice's edge
 _SAME_PLACE = 1e-6  # within which a seed is on it
 _STEP = 1e-3  # the first, from a seed
 _ZOOMS = 4  # times that an interval with a third outcome in it is divided
@@ -86,7 +89,12 @@ class Survey:
             length = float(np.linalg.norm(way))
             centre, along = 0.5 * (at[one] + at[other]), way / length
             found = crossings(
-                self.plane.labels, centre[None], along[None], np.array([length / 2]), np.array([right]), np.array([left])
+                self.plane.labels,
+                centre[None],
+                along[None],
+                np.array([length / 2]),
+                np.array([right]),
+                np.array([left]),
             )[0]
             if not np.isnan(found).any():
                 self._start(found, right, left)

@@ -2,12 +2,13 @@
 
     python tests/benchmarks/atlas_random.py [SCENES] [POINTS] [SEED] [FOLDER]
 
-SCENES (20) scenes, entries scaled over two decades about the presets, all laws, films, partners and attractions; half of
-the planes are of the angle, the others of an entry. POINTS (4000) collisions each, none nearer to a curve than is stated
-that its chords are. With FOLDER every picture is drawn there. The last line is a summary; the status is 1 where a
+SCENES (20) scenes, entries scaled over two decades about the presets, all laws, films, partners and attractions; half
+of the planes are of the angle, the others of an entry. POINTS (4000) collisions each, none nearer to a curve than is
+stated that its chords are. With FOLDER every picture is drawn there. The last line is a summary; status 1 where a
 collision disagrees with its region, or a place is not settled.
 """
 
+# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
 import sys
@@ -64,7 +65,10 @@ def _scene(random: np.random.Generator) -> Scene:
         "model.film": str(random.choice(["finite", "finite", *FILM_LAWS])),
     }
     if "bridge" in tables:
-        changes |= {"bridge.law": str(random.choice(BRIDGE_LAWS)), "bridge.contact_angle": float(random.uniform(0, 0.8))}
+        changes |= {
+            "bridge.law": str(random.choice(BRIDGE_LAWS)),
+            "bridge.contact_angle": float(random.uniform(0, 0.8)),
+        }
     scene = base.with_entries(changes)
     kind = random.random()
     if kind < 0.1:
@@ -73,8 +77,13 @@ def _scene(random: np.random.Generator) -> Scene:
     elif kind < 0.25 and "pendulum" not in tables:
         radius, density = 2 * scene.reduced_radius, 2500.0
         own = {"radius": radius, "density": density}
-        particles = {k: v for k, v in scene.to_dict()["particles"].items() if k not in ("reduced_radius", "reduced_mass")}
-        partner = {"radius": radius * 10 ** random.uniform(-0.7, 0.7), "density": density * 10 ** random.uniform(-0.5, 0.5)}
+        particles = {
+            k: v for k, v in scene.to_dict()["particles"].items() if k not in ("reduced_radius", "reduced_mass")
+        }
+        partner = {
+            "radius": radius * 10 ** random.uniform(-0.7, 0.7),
+            "density": density * 10 ** random.uniform(-0.5, 0.5),
+        }
         scene = Scene.from_dict(scene.to_dict() | {"particles": particles | own, "partner": partner})
     if random.random() < 0.2 and "pendulum" not in tables:
         scene = Scene.from_dict(scene.to_dict() | {"attraction": {"hamaker": 10 ** random.uniform(-21, -18)}})

@@ -55,7 +55,7 @@ def test_every_random_collision_lies_in_its_region(name: str) -> None:
 
 @pytest.mark.parametrize("name", list(SPANS))
 def test_curves_pass_through_the_changes_of_lines(name: str) -> None:
-    """Each change of lines that the atlas has not seen lies on a curve between its outcomes, and no curve passes else."""
+    """Changes of lines that the atlas has not seen lie on curves between their outcomes; no other curve passes."""
     found = whole(name)
     lines = boundary(name, angle=np.radians([13.0, 37.0, 47.0, 71.0]), stokes=found.window)
     for angle, line in zip(lines.angles, lines.changes, strict=True):
@@ -106,7 +106,7 @@ def test_the_graze_and_the_rebound_that_just_escapes() -> None:
 
 @pytest.mark.parametrize(("name", "angle"), [("granulation", 50.0), ("pendulum", 60.0)])
 def test_slopes_of_the_curves(name: str, angle: float) -> None:
-    """d ln St*/d angle along each curve, against the implicit function theorem on CasADi's derivatives."""
+    """The slope of ln St* along each curve, against the implicit function theorem on CasADi's derivatives."""
     found, at = whole(name), math.radians(angle)
     (line,) = boundary_sensitivities(name, angle=at, stokes=found.window, wrt=["impact.angle"]).changes
     assert len(line) == 2
