@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .atlases import Atlas, atlas
     from .bounds import Boundaries, boundary
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .many import collide_many
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .simulate import collide
 
 _HOMES = {
+    "Atlas": "atlases",
     "Boundaries": "bounds",
     "BoundarySensitivities": "sensitivity.boundaries",
     "CheckFailed": "errors",
@@ -35,6 +37,7 @@ _HOMES = {
     "Scene": "scene",
     "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
+    "atlas": "atlases",
     "band": "sensitivity.uncertainty",
     "boundary": "bounds",
     "boundary_sensitivities": "sensitivity.boundaries",
@@ -48,6 +51,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Atlas",
     "Boundaries",
     "BoundarySensitivities",
     "CheckFailed",
@@ -58,6 +62,7 @@ __all__ = [
     "Scene",
     "Sensitivities",
     "WetDoubletError",
+    "atlas",
     "band",
     "boundary",
     "boundary_sensitivities",

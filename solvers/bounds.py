@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path as FilePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from .settings import RTOL, check_rtol
 from .taylor.library import knows
 from .validity import warn
 from .workers import lasting_workers
+
+if TYPE_CHECKING:
+    import xarray
 
 STOKES = (1e-4, 100.0)
 SHARPEST = 1e-13
@@ -46,6 +49,7 @@ class Boundaries:
         failures: the reason of each line that could not be traced (its changes are then empty), else "".
         resolution: relative spacing of the Stokes numbers at which every line was looked at. A strip of an outcome that
             is wider is seen; a narrower one is where a margin (of a rebound criterion, of the escape) shows it.
+        scene, window: whose boundaries they are, and the Stokes numbers between which they were looked for.
     """
 
     angles: tuple[float, ...]
@@ -53,6 +57,8 @@ class Boundaries:
     collisions: int
     failures: tuple[str, ...] = ()
     resolution: float = 0.0
+    scene: Scene | None = field(default=None, repr=False)
+    window: tuple[float, float] = STOKES
 
     @property
     def failed(self) -> tuple[tuple[float, str], ...]:
@@ -62,6 +68,18 @@ class Boundaries:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --json`."""
         return {"angles": list(self.angles), "changes": [[one.to_dict() for one in line] for line in self.changes]}
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Labelled, units in attributes: over `line` and `change`, padded with NaN (see docs/results.md)."""
+        from .boundary_data import dataset
+
+        return dataset(self)
+
+    def plot(self, file: str | FilePath) -> None:
+        """Draw a picture (.png, .pdf or .svg): the regions of each outcome, the curves and where they meet."""
+        from .boundary_plot import plot
+
+        plot(self, file)
 
     def __str__(self) -> str:
         lines = ["angle (deg)   St              Ce          change"]
@@ -140,6 +158,8 @@ def boundary(
         whole.collisions,
         tuple(whole.failures[k] for k in back),
         whole.resolution,
+        loaded,
+        (low, high),
     )
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from ..custom import fields
 from ..errors import CheckFailed, InputError
 from ..ranges import parse_range
 from ..schema import FIELDS
@@ -27,7 +29,8 @@ _ENTRY = FIELDS["impact.angle"]
 
 @click.command("boundary", short_help="Every Stokes number at which the outcome changes, traced.")
 @options.scene_argument
-@click.option("--angle", metavar="RANGE", help="Impact angles in degrees, as 20:65:10.")
+@click.option("--angle", metavar="RANGE", help="Impact angles in degrees: lines, as 20:65:10, or a plane, as 20:65.")
+@click.option("--over", metavar="NAME=LO:HI", help='A plane of this entry, as liquid.viscosity="1 Pa s:4 Pa s".')
 @click.option("--stokes", metavar="LO:HI", help="Stokes numbers to look between [1e-4:100].")
 @click.option("--wrt", metavar="NAMES", help="Also how each moves, as with bridge.volume,liquid.viscosity, or all.")
 @options.changes
@@ -40,6 +43,7 @@ _ENTRY = FIELDS["impact.angle"]
 def command(
     source: str | None,
     angle: str | None,
+    over: str | None,
     stokes: str | None,
     wrt: str | None,
     changes: Sequence[str],
@@ -51,9 +55,14 @@ def command(
 ) -> None:
     """Changes of outcome of SCENE along lines of constant angle: Stokes number, Ce, and the outcomes on either side.
 
+    With --angle LO:HI, or --over, all curves in the plane of the angle, or of that entry at the scene's angle, and the
+    Stokes number: each is followed to where it leaves the window or meets others, and these points are named.
+
     \b
-    Example:
+    Examples:
       wetdoublet boundary granulation --angle 20:70:26 --plot boundary.png
+      wetdoublet boundary granulation --angle 0:85 --plot atlas.png
+      wetdoublet boundary granulation --over particles.roughness="0.1 um:6 um" --set impact.angle="60 deg"
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..bounds import STOKES, boundary
 
@@ -62,10 +71,15 @@ def command(
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
     span = STOKES if stokes is None else _span(stokes)
-    angles = None if angle is None else parse_range(angle, "--angle", _degrees, unit="in degrees", most=_MOST)
-    scene = options.Asked.check(source, changes, model=model).scene()
+    asked = options.Asked.check(source, changes, model=model)
+    plane = _plane(angle, over, wrt, asked)
+    angles = None if angle is None or plane else parse_range(angle, "--angle", _degrees, unit="in degrees", most=_MOST)
+    scene = asked.scene()
+    if plane is not None:
+        _show_atlas(scene, *plane, span, tolerance, as_json, picture, file)
+        return
     if angles is None:
-        raise InputError("--angle", None, "LO:HI:N in degrees, as 20:65:10")
+        raise InputError("--angle", None, "LO:HI:N, or LO:HI, in degrees, as 20:65:10, or --over")
 
     names = _names(scene, wrt)
     with bar("angles") as tell:
@@ -91,6 +105,71 @@ def command(
         )
 
 
+def _plane(
+    angle: str | None, over: str | None, wrt: str | None, asked: options.Asked
+) -> tuple[str, tuple[float, float]] | None:
+    """The entry across and its span, if a plane is asked for."""
+    if over is not None:
+        name, equals, ends = over.partition("=")
+        name = name.strip()
+        if not equals:
+            raise InputError("--over", over, 'NAME=LO:HI, such as liquid.viscosity="1 Pa s:4 Pa s"', "has no =")
+        if angle is not None:
+            raise InputError("--angle", angle, "--set impact.angle=ANGLE for a plane of another entry",
+                             "is given together with --over")  # fmt: skip
+        from ..requests import check_varies
+
+        check_varies(name, ends, "--over", asked.package)
+        if name in asked.entries:
+            raise InputError("--over", name, "every entry once", "is given together with --set")
+        entry = fields(asked.package)[name]
+        unit = " with their units" if entry.unit else ""
+        found = name, _ends(f"--over {name}", ends, lambda end: entry.number(end, label=f"--over {name}"), unit)
+    elif angle is not None and angle.count(":") == 1 and not angle.strip().startswith("log"):
+        found = _ENTRY.name, _ends("--angle", angle, _degrees, " in degrees")
+    else:
+        return None
+    if wrt is not None:
+        raise InputError("--wrt", wrt, "--angle LO:HI:N", "differentiates lines, not a plane")
+    return found
+
+
+def _ends(label: str, text: str, read: Callable[[str], float], unit: str) -> tuple[float, float]:
+    """Both ends of LO:HI, SI."""
+    parts = text.split(":")
+    accepted = f"LO:HI{unit}, with LO below HI"
+    if len(parts) != 2:
+        raise InputError(label, text, accepted, "is not a range")
+    low, high = (read(part) for part in parts)
+    if not low < high:
+        raise InputError(label, text, accepted, "is not a range")
+    return low, high
+
+
+def _show_atlas(
+    scene: Scene,
+    over: str,
+    across: tuple[float, float],
+    span: tuple[float, float],
+    rtol: float,
+    as_json: bool,
+    picture: Path | None,
+    file: Path | None,
+) -> None:
+    from ..atlases import atlas
+
+    with bar("lines") as tell:
+        found = atlas(scene, over=over, span=across, stokes=span, rtol=rtol, progress=tell)
+    options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False) if as_json else str(found), file)
+    if picture is not None:
+        found.plot(picture)
+    if found.unsettled:
+        x, stokes, reason = found.unsettled[0]
+        raise CheckFailed(
+            f"{len(found.unsettled)} places are not settled, first {over} = {x:.6g} (SI), St {stokes:.6g}: {reason}"
+        )
+
+
 def _names(scene: Scene, wrt: str | None) -> tuple[str, ...] | None:
     """The parameters of --wrt; `all` stands for every number of the scene, and the angle."""
     if wrt is None:
@@ -111,11 +190,5 @@ def _degrees(text: str) -> float:
 
 
 def _span(text: str) -> tuple[float, float]:
-    accepted = "LO:HI, as 0.01:10, with 0 < LO < HI"
-    parts = text.split(":")
-    if len(parts) != 2:
-        raise InputError("--stokes", text, accepted, "is not a range")
-    low, high = (FIELDS["impact.stokes"].number(part, label="--stokes") for part in parts)
-    if not low < high:
-        raise InputError("--stokes", text, accepted, "is not a range")
-    return low, high
+    return _ends("--stokes", text, lambda end: FIELDS["impact.stokes"].number(end, label="--stokes"),
+                 ", as 0.01:10")  # fmt: skip

@@ -49,7 +49,7 @@ def collided(
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
-        impacts, sound = _impacts(request if whole else request.part(part))
+        impacts, sound = impacts_of(request if whole else request.part(part))
         found = answers(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
         if found is None:
             return which
@@ -64,7 +64,7 @@ def collided(
     return np.concatenate(left)
 
 
-def _impacts(request: Request) -> tuple[Impacts, np.ndarray]:
+def impacts_of(request: Request) -> tuple[Impacts, np.ndarray]:
     """The impacts of a request in SI, and which collisions they are: the others are bad input, or may be."""
     scene = request.scene
     values: dict[str, np.ndarray] = {}

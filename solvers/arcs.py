@@ -1,0 +1,129 @@
+"""Curves as they are shown: split at folds into parts that go one way in x, and drawn finely enough."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from .continuation import crossings
+from .plane import Plane
+from .survey import Arc
+
+CHORD = 2e-5  # of the window: how far a curve may lie from the straight lines between its points
+_ROUNDS = 4
+_FLAT = 1e-9  # change of x that is rounding
+_ZOOMS = (1.0, 0.3, 0.1)  # parts of the surroundings of a fold on which it is located
+
+
+def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
+    """The parts of a curve between its folds, each with x ascending, and the folds."""
+    points, last = arc.points, len(arc.points) - 1
+    closed = last > 3 and bool(np.all(points[0] == points[-1]))
+    if closed:  # begin at a fold
+        points = np.roll(points[:-1], -int(np.argmax(points[:-1, 0])), axis=0)
+        points = np.vstack([points, points[:1]])
+    turns = _turns(points[:, 0])
+    folds = {k: _fold(plane, points[k - 1 : k + 2], arc) for k in turns}
+    places = dict(folds)
+    if closed:
+        folds[0] = places[0] = places[last] = _fold(plane, points[[-2, 0, 1]], arc)
+    parts = []
+    for first, k in pairwise([0, *turns, last]):
+        begin, end = places.get(first, points[first]), places.get(k, points[k])
+        forward = Arc(np.vstack([begin, points[first + 1 : k], end]), arc.right, arc.left)
+        parts.append(_ascending(forward if end[0] > begin[0] else forward.reversed()))
+    return parts, list(folds.values())
+
+
+def _ascending(arc: Arc) -> Arc:
+    """Without points that do not lie between the ends, or behind the one before them."""
+    x = arc.points[:, 0]
+    highest = np.maximum.accumulate(x)
+    kept = np.concatenate([[True], x[1:] > highest[:-1]]) & (x < x[-1])
+    kept[0] = kept[-1] = True
+    return Arc(arc.points[kept], arc.right, arc.left)
+
+
+def _turns(x: np.ndarray) -> list[int]:
+    """Where x turns by more than rounding."""
+    found, way, extreme = [], 0, 0
+    for k in range(1, x.size):
+        if way == 0:
+            if abs(x[k] - x[0]) > _FLAT:
+                way, extreme = (1 if x[k] > x[0] else -1), k
+        elif way * (x[k] - x[extreme]) > 0:
+            extreme = k
+        elif way * (x[extreme] - x[k]) > _FLAT:
+            found.append(extreme)
+            way, extreme = -way, k
+    return found
+
+
+def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
+    """The turning point of x about the middle one of three points, from places where horizontals cross the curve."""
+    place: np.ndarray = near[1]
+    half = 0.5 * abs(near[2, 1] - near[0, 1])
+    low, high = (arc.left, arc.right) if near[2, 1] > near[0, 1] else (arc.right, arc.left)
+    if half < 1e-9:
+        return place  # a cusp, or its like
+    for zoom in _ZOOMS:
+        heights = np.clip(place[1] + zoom * half * np.linspace(-1, 1, 7), 0, 1)
+        reach = max(1e-7, 2 * float(np.ptp(near[:, 0])))
+        centres = np.column_stack([np.full(7, place[0]), heights])
+        across = np.tile([1.0, 0.0], (7, 1))
+        found = crossings(plane.labels, centres, across, np.full(7, reach), np.full(7, low), np.full(7, high))
+        found = found[~np.isnan(found[:, 0])]
+        if len(found) < 5:
+            return place
+        at = (found[:, 1] - place[1]) / (zoom * half)
+        fit = np.polynomial.Polynomial.fit(at, found[:, 0], 4 if len(found) > 5 else 2)
+        roots = fit.deriv().roots()
+        real = [float(root.real) for root in roots if abs(root.imag) < 1e-9 and abs(root.real) <= 1.2]
+        if not real:
+            return place
+        root = min(real, key=abs)
+        place = np.array([float(fit(root)), place[1] + root * zoom * half])
+    return place
+
+
+def refined(plane: Plane, arcs: list[Arc]) -> list[Arc]:
+    """The same curves with more points where the straight lines between them leave the curve."""
+    for _ in range(_ROUNDS):
+        chords = [(k, j) for k, arc in enumerate(arcs) for j in _coarse(arc.points)]
+        if not chords:
+            break
+        one = np.array([arcs[k].points[j] for k, j in chords])
+        other = np.array([arcs[k].points[j + 1] for k, j in chords])
+        way = other - one
+        length = np.linalg.norm(way, axis=1)
+        normal = np.column_stack([-way[:, 1], way[:, 0]]) / length[:, None]
+        right, left = (np.array([getattr(arcs[k], side) for k, _ in chords]) for side in ("right", "left"))
+        found = crossings(plane.labels, 0.5 * (one + other), normal, 0.2 * length, right, left)
+        arcs = [_with(arc, k, chords, found) for k, arc in enumerate(arcs)]
+    return arcs
+
+
+def _coarse(points: np.ndarray) -> list[int]:
+    """The chords that lie farther from the curve than CHORD, as the turning of the polyline shows."""
+    way = np.diff(points, axis=0)
+    length = np.linalg.norm(way, axis=1)
+    heading = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
+    if length.size < 2:
+        return [0] if length.size and length[0] > 1e-3 else []
+    turn = np.abs(np.diff(heading)) / np.maximum(0.5 * (length[1:] + length[:-1]), 1e-300)
+    bend = np.maximum(np.concatenate([turn[:1], turn]), np.concatenate([turn, turn[-1:]]))
+    return np.flatnonzero(bend * length**2 / 8 > CHORD).tolist()
+
+
+def _with(arc: Arc, k: int, chords: list[tuple[int, int]], found: np.ndarray) -> Arc:
+    own = [(j, place) for (which, j), place in zip(chords, found, strict=True) if which == k]
+    fits = [
+        (j, place) for j, place in own
+        if not math.isnan(place[0]) and arc.points[j, 0] < place[0] < arc.points[j + 1, 0]
+    ]  # fmt: skip
+    if not fits:
+        return arc
+    points = np.insert(arc.points, [j + 1 for j, _ in fits], np.array([place for _, place in fits]), axis=0)
+    return Arc(points, arc.right, arc.left)

@@ -1,0 +1,133 @@
+"""Names of regions in a picture: set inside the region, where no curve and no mark is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from .samples import OUTCOMES
+
+_CELL = 3.0  # pixels
+_CLEAR = 2  # cells between a name and what is not of its region
+_INK = "#202020"
+# What a region may be called, the best first
+_NAMES = (
+    (OUTCOMES[0], "S"),
+    (OUTCOMES[1], "stick-rotate-\nseparate", "SRS"),
+    (OUTCOMES[2], "B"),
+)
+_FONT = 9.0
+
+
+def place_names(
+    figure: Figure,
+    axes: Axes,
+    outcome: Callable[[np.ndarray, np.ndarray], np.ndarray],
+) -> None:
+    """Write each region's name in it, or its letters where there is no room; nothing where these do not fit either.
+
+    Arguments:
+        outcome: of arrays of places, as drawn on the axes.
+        colours: of the outcomes.
+    """
+    canvas = FigureCanvasAgg(figure)
+    figure.draw_without_rendering()
+    box = axes.get_window_extent()
+    columns, rows = int(box.width / _CELL), int(box.height / _CELL)
+    pixels = np.stack(
+        np.meshgrid(box.x0 + (np.arange(columns) + 0.5) * _CELL, box.y0 + (np.arange(rows) + 0.5) * _CELL), axis=-1
+    )
+    places = axes.transData.inverted().transform(pixels.reshape(-1, 2))
+    labels = outcome(places[:, 0], places[:, 1]).reshape(rows, columns)
+    labels = _without_marks(axes, labels, pixels)
+    renderer = canvas.get_renderer()  # type: ignore[no-untyped-call]
+    for label, region in _regions(labels):
+        for name in _NAMES[label]:
+            text = axes.text(
+                0, 0, name, fontsize=_FONT, ha="center", va="center", color=_INK, linespacing=1.1, zorder=7
+            )
+            size = text.get_window_extent(renderer)
+            at = _room(region, int(size.width / _CELL) + 2, int(size.height / _CELL) + 2)
+            if at is None:
+                text.remove()
+                continue
+            text.set_transform(axes.transAxes)
+            text.set_position(((at[1] * _CELL) / box.width, (at[0] * _CELL) / box.height))
+            break
+
+
+def _without_marks(axes: Axes, labels: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+    """Labels with -1 under the marks of points."""
+    kept = labels.copy()
+    for line in axes.get_lines():
+        if line.get_marker() in ("None", "", None) or line.get_transform() != axes.transData:
+            continue
+        reach = 0.5 * line.get_markersize() * axes.figure.dpi / 72 + _CELL
+        for x, y in axes.transData.transform(np.column_stack(line.get_data())):
+            kept[np.hypot(pixels[..., 0] - x, pixels[..., 1] - y) < reach] = -1
+    return kept
+
+
+def _regions(labels: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
+    """The connected parts of each label, as masks."""
+    left = labels >= 0
+    while left.any():
+        start = np.unravel_index(int(np.argmax(left)), left.shape)
+        label = int(labels[start])
+        region = np.zeros_like(left)
+        region[start] = True
+        same = labels == label
+        size = 0
+        while size != (size := int(region.sum())):
+            region = _spread(region, same)
+        yield label, region
+        left &= ~region
+
+
+def _spread(region: np.ndarray, same: np.ndarray) -> np.ndarray:
+    """The region with what is reached from it along rows and columns."""
+    for axis in (0, 1):
+        for way in (1, -1):
+            order = region if way > 0 else np.flip(region, axis)
+            inside = same if way > 0 else np.flip(same, axis)
+            # carried on until the label ends: the last reached place lies after the last place outside
+            index = np.arange(order.shape[axis]).reshape((-1, 1) if axis == 0 else (1, -1))
+            reached = np.maximum.accumulate(np.where(order, index, -1), axis=axis)
+            outside = np.maximum.accumulate(np.where(inside, -1, index), axis=axis)
+            grown = inside & (reached > outside)
+            region = grown if way > 0 else np.flip(grown, axis)
+    return region
+
+
+def _room(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:
+    """Row and column of the middle of a box of this size inside the region, as far from its edges as can be."""
+    best, low, high = None, 0, max(region.shape)
+    while low <= high:
+        margin = (low + high) // 2
+        fits = _fitting(region, width + 2 * (margin + _CLEAR), height + 2 * (margin + _CLEAR))
+        if fits is None:
+            high = margin - 1
+        else:
+            best, low = fits, margin + 1
+    return best
+
+
+def _fitting(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:
+    """The middle of a box that lies in the region, the one nearest to the region's own middle."""
+    rows, columns = region.shape
+    if width > columns or height > rows:
+        return None
+    sums = np.pad(np.cumsum(np.cumsum(region, axis=0), axis=1), ((1, 0), (1, 0)))
+    inside = (
+        sums[height:, width:] - sums[:-height, width:] - sums[height:, :-width] + sums[:-height, :-width]
+    ) == width * height
+    if not inside.any():
+        return None
+    middle = np.argwhere(region).mean(axis=0)
+    at = np.argwhere(inside) + np.array([height / 2, width / 2])
+    row, column = at[int(np.argmin(((at - middle) ** 2).sum(axis=1)))]
+    return float(row), float(column)

@@ -1,0 +1,82 @@
+"""The regions of a plane: which outcome lies between its curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from .survey import Arc
+
+UNKNOWN = -1
+
+
+@dataclass(frozen=True)
+class Slab:
+    """A part of the window between two values of x in which no curve begins or ends.
+
+    Attributes:
+        low, high: of x.
+        arcs: the curves that cross it, upwards.
+        labels: between them, from the lower edge of the window to the upper.
+    """
+
+    low: float
+    high: float
+    arcs: tuple[Arc, ...]
+    labels: tuple[int, ...]
+    consistent: bool
+
+
+def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[Slab]:
+    """The window in slabs, in the order of x.
+
+    Arguments:
+        arcs: with x ascending: the label on the right is below, the one on the left above.
+        column, labels: values of x and the outcome there, which decides where no curve passes.
+    """
+    ends = np.unique(np.concatenate([[0.0, 1.0], *([arc.points[[0, -1], 0] for arc in arcs])]))
+    ends = ends[np.concatenate([[True], np.diff(ends) > 1e-12])]
+    found = []
+    for low, high in pairwise(ends.tolist()):
+        middle = 0.5 * (low + high)
+        own = [arc for arc in arcs if arc.points[0, 0] <= middle <= arc.points[-1, 0]]
+        own.sort(key=lambda arc: float(np.interp(middle, arc.points[:, 0], arc.points[:, 1])))
+        if own:
+            between = [own[0].right, *(arc.left for arc in own)]
+            consistent = all(below.left == above.right for below, above in pairwise(own))
+        else:
+            between, consistent = [int(labels[int(np.argmin(np.abs(column - middle)))])], True
+        found.append(Slab(low, high, tuple(own), tuple(between), consistent))
+    return found
+
+
+def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The region's label at points (n x 2), and the vertical distance to the nearest curve of their slab."""
+    labels, distance = np.full(points.shape[0], UNKNOWN), np.full(points.shape[0], np.inf)
+    which = np.searchsorted([part.high for part in parts], points[:, 0]).clip(0, len(parts) - 1)
+    for k, part in enumerate(parts):
+        own = np.flatnonzero(which == k)
+        if not own.size:
+            continue
+        x, y = points[own, 0], points[own, 1]
+        heights = np.array([np.interp(x, arc.points[:, 0], arc.points[:, 1]) for arc in part.arcs])
+        below = (heights < y).sum(axis=0) if part.arcs else np.zeros(own.size, dtype=int)
+        labels[own] = np.array(part.labels)[below]
+        if part.arcs:
+            distance[own] = np.abs(heights - y).min(axis=0)
+    return labels, distance
+
+
+def apart(arcs: Sequence[Arc], points: np.ndarray) -> np.ndarray:
+    """Distance in the window from points to the nearest curve."""
+    found = np.full(points.shape[0], np.inf)
+    for arc in arcs:
+        one, way = arc.points[:-1], np.diff(arc.points, axis=0)
+        square = np.maximum((way**2).sum(axis=1), 1e-300)
+        for k, point in enumerate(points):
+            part = np.clip(((point - one) * way).sum(axis=1) / square, 0, 1)
+            found[k] = min(found[k], float(np.min(np.linalg.norm(one + part[:, None] * way - point, axis=1))))
+    return found

@@ -1,0 +1,235 @@
+"""All curves between outcomes in a plane: sought from a lattice and seed lines, followed from meeting to meeting."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
+from .plane import Plane
+
+LONGEST = 0.03  # step of a continuation, of the window
+_MOST_CURVES = 400
+_SAME = 3e-5  # of the window: meeting points that are nearer are one
+_COVERED, _SLACK = (
+    5e-3,
+    5e-4,
+)  # distances within which a curve that is known is looked for about a seed, a lattice's edge
+_SAME_PLACE = 1e-6  # within which a seed is on it
+_STEP = 1e-3  # the first, from a seed
+_ZOOMS = 4  # times that an interval with a third outcome in it is divided
+
+
+@dataclass
+class Meeting:
+    """A point from which curves leave; those that have been followed are `used`."""
+
+    place: np.ndarray
+    leaving: list[Branch]
+    used: set[int] = field(default_factory=set)
+
+
+@dataclass
+class Arc:
+    """Points of the unit square along a curve, and the labels on its right and on its left."""
+
+    points: np.ndarray
+    right: int
+    left: int
+
+    def reversed(self) -> Arc:
+        """The same the other way."""
+        return Arc(self.points[::-1], self.left, self.right)
+
+
+@dataclass
+class Survey:
+    """Curves of a plane, found so far, and what could not be followed."""
+
+    plane: Plane
+    arcs: list[Arc] = field(default_factory=list)
+    meetings: list[Meeting] = field(default_factory=list)
+    failures: list[tuple[np.ndarray, str]] = field(default_factory=list)
+    _waiting: list[tuple[Meeting, int]] = field(default_factory=list)
+
+    def seek(self, at: np.ndarray, labels: np.ndarray) -> None:
+        """Follow what shows between neighbours of a polyline of points (n x 2) with labels (n) and is not known."""
+        known = np.flatnonzero(labels >= 0)
+        for one, other in pairwise(known.tolist()):
+            if labels[one] != labels[other] and not self._covered(at[one], at[other], labels[one], labels[other]):
+                self._seek_between(at[one], at[other])
+
+    def seed(self, place: np.ndarray, below: int, above: int) -> None:
+        """Follow the curve through a change of label upwards at a place, unless it is known."""
+        near = np.array([0.0, _COVERED])
+        for y in self._between(np.clip(place - near, 0, 1), np.clip(place + near, 0, 1), below, above):
+            # straight lines between points of a curve are not the curve
+            found = crossings(
+                self.plane.labels, np.array([[place[0], y]]), np.array([[0.0, 1.0]]), np.array([_COVERED]),
+                np.array([below]), np.array([above]),
+            )[0]  # fmt: skip
+            if abs(found[1] - place[1]) < _SAME_PLACE:
+                return
+        self._start(place, below, above)
+
+    def _seek_between(self, low: np.ndarray, high: np.ndarray, zooms: int = _ZOOMS) -> None:
+        parts = np.linspace(0, 1, 50)[:, None]
+        at = low + parts * (high - low)
+        labels = self.plane.labels(at)
+        known = np.flatnonzero(labels >= 0)
+        for one, other in pairwise(known.tolist()):
+            right, left = int(labels[one]), int(labels[other])
+            if right == left or self._covered(at[one], at[other], right, left):
+                continue
+            way = at[other] - at[one]
+            length = float(np.linalg.norm(way))
+            centre, along = 0.5 * (at[one] + at[other]), way / length
+            found = crossings(
+                self.plane.labels,
+                centre[None],
+                along[None],
+                np.array([length / 2]),
+                np.array([right]),
+                np.array([left]),
+            )[0]
+            if not np.isnan(found).any():
+                self._start(found, right, left)
+            elif zooms:  # a third outcome lies between
+                self._seek_between(at[one], at[other], zooms - 1)
+            elif not any(np.linalg.norm(point.place - centre) < _SAME for point in self.meetings):
+                self.failures.append((centre, "a change of outcome was seen and could not be located"))
+
+    def _start(self, place: np.ndarray, one: int, other: int) -> None:
+        """Follow the curve through a place both ways."""
+        for radius in (CIRCLE, CIRCLE / 10, CIRCLE / 100):
+            leaving = branches(self.plane.labels, place, radius)
+            own = [branch for branch in leaving if {branch.right, branch.left} == {one, other}]
+            edge = bool(np.any((place < radius) | (place > 1 - radius)))
+            if len(own) == len(leaving) == 2 - edge or (edge and 0 < len(leaving) == len(own) <= 2):
+                break
+        else:
+            centre, leaving = meeting(self.plane.labels, place)
+            if len(leaving) > 2:
+                self._meet(centre, leaving)
+                self._empty()
+            else:
+                self.failures.append((place, "the curve through a change of outcome could not be followed"))
+            return
+        forth = follow(self.plane.labels, place, own[0], _STEP, LONGEST)
+        points = forth.points
+        if forth.end != "closed":
+            points = self._ended(Arc(points, own[0].right, own[0].left), forth.end)
+            if len(own) > 1:
+                back = follow(self.plane.labels, place, own[1], _STEP, LONGEST, closes=False)
+                before = self._ended(Arc(back.points, own[1].right, own[1].left), back.end)
+                points = np.vstack([before[:0:-1], points])
+        self._keep(Arc(points, own[0].right, own[0].left))
+        self._empty()
+
+    def _empty(self) -> None:
+        """Follow what leaves the meeting points."""
+        while self._waiting:
+            point, k = self._waiting.pop()
+            if k in point.used:
+                continue
+            point.used.add(k)
+            branch = point.leaving[k]
+            found = follow(self.plane.labels, point.place, branch, CIRCLE, LONGEST, closes=False)
+            if len(found.points) < 2 or len(self.arcs) > _MOST_CURVES:
+                self.failures.append((point.place, "a curve that leaves this point could not be followed"))
+                continue
+            arc = Arc(found.points, branch.right, branch.left)
+            self._keep(Arc(self._ended(arc, found.end), branch.right, branch.left))
+
+    def _ended(self, arc: Arc, end: str) -> np.ndarray:
+        """The points of a curve with the meeting point that it ends at."""
+        if end != "lost":
+            return arc.points
+        last = arc.points[-1]
+        way = last - arc.points[-2] if len(arc.points) > 1 else np.array([1.0, 0.0])
+        ahead = math.atan2(way[1], way[0])
+        known = [one for one in self.meetings if np.linalg.norm(one.place - last) < _SAME]
+        if known:
+            point = min(known, key=lambda one: float(np.linalg.norm(one.place - last)))
+        else:
+            place, leaving = meeting(self.plane.labels, last, ahead)
+            if len(leaving) < 2:
+                self.failures.append((last, "a curve ends here, and no other is seen to leave"))
+                return arc.points
+            point = self._meet(place, leaving)
+        k = _coming(point, arc, ahead)
+        if k is not None:
+            point.used.add(k)
+        kept = arc.points
+        while len(kept) > 2 and np.linalg.norm(kept[-1] - point.place) < 10 * SHORTEST:
+            kept = kept[:-1]  # beside the point itself chords would turn at random
+        return np.vstack([kept, point.place])
+
+    def _meet(self, place: np.ndarray, leaving: list[Branch]) -> Meeting:
+        point = Meeting(place, leaving)
+        self.meetings.append(point)
+        self._waiting += [(point, k) for k in range(len(leaving))]
+        return point
+
+    def _keep(self, arc: Arc) -> None:
+        if len(arc.points) > 1:
+            self.arcs.append(arc)
+
+    def _covered(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> bool:
+        """Whether a curve that is known passes between two points of a vertical or horizontal with these labels."""
+        return next(self._between(low, high, right, left), None) is not None
+
+    def _between(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> Iterator[float]:
+        """Where curves that are known pass between two points of a vertical or horizontal with these labels."""
+        axis = int(abs(high[1] - low[1]) > abs(high[0] - low[0]))
+        for arc in self.arcs:
+            for place, along in passes(arc.points, 1 - axis, low[1 - axis]):
+                # going up, what is on the right of a curve that goes to the right is below
+                forward = along > 0 if axis == 1 else along < 0
+                sides = (arc.right, arc.left) if forward else (arc.left, arc.right)
+                if low[axis] - _SLACK <= place <= high[axis] + _SLACK and sides == (right, left):
+                    yield place
+
+
+def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float, float]]:
+    """Where a polyline passes a value of one coordinate: the other there, and by how much the first changes."""
+    own, other = points[:, axis], points[:, 1 - axis]
+    change = np.diff(own)
+    low, high = np.minimum(own[:-1], own[1:]), np.maximum(own[:-1], own[1:])
+    for k in np.flatnonzero((low <= value) & (value <= high) & (change != 0)).tolist():
+        part = (value - own[k]) / change[k]
+        yield float(other[k] + part * (other[k + 1] - other[k])), float(change[k])
+
+
+def _coming(point: Meeting, arc: Arc, ahead: float) -> int | None:
+    """Which of the curves that leave a point is the one that came to it."""
+    alike = [k for k, one in enumerate(point.leaving) if (one.right, one.left) == (arc.left, arc.right)]
+    alike = [k for k in alike if k not in point.used] or alike
+    if not alike:
+        return None
+    return min(alike, key=lambda k: -math.cos(point.leaving[k].direction - ahead - math.pi))
+
+
+def lattice(plane: Plane, columns: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points of an even lattice (columns x rows x 2), and their labels."""
+    across, up = np.linspace(0, 1, columns), np.linspace(0, 1, rows)
+    at = np.stack(np.meshgrid(across, up, indexing="ij"), axis=-1)
+    return at, plane.labels(at.reshape(-1, 2)).reshape(columns, rows)
+
+
+def surveyed(
+    plane: Plane, at: np.ndarray, labels: np.ndarray, changes: Iterable[tuple[np.ndarray, int, int]]
+) -> Survey:
+    """The curves that a lattice and changes on lines show: place, label below, label above."""
+    survey = Survey(plane)
+    for column, own in zip(at, labels, strict=True):
+        survey.seek(column, own)
+    for row, own in zip(at.transpose(1, 0, 2), labels.T, strict=True):
+        survey.seek(row, own)
+    for place, below, above in changes:
+        survey.seed(place, below, above)
+    return survey
