@@ -89,6 +89,7 @@ class Locate:
         rtol: float,
         extras: tuple[str, ...] = (),
         machine_code: bool = False,
+        steps: int = STEPS,
     ) -> None:
         rtol = min(rtol, LOOSEST)
         self.model, self.rtol, self.machine_code = model, rtol, machine_code
@@ -107,7 +108,7 @@ class Locate:
         self.path = Path(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
-        self.spent = 0  # steps
+        self.spent, self.steps = 0, steps
 
     def run(self) -> Path:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
@@ -129,11 +130,11 @@ class Locate:
     def _spend(self, steps: int) -> None:
         """Count the steps of a call of an integrator."""
         self.spent += max(steps, CALL)
-        if self.spent > STEPS:
+        if self.spent > self.steps:
             phases = len(self.path.steps)
             what = "this is chatter without end" if phases > _CHATTER else "it creeps beyond bounds"
             raise self._error(
-                f"{STEPS} steps in {phases + 1} phases have not decided the outcome",
+                f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
                 f"{what}: try a larger --rtol, or another impact",
             )
 

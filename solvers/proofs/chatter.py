@@ -73,7 +73,8 @@ class ChatterProof:
         at_end = np.array([self.end, *y[1:]])
         if y[2] < self.model.values("rigid_rotation", at_end, self.p)["orbit"]:
             return False
-        pull, weight = (np.cumsum(panels(lambda x, f=force: f(x, y), gaps)) for force in (self._inward, self._size))
+        pull = np.cumsum(panels(lambda x: self._inward(x, y), gaps))
+        weight = np.cumsum(panels(lambda x: self._size(x, y), gaps))
         return bool(np.any(pull > self.margin * weight))
 
     def _inward(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -85,4 +86,5 @@ class ChatterProof:
         still = np.array(y)
         still[2] = 0.0
         attraction = self._inward(gaps, still)
-        return np.abs(attraction) + np.abs(attraction - self._inward(gaps, y))
+        size: np.ndarray = np.abs(attraction) + np.abs(attraction - self._inward(gaps, y))
+        return size

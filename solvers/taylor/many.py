@@ -86,7 +86,8 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     """Where an SI quantity is of a magnitude with which nothing leaves a double's range; else `numbers` shall judge."""
     size = np.abs(values)
     most = 1e200 if name in _NEVER else _MOST
-    return (size == 0) | ((size >= 1 / _MOST) & (size <= most))
+    usual: np.ndarray = (size == 0) | ((size >= 1 / _MOST) & (size <= most))
+    return usual
 
 
 def _plain(request: Request) -> bool:

@@ -13,16 +13,17 @@ from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 from wetdoublet.solvers.proofs import BarrierProof, NoProof, energy_proof
 from wetdoublet.solvers.proofs.attracted import AttractedProof
+from wetdoublet.solvers.settings import STEPS
 
 from .independent import Spheres
 
 LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 
 
-def flight(scene: Scene, stokes: float, angle: float, rtol: float = 1e-9) -> locate.Locate:
+def flight(scene: Scene, stokes: float, angle: float, rtol: float = 1e-9, steps: int = STEPS) -> locate.Locate:
     """A collision about to be located."""
     n = numbers(scene, scene.speed_of(stokes), angle)
-    return locate.Locate(load(choose(scene, n.oblique)), n.groups, rtol)
+    return locate.Locate(load(choose(scene, n.oblique)), n.groups, rtol, steps=steps)
 
 
 def film_loss(s: float) -> float:
@@ -84,8 +85,7 @@ def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatc
         with monkeypatch.context() as patch:
             patch.setattr(locate, "proof_for", lambda *_: NoProof())
             patch.setattr(locate, "STRETCHES", 4)  # 16 (8^4 - 1)/7 = 9360 x0/v0 a phase
-            patch.setattr(locate, "_MAX_STEPS", 600)  # some doublets breathe about x0, where the film hardly damps
-            on = flight(scene, stokes, angle)
+            on = flight(scene, stokes, angle, steps=20_000)  # some breathe about x0, where the film hardly damps
             with pytest.raises(ComputationError, match="no event within|phases have not decided"):
                 on.run()
             assert not on.path.separated

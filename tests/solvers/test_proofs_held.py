@@ -56,9 +56,8 @@ def _held_sticks(count: int, seed: int, monkeypatch: pytest.MonkeyPatch) -> tupl
         held += 1
         with monkeypatch.context() as patch:
             patch.setattr(locate, "proof_for", lambda *_: NoProof())
-            patch.setattr(locate, "_MAX_STEPS", 100)
             patch.setattr(locate, "STRETCHES", 6)
-            flight = Locate(model, n.groups, 1e-9, (), True)
+            flight = Locate(model, n.groups, 1e-9, (), True, steps=5_000)
             try:
                 escaped += flight.run().separated
             except ComputationError:

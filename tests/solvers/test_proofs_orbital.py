@@ -14,12 +14,13 @@ from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 from wetdoublet.solvers.proofs import NoProof, OrbitalProof
 from wetdoublet.solvers.schema import BRIDGE_LAWS
+from wetdoublet.solvers.settings import STEPS
 
 
-def flight(scene: Scene) -> Any:
+def flight(scene: Scene, steps: int = STEPS) -> Any:
     """The locating flight of a scene with its impact."""
     n = numbers(scene, *scene.need_impact())
-    return Locate(load(choose(scene, oblique=True)), n.groups, 1e-9)
+    return Locate(load(choose(scene, oblique=True)), n.groups, 1e-9, steps=steps)
 
 
 def impacts(count: int, arm: str, seed: int, shear: str = "immersed") -> list[Scene]:
@@ -44,11 +45,10 @@ def impacts(count: int, arm: str, seed: int, shear: str = "immersed") -> list[Sc
 @pytest.mark.parametrize(("arm", "shear"), [("midgap", "immersed"), ("surface", "immersed"), ("midgap", "film")])
 def test_what_separates_is_never_held(arm: str, shear: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """At no event of a flight without a proof that ends in separation does the proof hold; of sticks it holds most."""
-    monkeypatch.setattr(locate, "_MAX_STEPS", 60)
     monkeypatch.setattr(locate, "STRETCHES", 5)
     parted = held = kept = 0
     for scene in impacts(32, arm, 5, shear):
-        followed = flight(scene)
+        followed = flight(scene, steps=3_000)
         proof, followed.proof = followed.proof, NoProof()
         followed.watch = locate.Watch(tangential_edge=followed.watch.tangential_edge)
         assert isinstance(proof, OrbitalProof)

@@ -103,12 +103,11 @@ def strings() -> list[Tethered]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(locate, "proof_for", lambda *_: NoProof())
         patch.setattr(locate, "STRETCHES", 4)
-        patch.setattr(locate, "_MAX_STEPS", 300)
         for draw in [_random_tethered] * 60 + [_rebounding_tethered] * 400:
             scene, stokes, angle = draw(rng)
             n = numbers(scene, scene.speed_of(stokes), angle)
             model = load(choose(scene, oblique=True))
-            free = Locate(model, n.groups, 1e-9)
+            free = Locate(model, n.groups, 1e-9, steps=20_000)
             with contextlib.suppress(ComputationError):  # it creeps or chatters on, unseparated
                 free.run()
             assert not free.path.certified

@@ -67,7 +67,7 @@ def test_threads_give_the_serial_results() -> None:
 @pytest.fixture
 def few_steps(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Integrators that are built from now on give up after three steps; none of them outlives the test."""
-    monkeypatch.setattr(integrators, "_MAX_STEPS", 3)
+    monkeypatch.setattr(integrators, "STEPS", 3)
     integrators.plain.cache_clear()
     yield
     integrators.plain.cache_clear()

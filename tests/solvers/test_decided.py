@@ -1,0 +1,153 @@
+"""What physics decides however long it takes, what ends for want of steps, and numbers that are out of range."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from wetdoublet.solvers import ComputationError, InputError, Scene, collide, collide_many, regime_map
+from wetdoublet.solvers.locate import Locate
+from wetdoublet.solvers.model import choose, load
+from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.settings import STEPS
+
+WEAK = {
+    "particles": {
+        "radius": 9.06e-05, "mass": 8.02e-09, "roughness": 1.94e-08, "dry_restitution": 0.987,
+        "youngs_modulus": 1.8e11, "poisson_ratio": 0.11,
+    },
+    "partner": {"wall": True},
+    "liquid": {"viscosity": 0.138, "film_thickness": 4.16e-06, "glass_transition_pressure": 1.97e5},
+    "attraction": {"hamaker": 9.34e-21},
+    "model": {"film": "cavitating"},
+}  # fmt: skip
+GLASSY = {
+    "particles": {"radius": 1.6e-06, "density": 1530.0, "roughness": 1.15e-10, "dry_restitution": 1.0},
+    "partner": {"radius": 4.95e-07, "density": 1230.0},
+    "liquid": {"viscosity": 4.05e-4, "film_thickness": 1.27e-09, "glass_transition_pressure": 1.78e5},
+    "bridge": {"surface_tension": 3.83e-3, "volume": 2e-4, "contact_angle": 1.487, "law": "willett"},
+    "attraction": {"hamaker": 7.2e-18},
+}
+HELD = {
+    "particles": {"radius": 7.19e-3, "density": 815.0, "roughness": 1.05e-4, "dry_restitution": 0.586},
+    "partner": {"radius": 7.47e-3, "density": 1517.0},
+    "liquid": {"viscosity": 0.0241, "film_thickness": 2.93e-4, "glass_transition_pressure": 4.6e5},
+    "attraction": {"hamaker": 9.1e-22},
+    "model": {"film": "infinite", "tangential": "film"},
+}
+
+
+def test_a_long_approach_to_a_wall_ends_as_head_on() -> None:
+    """Beside a wall a stick that head-on is proved after 1e6 x0/v0 is proved there, when sliding has died long ago."""
+    scene = Scene.from_dict(WEAK)
+    flat, straight = (collide(scene, stokes=3.4e-3, angle=angle) for angle in (1.1, 0.0))
+    assert (flat.outcome, flat.certified) == (straight.outcome, straight.certified) == ("stick", True)
+    assert flat.until == pytest.approx(straight.until, rel=1e-6)
+    assert flat.energy is not None and flat.energy.tangential_lubrication > 0
+
+
+def test_sliding_beside_a_wall_in_closed_form() -> None:
+    """Slide and spin are two exponentials of one integral over the head-on motion, here known: a film alone."""
+    changes: dict[str, Any] = {"partner.wall": True, "particles.roughness": "3 um", "particles.dry_restitution": 0.7}
+    given = {k: v for k, v in Scene.load("granulation-dry-bridge").given if "youngs" not in k and "poisson" not in k}
+    scene = Scene("", tuple({**given, **changes, "liquid.glass_transition_pressure": 1e15}.items()))
+    found = collide(scene, stokes=1.5, angle=0.9, rtol=1e-11)
+    n = numbers(scene, found.speed, 0.9)
+    stokes, aspect, low = (n.groups[name] for name in ("stokes", "aspect", "rough_gap"))
+
+    def lost(s: float) -> float:
+        return (-math.log(s) - 1.5 + 2 * s - s * s / 2) / stokes
+
+    rebound = 0.7 * (1 - lost(low))
+    speeds = (lambda s: 1 - lost(s), lambda s: rebound - (lost(low) - lost(s)))
+    assert found.restitution == pytest.approx(speeds[1](1.0), rel=1e-9)
+    passed = sum(quad(lambda s, v=v: math.log(2 / (aspect * s)) / v(s), low, 1, epsrel=1e-12)[0] for v in speeds)
+    # d(slide, roll)/dt = -k ln(2a/x) ((4, -1), (-5/2, 10)) (slide, roll), the logarithms of Goldman, Cox & Brenner
+    matrix = 2 * aspect / (15 * stokes) * np.array([[4.0, -1.0], [-2.5, 10.0]])
+    rates, modes = np.linalg.eig(matrix)
+    slide, roll = modes @ (np.exp(-rates * passed) * np.linalg.solve(modes, [1.0, 0.0]))
+    assert found.tangential_restitution == pytest.approx(slide, rel=1e-8)
+    assert found.final_spin == pytest.approx(roll * n.rate, rel=1e-8)
+
+
+def test_what_is_left_of_sliding_keeps_its_sign_and_digits() -> None:
+    """A slide of 1e-10 of the first is as accurate as one of order 1, and positive, as the modes say."""
+    wall = Scene.load("granulation").with_entries({"partner.wall": True})
+    loose, sharp = (collide(wall, stokes=0.0403, angle=1.2, engine="rosenbrock", rtol=rtol) for rtol in (1e-9, 1e-12))
+    for name in ("tangential_restitution", "final_spin"):
+        one, exact = getattr(loose, name), getattr(sharp, name)
+        assert exact > 0 and one == pytest.approx(exact, rel=1e-6)
+    assert sharp.tangential_restitution is not None and sharp.tangential_restitution < 1e-9
+
+
+def test_an_endless_step_misses_no_rupture() -> None:
+    """Beyond the film, under a constant force, the series end and a step is endless: the kernel parts as Rosenbrock."""
+    scene = Scene.load("granulation").with_entries({"bridge.law": "constant"})
+    stokes = np.geomspace(0.13, 0.4, 6)
+    found, expected = (collide_many(scene, stokes=stokes, angle=0.0, engine=each) for each in ("taylor", "rosenbrock"))
+    assert (expected.outcome.values[1:] == 2).all()
+    assert found.outcome.values.tolist() == expected.outcome.values.tolist()
+    np.testing.assert_allclose(found.restitution, expected.restitution, atol=1e-8)
+
+
+def test_a_pair_at_rest_is_a_proved_stick() -> None:
+    """What attracts two unequal spheres at rest outweighs all that their slip could still add to the rotation."""
+    found = collide(Scene.from_dict(HELD), stokes=8.1e-3, angle=1.466e-4, engine="rosenbrock")
+    assert (found.outcome, found.certified) == ("stick", True)
+    assert found.events[-1].kind == "rests"
+
+
+def test_chatter_of_a_pair_ends() -> None:
+    """Perfectly elastic rebounds on glassy liquid, none higher than the one before: a stick, but no theorem."""
+    found = collide(Scene.from_dict(GLASSY), stokes=0.0154, angle=1.56, engine="rosenbrock", ledger=False)
+    assert (found.outcome, found.certified) == ("stick", False)
+    assert 40 < len(found.events) < 80
+
+
+def test_steps_are_counted() -> None:
+    """A collision that has spent its steps ends with phase, time, state, and how many phases they went into."""
+    scene = Scene.load("granulation")
+    n = numbers(scene, scene.speed_of(0.02), math.radians(75))
+    model = load(choose(scene, oblique=True, fold=True))
+    whole = Locate(model, n.groups, 1e-9)
+    whole.run()
+    assert 25 < whole.spent < STEPS / 100
+    with pytest.raises(ComputationError, match="steps in . phases have not decided the outcome") as raised:
+        Locate(model, n.groups, 1e-9, steps=whole.spent - 1).run()
+    assert raised.value.phase and raised.value.time and raised.value.state
+    assert Locate(model, n.groups, 1e-9, steps=whole.spent).run().outcome == "stick-rotate-separate"
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_one_extreme_point_leaves_the_others(engine: str) -> None:
+    """A map from 1e-300 to 1e300 has its points in between; what is out of range is marked, and told to be slow."""
+    slow: list[int] = []
+    data = regime_map(
+        "granulation", stokes=[1e-300, 0.2, 1e300, 1.7e308], angle=1.0, engine=engine, of=(), slow=slow.append
+    )
+    assert data.outcome.values.tolist() == [[-1, 2, -1, -1]]
+    assert all("impact.speed" in reason for reason in data.reason.values[data.outcome.values == -1])
+    assert slow == ([3] if engine == "taylor" else [])
+
+
+@pytest.mark.parametrize(
+    ("impact", "changes"),
+    [
+        ({"stokes": 1e308}, {}),
+        ({"stokes": 1e-320}, {}),
+        ({"speed": 1e200}, {}),
+        ({"stokes": 0.1}, {"liquid.viscosity": 1e250}),
+        ({"stokes": 0.1}, {"particles.reduced_mass": 1e-300}),
+        ({"stokes": 0.1}, {"bridge.surface_tension": 1e-200}),
+    ],
+)
+def test_extreme_numbers_are_bad_input(impact: dict[str, float], changes: dict[str, float]) -> None:
+    """Where groups or scales leave their range, that is said of an entry, and collisions are marked."""
+    scene = Scene.load("granulation").with_entries(changes)
+    with pytest.raises(InputError, match="is too far off.*; accepted: "):
+        collide(scene, angle=1.0, **impact)
+    found = collide_many(scene, angle=[1.0, 0.5], of=("contact_time",), **impact)
+    assert found.outcome.values.tolist() == [-1, -1]
