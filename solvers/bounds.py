@@ -37,6 +37,7 @@ _WORTH, _WORTH_BY_KERNEL = 4, 100  # angles that are worth starting a process fo
 _TOGETHER = 16  # lines that are sampled together
 _FINER, _SHARPER = 2, 1e-2  # a line that fails once: more samples, and a tolerance that is so much smaller
 _HOLE = 4.5  # spacings of the first grid over which collisions may be missing
+_ROUNDED = 1.01  # times a spacing, which is rounded
 _SLOW = 8  # collisions that are asked for again where more are missing
 
 
@@ -216,46 +217,49 @@ def _block(
 ) -> tuple[list[tuple[Change, ...]], list[str]]:
     look = Look(scene, rtol, kernel)
     grid = first_grid(span, finer * look.per_decade)
-    traced.resolution = max(traced.resolution, float(grid[1] / grid[0]) - 1)
     changes: list[tuple[Change, ...]] = []
     failures: list[str] = []
     for angle, samples in zip(angles.tolist(), sampled(angles, grid, look), strict=True):
         line = Line(scene, angle, rtol, kernel)
         try:
-            samples = _completed(samples, grid, look, angle)
+            samples, widest = _completed(samples, grid, look, angle)
             changes.append(tuple(changes_between(line, look, samples)))
             failures.append("")
+            traced.resolution = max(traced.resolution, widest)
         except ComputationError as error:
             changes.append(())
-            failures.append(str(line.numbers(span[0]).in_si(error)) if error.state else str(error))
+            failures.append(str(error))
         traced.collisions += line.collisions
     traced.collisions += look.collisions
     return changes, failures
 
 
-def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) -> np.ndarray:
-    """Samples that leave no wide hole: where many in a row were handed over some are asked for with more patience.
+def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) -> tuple[np.ndarray, float]:
+    """Samples of a line and their widest relative spacing; some that are missing are asked for with more patience.
 
     Raises:
-        ComputationError: that fails too.
+        ComputationError: too many in a row are missing still.
     """
     spacing = math.log(grid[1] / grid[0])
-    for attempt in range(2):
-        at = np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]]))
-        holes = [(at[k], at[k + 1]) for k in np.flatnonzero(np.diff(at) > _HOLE * spacing)]
-        if not holes:
-            return samples
-        if attempt:
-            break
-        inside = [
-            np.linspace(low, high, min(_SLOW, math.ceil((high - low) / spacing)) + 2)[1:-1] for low, high in holes
-        ]
-        fresh = np.exp(np.concatenate(inside))
-        found = blank(fresh)
-        found["outcome"] = look.outcomes(np.full(fresh.size, angle), fresh)
+    at = _spaced(samples, grid)
+    missing = samples["stokes"][samples["outcome"] < 0]
+    place = np.clip(np.searchsorted(at, np.log(missing)), 1, at.size - 1)
+    missing = missing[at[place] - at[place - 1] > _ROUNDED * spacing]
+    if missing.size:
+        some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
+        found = blank(some)
+        found["outcome"] = look.outcomes(np.full(some.size, angle), some)
         samples = merged(samples, found)
-        spacing = max(spacing, *((high - low) / _SLOW for low, high in holes))
-    low, high = np.exp(holes[0])
-    raise ComputationError(
-        f"collisions between St {low:.4g} and {high:.4g} could not be computed: {look.reason(angle)}"
-    )
+        at = _spaced(samples, grid)
+    widest = int(np.argmax(np.diff(at)))
+    low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))
+    if high > low * math.exp(_HOLE * spacing):
+        reason = look.reason(angle, low, high)
+        raise ComputationError(f"collisions between St {low:.4g} and {high:.4g} could not be computed: {reason}")
+    return samples, high / low - 1
+
+
+def _spaced(samples: np.ndarray, grid: np.ndarray) -> np.ndarray:
+    """Logarithms of the Stokes numbers of known samples, from the first of the grid to its last."""
+    spaced: np.ndarray = np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]]))
+    return spaced

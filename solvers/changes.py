@@ -19,6 +19,7 @@ GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
 MERGED = 1e-8  # relative: changes closer than this are one
 _BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
 _ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
+_ROUNDS = 12  # of dividing brackets; four do where every collision is decided
 _PARTS = 64  # into which a bracket is divided by outcomes alone, again and again
 
 
@@ -159,16 +160,16 @@ def _confirmed(line: Line, look: Look, groups: list[list[Change]]) -> list[bool]
     below = stokes - np.minimum(_ACCEPTED * stokes, gaps[:-1])
     above = stokes + np.minimum(_ACCEPTED * stokes, gaps[1:])
     seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))
-    agrees, k = [], 0
+    agrees, k, size = [], 0, stokes.size
+    narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
+    narrow[[0, -1]] = False
     for group in groups:
         own = range(k, k + len(group))
         k += len(group)
-        close = [gaps[j] * 3 < MERGED * stokes[j] or gaps[j + 1] * 3 < MERGED * stokes[j] for j in own]
-        fits = [
-            near or (OUTCOMES[seen[j]], OUTCOMES[seen[j + stokes.size]]) == (one.before, one.after)
-            for j, one, near in zip(own, group, close)
-        ]
-        agrees.append(bool(group) and all(fits) and all(seen[j] >= 0 and seen[j + stokes.size] >= 0 for j in own))
+        # between changes that are merged there is no place to look
+        below_fits = [narrow[j] or seen[j] == OUTCOMES.index(one.before) for j, one in zip(own, group)]
+        above_fits = [narrow[j + 1] or seen[j + size] == OUTCOMES.index(one.after) for j, one in zip(own, group)]
+        agrees.append(bool(group) and all(below_fits) and all(above_fits))
     return agrees
 
 
@@ -181,7 +182,9 @@ def _by_outcomes(
         kind: of a change that has the outcomes of the whole bracket.
     """
     open_, closed = [(low, high, before, after)], []
-    while open_:
+    for _ in range(_ROUNDS):
+        if not open_:
+            break
         grids = [np.geomspace(first, last, _PARTS + 1)[1:-1] for first, last, _, _ in open_]
         seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids))
         parts = np.split(seen, np.cumsum([len(grid) for grid in grids])[:-1])
@@ -189,7 +192,7 @@ def _by_outcomes(
         for (first, last, one, other), grid, own in zip(open_, grids, parts):
             usable = own >= 0
             if not usable.any():
-                reason = look.reason(line.angle)
+                reason = look.reason(line.angle, first, last)
                 raise ComputationError(f"a change of outcome between St {first:.10g} and {last:.10g}: {reason}")
             at = [first, *grid[usable].tolist(), last]
             outcomes = [one, *(OUTCOMES[k] for k in own[usable]), other]
@@ -200,6 +203,10 @@ def _by_outcomes(
             ]
         closed += [one for one in narrower if math.log(one[1] / one[0]) <= LOCATED]
         open_ = [one for one in narrower if math.log(one[1] / one[0]) > LOCATED]
+    if open_:
+        raise ComputationError(
+            f"a change of outcome between St {open_[0][0]:.10g} and {open_[0][1]:.10g} is not enclosed"
+        )
     closed.sort()
     return [
         _change(line, math.sqrt(first * last), one, other, kind if (one, other) == (before, after) else PLAIN)

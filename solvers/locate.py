@@ -14,7 +14,7 @@ from .errors import ComputationError
 from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, plain, tolerance
 from .model import Model
 from .phases import CLOSING, OPENING, Flow, Phase, Watch
-from .proofs import Proof, proof_for
+from .proofs import OrbitalProof, Proof, proof_for
 from .settings import CALL, STEPS
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
@@ -22,6 +22,7 @@ LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from an
 REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
 MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
 CRITERIA = ("glass", "elastic", "rough")
+_NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
 _CHATTER = 100  # phases: as many are no approach and escape, but rebounds
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
@@ -119,6 +120,8 @@ class Locate:
                 self._stop(Step(self.phase, 0.0, None, ()))
                 self.path.certified = self.proof.theorem
                 return self.path
+            if self._held_in_chatter():
+                return self.path
             criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
             if criterion:
                 self._reverse(criterion, 0.0)
@@ -126,6 +129,17 @@ class Locate:
                 return self.path
             if self.path.separated:
                 return self.path
+
+    def _held_in_chatter(self) -> bool:
+        """Whether a doublet in long chatter is held by the momentum of its orbit as it is; it is then a stick."""
+        phases, proof = len(self.path.steps), self.proof
+        if phases < _CHATTER or phases % _NOW_AND_THEN or not isinstance(proof, OrbitalProof) or self.model.strings:
+            return False
+        if not (proof.holds(self.y) or proof.settles(self.y)):
+            return False
+        self._stop(Step(self.phase, 0.0, None, ()))
+        self.path.certified = proof.proves
+        return True
 
     def _spend(self, steps: int) -> None:
         """Count the steps of a call of an integrator."""

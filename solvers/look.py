@@ -83,9 +83,10 @@ class Look:
             f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
         )
 
-    def reason(self, angle: float) -> str:
-        """Why a collision at an angle could not be computed."""
-        return next((text for (at, _), text in self.reasons.items() if at == angle), "no collision could be computed")
+    def reason(self, angle: float, low: float, high: float) -> str:
+        """Why a collision at an angle and between two Stokes numbers could not be computed."""
+        said = (text for (at, stokes), text in self.reasons.items() if at == angle and low <= stokes <= high)
+        return next(said, "no collision could be computed")
 
     def _told(self, angle: np.ndarray, stokes: np.ndarray, budget: int) -> np.ndarray | None:
         told = by_kernel.looked(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
@@ -172,8 +173,9 @@ def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
 
 
 def _margin(told: np.ndarray, contact: np.ndarray) -> np.ndarray:
-    """By how much the approach meets a criterion, as a logarithm; negative where it meets none."""
-    with np.errstate(divide="ignore"):
-        solids = np.log(contact / told["smallest_gap"])
-    margin: np.ndarray = np.maximum(told["glass"], solids)
-    return margin
+    """By how much the approach meets a criterion, as a logarithm; nan where there is no approach."""
+    approached = (told["outcome"] >= 0) & ~told["at_touch"]
+    solids = np.full(contact.size, -np.inf)
+    there = approached & (contact > 0)
+    solids[there] = np.log(contact[there] / told["smallest_gap"][there])
+    return np.where(approached, np.maximum(told["glass"], solids), np.nan)

@@ -29,7 +29,7 @@ BRACKET = 1e-4  # width in ln St to which a change of outcome is enclosed by sam
 FINEST = 1e-5  # width in ln St below which nothing else is sampled
 _INSIDE = 7  # samples put between two
 _ROUNDS = 9
-_MOST = 150  # pairs of neighbours of a line that are sampled between in a round, beyond those whose outcomes differ
+_MOST = 150  # pairs of neighbours of a line, the widest, that are sampled between in a round though outcomes agree
 _NOISE = 1e-6  # relative: a smaller turn of a margin is rounding and tolerance
 Sampler = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Angles (rad), Stokes numbers -> SAMPLE, an element a collision."""
@@ -85,8 +85,8 @@ def _between(line: np.ndarray) -> np.ndarray:
     changes = line["outcome"][1:] != line["outcome"][:-1]
     wanted = changes & (width > BRACKET) & (np.diff(failed) < _INSIDE)  # once was tried where all fail
     others = (_another_way(line) | _towards_zero(line)) & ~changes & (width > FINEST)
-    if np.count_nonzero(others) <= _MOST:
-        wanted |= others
+    widest = np.argsort(np.where(others, -width, 0.0), kind="stable")[:_MOST]
+    wanted[widest] |= others[widest]
     first = at[:-1][wanted]
     parts = np.arange(1, _INSIDE + 1) / (_INSIDE + 1)
     fresh: np.ndarray = np.exp(first[:, None] + width[wanted][:, None] * parts).ravel()

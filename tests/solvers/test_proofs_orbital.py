@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide, locate
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many, locate
+from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.locate import Locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
@@ -136,7 +137,9 @@ def test_both_forms_take_the_same_away() -> None:
             y[3] = ((4 + one.groups["aspect"]) ** 2 - 8.0) / 6.4  # L is that of first touch
         proof = OrbitalProof(model, p, 1e-9, NoProof())
         gaps = np.linspace(1.2, proof.end, 5)
-        both.append(proof._exchange(gaps, y, np.asarray(model.function("orbital")(proof._states(gaps, y, 8.0), p))))
+        both.append(
+            proof._exchange(gaps, y, np.asarray(model.function("orbital")(proof._states(gaps, y, 8.0), p)), True)
+        )
     assert both[0] == pytest.approx(both[1], rel=1e-12)
     assert both[0][-1] > 0
 
@@ -150,3 +153,28 @@ def test_slip_energy_is_the_energy_above_rigid_rotation() -> None:
         found = model.values("orbital", y, p)
         rest = model.values("energies", y, p)["kinetic"] - model.values("effective_potential", y, p)["energy"]
         assert found["midgap"] == pytest.approx(rest, rel=1e-12)
+
+
+CIRCLING: dict[str, Any] = {
+    "particles": {"reduced_radius": 3.833e-5, "reduced_mass": 1.1012e-8, "roughness": 7.0824e-8, "dry_restitution": 0.99,
+                  "youngs_modulus": 4.4107e10, "poisson_ratio": 0.18895},
+    "liquid": {"viscosity": 0.43474, "film_thickness": 2.3255e-6, "glass_transition_pressure": 8.7363e7},
+    "bridge": {"surface_tension": 0.021042, "volume": 0.010709, "contact_angle": 0.39614, "law": "constant"},
+    "model": {"tangential": "film"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_circling_in_and_out_of_the_film_is_decided(engine: str) -> None:
+    """Just below its separatrix a doublet leaves the film and comes back, thousands of times: a stick, and proved.
+
+    Just above it separates; both engines say so, and the traced boundary lies between.
+    """
+    if engine == "taylor" and compiler() is None:
+        pytest.skip("no C compiler")
+    scene, angle = Scene.from_dict(CIRCLING), 0.5939
+    seen = collide_many(scene, stokes=[0.729, 0.731], angle=angle, engine=engine)
+    assert seen.outcome.values.tolist() == [0, 1]
+    assert seen.certified.values[0]
+    (first, *_) = boundary(scene, angle=angle, stokes=(0.5, 0.8)).changes[0]
+    assert 0.729 < first.stokes < 0.731

@@ -197,7 +197,8 @@ static void fly(queue *q)
         slow_ones = q->asked ? 0 : slow_ones; /* crawl.h knows nothing of derivatives */
 #endif
 #if WITH_TRAJECTORY
-        slow_ones = q->step_room ? 0 : slow_ones; /* only a series makes a row */
+        /* only a series makes a row, and crawl.h knows no purpose */
+        slow_ones = q->step_room || q->t->purpose != WHOLE ? 0 : slow_ones;
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));

@@ -280,6 +280,8 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
 #endif
 }
 
+_Static_assert(MODEL_STATES - OPENING <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
+
 /* What came of a flight. */
 static void settle(queue *q, const flights *l, const fixed *f, int lane, int status, int outcome, int certified)
 {
