@@ -156,8 +156,8 @@ def test_slip_energy_is_the_energy_above_rigid_rotation() -> None:
 
 
 CIRCLING: dict[str, Any] = {
-    "particles": {"reduced_radius": 3.833e-5, "reduced_mass": 1.1012e-8, "roughness": 7.0824e-8, "dry_restitution": 0.99,
-                  "youngs_modulus": 4.4107e10, "poisson_ratio": 0.18895},
+    "particles": {"reduced_radius": 3.833e-5, "reduced_mass": 1.1012e-8, "roughness": 7.0824e-8,
+                  "dry_restitution": 0.99, "youngs_modulus": 4.4107e10, "poisson_ratio": 0.18895},
     "liquid": {"viscosity": 0.43474, "film_thickness": 2.3255e-6, "glass_transition_pressure": 8.7363e7},
     "bridge": {"surface_tension": 0.021042, "volume": 0.010709, "contact_angle": 0.39614, "law": "constant"},
     "model": {"tangential": "film"},
