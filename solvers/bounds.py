@@ -17,7 +17,7 @@ import numpy as np
 from .arguments import check_function
 from .changes import MERGED, Change, changes_between
 from .cores import usable_cores
-from .errors import ComputationError
+from .errors import ComputationError, InputError
 from .look import Look, blank
 from .probe import Line
 from .requests import checked_numbers, checked_span
@@ -31,6 +31,7 @@ from .workers import lasting_workers
 if TYPE_CHECKING:
     import xarray
 
+_LARGEST = 1e30  # Stokes number, and its inverse the least
 STOKES = (1e-4, 100.0)
 SHARPEST = 1e-13
 _WORTH, _WORTH_BY_KERNEL = 4, 100  # angles that are worth starting a process for
@@ -139,6 +140,8 @@ def boundary(
     loaded = Scene.load(scene)
     angles = checked_numbers("impact.angle", loaded.angle if angle is None else angle).reshape(-1)
     low, high = checked_span("impact.stokes", stokes)
+    if low < 1 / _LARGEST or high > _LARGEST:
+        raise InputError("impact.stokes", f"{low}:{high}", f"from {1 / _LARGEST:g} to {_LARGEST:g}", "is too far off")
     rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")

@@ -121,6 +121,8 @@ def approach(
     if told is None or told.steps is None or not told.steps.rows.size:
         return None
     rows = told.steps.rows[told.steps.rows["closing"] != 0]
+    if not rows.size:
+        return None
     steps = Steps(rows, told.steps.turned)
     end = float(rows["time"][-1] + rows["length"][-1])
     last = steps.states(np.array([end]))[:, 0]

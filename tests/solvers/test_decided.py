@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from wetdoublet.solvers import ComputationError, InputError, Scene, collide, collide_many, regime_map
+from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide, collide_many, regime_map
 from wetdoublet.solvers.locate import Locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
@@ -151,3 +151,10 @@ def test_extreme_numbers_are_bad_input(impact: dict[str, float], changes: dict[s
         collide(scene, angle=1.0, **impact)
     found = collide_many(scene, angle=[1.0, 0.5], of=("contact_time",), **impact)
     assert found.outcome.values.tolist() == [-1, -1]
+
+
+@pytest.mark.parametrize("span", [(1e-300, 1.0), (1e-3, 1e300)])
+def test_extreme_spans_are_bad_input(span: tuple[float, float]) -> None:
+    """A boundary is looked for among Stokes numbers that can be told apart: the range is said."""
+    with pytest.raises(InputError, match=r"^impact.stokes: .* is too far off; accepted: from 1e-30 to 1e\+30$"):
+        boundary("granulation", angle=0.5, stokes=span)
