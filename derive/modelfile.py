@@ -53,7 +53,10 @@ def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
 def _text(path: Path) -> str:
     accepted = "a model file (see `wetdoublet generate --template`)"
     try:
-        content = path.read_bytes()
+        if not path.is_file() and not path.is_dir():  # a pipe or a device may have no end, or no beginning
+            raise ModelFileError(str(path), None, accepted, "is not a file" if path.exists() else "is not there")
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
         if len(content) > _LARGEST:
             raise ModelFileError(str(path), None, accepted, "is larger than any model")
         return content.decode("utf-8")

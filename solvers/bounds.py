@@ -14,19 +14,19 @@ from typing import Any
 
 import numpy as np
 
-from .cache import settle
+from .arguments import check_function
 from .changes import MERGED, Change, changes_between
 from .cores import usable_cores
-from .errors import ComputationError, InputError
+from .errors import ComputationError
 from .look import Look, blank
 from .probe import Line
-from .remarks import hush
-from .requests import checked_numbers
+from .requests import checked_numbers, checked_span
 from .samples import first_grid, known, merged, sampled
 from .scene import Scene
 from .settings import RTOL, check_rtol
 from .taylor.library import knows
 from .validity import warn
+from .workers import lasting_workers
 
 STOKES = (1e-4, 100.0)
 SHARPEST = 1e-13
@@ -119,17 +119,14 @@ def boundary(
     """
     loaded = Scene.load(scene)
     angles = checked_numbers("impact.angle", loaded.angle if angle is None else angle).reshape(-1)
-    low, high = (float(value) for value in checked_numbers("impact.stokes", stokes))
-    if not low < high:
-        raise InputError("stokes", f"{low}:{high}", "LO:HI with LO below HI", "is not ascending")
-    rtol = check_rtol(rtol)
+    low, high = checked_span("impact.stokes", stokes)
+    rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
     worth = _WORTH_BY_KERNEL if knows(loaded) else _WORTH
     cores = min(usable_cores(), max(1, angles.size // worth))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
-    tell = progress or (lambda _done: None)
     for part in _traces(loaded, parts, (low, high), rtol, tell):
         whole.changes += part.changes
         whole.failures += part.failures
@@ -150,16 +147,14 @@ def _traces(
     scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float, tell: Callable[[int], None]
 ) -> Iterator[Traced]:
     """All parts in their order: the first in this process, which `tell` is told of, the others in one each."""
-    others = []
-    if len(parts) > 1:
-        from loky import get_reusable_executor
-
-        settle()
-        pool = get_reusable_executor(max_workers=len(parts) - 1, initializer=hush)
+    if len(parts) == 1:
+        yield trace(scene, parts[0], span, rtol, tell)
+        return
+    with lasting_workers(len(parts) - 1) as pool:
         others = [pool.submit(trace, scene, part, span, rtol) for part in parts[1:]]
-    yield trace(scene, parts[0], span, rtol, tell)
-    for other in others:
-        yield other.result()
+        yield trace(scene, parts[0], span, rtol, tell)
+        for other in others:
+            yield other.result()
 
 
 def trace(

@@ -18,7 +18,6 @@ import itertools
 import os
 import shutil
 import stat
-import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -28,7 +27,7 @@ from typing import TypeVar
 
 from .caches import Locks
 from .files import write_all
-from .locks import held_file, held_folder, sweep
+from .locks import TEMPORARY, held_file, held_folder, sweep, temporary
 from .remarks import say
 
 Loaded = TypeVar("Loaded")
@@ -36,7 +35,6 @@ Loaded = TypeVar("Loaded")
 _NAMED = "WETDOUBLET_CACHE"
 _PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # of the process that made it, for its workers
 _MAKING = ".making-"  # prefix in the folder of what is being made
-_TEMPORARY = "wetdoublet-cache-"  # prefix in temporary folders
 _DIGITS = 32  # of the digest in a name
 _LARGEST = 1 << 28  # bytes: no entry is as large
 _ROOM = 16 << 20  # bytes that a compiler needs, amply
@@ -122,7 +120,7 @@ def room() -> Iterator[Path]:
     """
     own = folder()
     with ExitStack() as stack:
-        for place, prefix in ((own, _MAKING), *((root, _TEMPORARY) for root in _temporary())):
+        for place, prefix in ((own, _MAKING), *((root, TEMPORARY) for root in temporary())):
             with suppress(OSError):
                 if place == own:
                     place.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -261,11 +259,11 @@ def _written(place: Path, name: str, content: bytes) -> str:
 
 def _moved(name: str, content: bytes) -> str | None:
     """Make a private folder for this run and put an entry there; its path, or None if no place takes it."""
-    for root in _temporary():
+    for root in temporary():
         stack = ExitStack()
         with suppress(OSError):
-            _sweep(root, _TEMPORARY)
-            place = stack.enter_context(held_folder(root, _TEMPORARY))
+            _sweep(root, TEMPORARY)
+            place = stack.enter_context(held_folder(root, TEMPORARY))
             if not _written(place, name, content):
                 os.environ[_PRIVATE] = str(place)
                 atexit.register(_leave, stack, os.getpid())
@@ -277,15 +275,6 @@ def _moved(name: str, content: bytes) -> str | None:
 def _leave(stack: ExitStack, owner: int) -> None:
     if os.getpid() == owner:  # no fork of it
         stack.close()
-
-
-def _temporary() -> list[Path]:
-    """Folders for what ends with the process, the usual one first."""
-    found = []
-    with suppress(OSError):
-        found.append(Path(tempfile.gettempdir()))
-    shared = Path("/dev/shm")  # in memory; what is made there is private
-    return [*found, *([shared] if shared.is_dir() else [])]
 
 
 @cache

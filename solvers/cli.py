@@ -14,7 +14,9 @@ from typing import Any
 
 import click
 
-from .errors import InputError, ModelWarning, WetDoubletError, did_you_mean, one_line
+from .errors import InputError, ModelWarning, WetDoubletError, cut, did_you_mean, one_line
+from .interrupts import INTERRUPTED, termination
+from .locks import sweep_temporary
 
 COMMANDS = (
     "scenes", "collide", "sensitivity", "map", "boundary", "reproduce", "generate", "diff", "export", "verify", "bench",
@@ -24,7 +26,8 @@ COMMANDS = (
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
 """An option that a command may lack -> what it may have instead."""
 
-INTERRUPTED, BROKEN_PIPE = 130, 141  # as a shell reports the signals
+_LONGEST = 200  # characters of what the user has typed that are repeated
+BROKEN_PIPE = 141  # as a shell reports the signal
 
 
 class Commands(click.Group):
@@ -54,7 +57,9 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; an interrupt and a reader that has left are exit statuses, not errors."""
         try:
-            super().invoke(ctx)
+            with termination() as signals:
+                sweep_temporary()
+                super().invoke(ctx)
             sys.stdout.flush()
         except click.BadOptionUsage as error:
             name = ctx.invoked_subcommand  # click does not say whose option it was
@@ -62,8 +67,8 @@ class Commands(click.Group):
                 error.ctx = click.Context(command, parent=ctx, info_name=name)
             raise
         except KeyboardInterrupt as interrupt:
-            click.echo(str(interrupt) or "interrupted", err=True)
-            ctx.exit(INTERRUPTED)
+            click.echo(str(interrupt) or ("terminated" if signals.received else "interrupted"), err=True)
+            ctx.exit(signals.status)
         except BrokenPipeError:
             # nothing can be written any more, not even what the interpreter flushes as it ends
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -133,8 +138,8 @@ def _usage(error: click.UsageError) -> str:
     if isinstance(error, click.NoSuchOption):
         instead = next((name for name in _SAME.get(error.option_name, ()) if name in options), None)
         hint = f", did you mean {instead}?" if instead else did_you_mean(error.option_name, options)
-        return f"{error.option_name}: no such option{hint}; accepted: {', '.join(options)}"
-    said = " ".join(error.format_message().split()).removesuffix(".")
+        return f"{cut(error.option_name, _LONGEST)}: no such option{hint}; accepted: {', '.join(options)}"
+    said = cut(" ".join(error.format_message().split()).removesuffix("."), _LONGEST)
     if isinstance(error, click.BadOptionUsage):
         return _misused(error.option_name, ctx)
     if ctx and isinstance(ctx.command, click.Group):

@@ -17,6 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from . import bounded
 from .emitted import derived_once, executed
 from .errors import InputError, did_you_mean
 from .schema import FIELDS, TABLES, Field, Range, Raw
@@ -216,8 +217,11 @@ class Package:
             raise InputError("--model", self.name, ACCEPTED, "is only described here, its files are not at hand")
         file = self.folder / path
         try:
-            content = file.read_bytes() if self.files is None else self.files.get(path, "").encode()
-        except OSError:
+            if self.files is None:
+                content = bounded.read(file, bounded.LARGEST)
+            else:
+                content = self.files.get(path, "").encode()
+        except (OSError, bounded.NotRead):
             content = b""
         if hashlib.sha256(content).hexdigest() != self.manifest["files"].get(path):
             raise InputError(str(file), None, f"files as they were emitted: {self.remedy}", "is not what was emitted")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from . import bounded
 from .bounds import boundary
 from .custom import Package
 from .emitted import text
@@ -85,7 +86,7 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
 
 
 def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
-    if Path(one).is_dir() and Path(other).is_dir():
+    if bounded.is_folder(one) and bounded.is_folder(other):
         try:
             packages = [open_package(one, "A"), open_package(other, "B")]
         except InputError:  # the library's own, or of another version: what was emitted is compared, nothing computed
@@ -100,9 +101,9 @@ def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[S
 def _scene(source: str, probe: str, label: str) -> Scene:
     if source == LIBRARY:
         return Scene.load(probe)
-    if Path(source).is_dir() or source.endswith(".py"):
+    if bounded.is_folder(source) or source.endswith(".py"):
         return Scene.load(probe, open_package(source, label))
-    if source not in PRESETS and not Path(source).is_file():
+    if source not in PRESETS and not bounded.exists(source):
         known = (LIBRARY, *PRESETS)
         accepted = f"{', '.join(known)}, a scene file, a folder of `generate`, or MODEL.py"
         raise InputError(label, source, accepted, "is none of these" + did_you_mean(source, known))
@@ -138,10 +139,10 @@ def _folder(path: str) -> dict[str, str]:
     folder = Path(path)
     accepted = "a folder made by `wetdoublet generate --out DIR`"
     try:
-        listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["files"]
+        listed = json.loads(bounded.text(folder / "manifest.json"))["files"]
         names = [n for n in listed if n.endswith(".py") and not n.endswith(("__init__.py", "assemble.py", "model.py"))]
-        return {name.removesuffix(".py"): (folder / name).read_text(encoding="utf-8") for name in names}
-    except (OSError, ValueError, KeyError, TypeError):
+        return {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
+    except (AttributeError, OSError, ValueError, KeyError, TypeError, bounded.NotRead):
         raise InputError("diff", path, accepted, "holds nothing emitted") from None
 
 

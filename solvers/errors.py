@@ -2,22 +2,41 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 _LONGEST = 80  # characters of an offending value that are shown
+_LONGEST_NAME = 200  # of what it was given for, which may be a file and a line
 _NEAR = 0.6  # likeness, 0 to 1, from which on a name is suggested
 
 
 def shown(value: object) -> str:
     """Return `value` as it would stand in a scene file, on one line and not too long."""
     if isinstance(value, str):
-        text = '"' + repr(value)[1:-1] + '"'  # repr escapes whatever would break the line
+        text = '"' + repr(value[: _LONGEST + 1])[1:-1] + '"'  # repr escapes whatever would break the line
     elif isinstance(value, Mapping):
         text = "a table"
     else:
-        text = " ".join(repr(value).split())
+        text = " ".join(_Short().repr(value).split())
     return text if len(text) <= _LONGEST else text[: _LONGEST - 4] + "..." + text[-1]
+
+
+class _Short(reprlib.Repr):
+    """A representation of anything, in bounded time: not all of a long list, and of a hostile object its class."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxother = self.maxstring = self.maxlong = 2 * _LONGEST
+
+    def repr_int(self, x: int, level: int) -> str:
+        """Return an integer, or how long it is: Python refuses to write out more than some thousands of digits."""
+        return repr(x) if abs(x) < 10**_LONGEST else f"an integer of {x.bit_length()} bits"
+
+
+def cut(text: str, longest: int) -> str:
+    """Return `text`, its middle left out where it is longer."""
+    return text if len(text) <= longest else f"{text[: longest * 2 // 3]}...{text[-longest // 4 :]}"
 
 
 def one_line(text: str) -> str:
@@ -32,8 +51,10 @@ def nearest(word: object, known: Iterable[str]) -> str | None:
     """
     from difflib import get_close_matches
 
+    if not isinstance(word, str):
+        return None
     names = {name.lower().lstrip("-"): name for name in known}
-    asked = str(word)[:_LONGEST].lower().lstrip("-")
+    asked = word[:_LONGEST].lower().lstrip("-")
     close = get_close_matches(asked, names, cutoff=_NEAR)
     begun = [name for name in close if name.startswith(asked)]
     return names[(begun or close)[0]] if close else None
@@ -81,7 +102,7 @@ class InputError(WetDoubletError, ValueError):
             said = self.problem or "missing"
         else:
             said = f"{shown(self.value)} {said}"
-        return one_line(f"{self.field}: {said}; accepted: {self.accepted}")
+        return one_line(f"{cut(str(self.field), _LONGEST_NAME)}: {said}; accepted: {self.accepted}")
 
 
 class ComputationError(WetDoubletError, RuntimeError):

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .errors import InputError
 from .result import Collision
 from .scene import Scene
 
@@ -126,7 +127,7 @@ class _Flight:
     def of(cls, collision: Collision) -> _Flight:
         data = collision.trajectory
         if data is None:
-            raise ValueError("the collision has no trajectory: pass trajectory=True to collide()")
+            raise InputError("trajectory", None, "trajectory=True in collide()", "is missing from the collision")
         time, gap, rotation = (np.asarray(data[name], dtype=float) for name in ("time", "gap", "rotation"))
         rate, spin = np.asarray(data["rotation_rate"]), np.asarray(data["spin"])
         other = np.asarray(data["spin_partner"]) if "spin_partner" in data else spin

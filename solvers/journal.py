@@ -8,13 +8,17 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from .errors import InputError
 from .files import write, write_all
+from .locks import take
 from .many import Block
 
 
@@ -29,12 +33,67 @@ class Journal:
     def __init__(self, path: Path, request: Mapping[str, Any] | None = None) -> None:
         self.path = path
         self.key = b""
+        self._held: int | None = None
         if request is not None:
             self.under(request)
 
     def under(self, request: Mapping[str, Any]) -> None:
         """Make this the journal of a request."""
         self.key = hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:32].encode()
+
+    @contextmanager
+    def held(self, label: str = "journal", file: Path | None = None) -> Iterator[None]:
+        """Keep the journal, and the file that it is kept for, to this run; nothing of it is left if it stays empty.
+
+        The lock is one on the journal's file, and ends with this process, however that ends.
+
+        Arguments:
+            label: option or argument that names the file.
+            file: what the journal is kept for; None: the journal itself is what was named.
+
+        Raises:
+            InputError: another run has it, or the journal cannot be written.
+        """
+        if self._held is not None:  # by the caller
+            yield
+            return
+        named = str(file or self.path)
+        try:
+            self._held = self._locked()
+        except InputError:
+            raise
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise InputError(
+                label, named, "a file in a folder that can be written to", f"cannot be kept ({reason})"
+            ) from None
+        if self._held is None:
+            problem = "is being written by another run"
+            raise InputError(label, named, "a file of its own for each run, or this one when that has ended", problem)
+        try:
+            yield
+        finally:
+            if self.path.is_file() and self.path.stat().st_size == 0:
+                self.path.unlink(missing_ok=True)
+            os.close(self._held)
+            self._held = None
+
+    def _locked(self) -> int | None:
+        """The journal's file, open and locked; None if it is locked by another run."""
+        while True:
+            if self.path.exists() and not self.path.is_file():
+                raise InputError("journal", str(self.path), "a file", "is none")
+            opened = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NONBLOCK", 0), 0o666)
+            try:
+                if not take(opened):
+                    os.close(opened)
+                    return None
+                if self.path.exists() and os.path.samestat(os.fstat(opened), self.path.stat()):
+                    return opened
+            except BaseException:
+                os.close(opened)
+                raise
+            os.close(opened)  # the run that had it has removed it meanwhile
 
     def read(self) -> list[tuple[np.ndarray, Block]]:
         """The blocks of this request that are done."""

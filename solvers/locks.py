@@ -7,6 +7,7 @@ locked by another is therefore left over. Where there are no such locks nothing 
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import shutil
 import stat
@@ -20,6 +21,7 @@ try:
 except ImportError:  # not POSIX
     fcntl = None  # type: ignore[assignment]
 
+TEMPORARY = "wetdoublet-cache-"  # prefix in temporary folders
 _TRIES = 5
 
 
@@ -64,6 +66,17 @@ def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
     raise OSError(f"{folder}: what is made there is removed at once")
 
 
+def take(descriptor: int) -> bool:
+    """Lock an open file without waiting; whether nobody else has it. Where there are no locks nobody has."""
+    if fcntl is None:
+        return True
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno not in (errno.EWOULDBLOCK, errno.EACCES)
+    return True
+
+
 def _opened(folder: Path) -> int | None:
     """Descriptor of a folder; None where folders have none, or if somebody has swept it."""
     if fcntl is None:
@@ -84,6 +97,21 @@ def _hold(descriptor: int, path: Path) -> bool:
         return os.path.samestat(os.fstat(descriptor), path.lstat())
     except FileNotFoundError:
         return False
+
+
+def temporary() -> list[Path]:
+    """Folders for what ends with the process, the usual one first."""
+    found = []
+    with contextlib.suppress(OSError):
+        found.append(Path(tempfile.gettempdir()))
+    shared = Path("/dev/shm")  # in memory; what is made there is private
+    return [*found, *([shared] if shared.is_dir() else [])]
+
+
+def sweep_temporary() -> None:
+    """Remove what this user's killed processes have left in temporary folders."""
+    for folder in temporary():
+        sweep(folder, TEMPORARY)
 
 
 def sweep(folder: Path, prefix: str) -> None:

@@ -7,15 +7,12 @@ A collision that fails is marked with its reason and the rest go on.
 from __future__ import annotations
 
 import math
-import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .cache import settle
 from .compilers import compiler
 from .cores import usable_cores
 from .errors import ComputationError, WetDoubletError
@@ -23,12 +20,12 @@ from .labels import Column, labelled
 from .locate import Path, locate
 from .model import choose, load
 from .numbers import Numbers, numbers
-from .remarks import hush
 from .requests import QUANTITIES, Request, requested
 from .scene import Scene
 from .settings import FEW, RTOL
 from .taylor.many import collided
 from .validity import warn
+from .workers import undisturbed, workers
 
 if TYPE_CHECKING:
     import xarray
@@ -78,7 +75,7 @@ def collide_many(
         >>> collide_many("granulation", stokes=[0.01, 0.02], angle=1.3).outcome.values
         array([0, 1], dtype=int8)
     """
-    request = requested(scene, stokes, speed, angle, vary or {}, rtol, engine, of)
+    request = requested(scene, stokes, speed, angle, {} if vary is None else vary, rtol, engine, of)
     warn(request.scene)
     results = empty(request.size, request.of)
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
@@ -134,54 +131,28 @@ def _in_parallel(
     """Results in the order in which they are finished; a worker is sent the part of the request it is to do."""
     from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 
-    from loky import ProcessPoolExecutor  # starts workers without running the caller's script again
-
-    settle()
     if request.engine != "cvodes":
         compiler()  # what is missing is said here
     if machine_code:
         run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
-    pool = ProcessPoolExecutor(max_workers=cores, initializer=_deaf)
     waiting: dict[Any, np.ndarray] = {}
-    left, done = iter(blocks), False
+    left = iter(blocks)
     try:
-        while True:
-            with _undisturbed():  # an interrupt is for this process, which then stops its workers
-                for block in left:
-                    waiting[pool.submit(run, request.part(block), machine_code)] = block
-                    if len(waiting) > 2 * cores:
-                        break
-            if not waiting:
-                done = True
-                return
-            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                yield waiting.pop(future), future.result()
+        with workers(cores) as pool:
+            while True:
+                with undisturbed():  # an interrupt is for this process, which then stops its workers
+                    for block in left:
+                        waiting[pool.submit(run, request.part(block), machine_code)] = block
+                        if len(waiting) > 2 * cores:
+                            break
+                if not waiting:
+                    return
+                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                    yield waiting.pop(future), future.result()
     except BrokenExecutor as error:
         raise ComputationError(
             f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
         ) from None
-    finally:
-        # idle workers end by themselves; without psutil loky kills by pgrep, which slim systems lack, and never ends
-        pool.shutdown(wait=True, kill_workers=not done)
-
-
-def _deaf() -> None:
-    """Interrupts and remarks are for the process that started this one."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    hush()
-
-
-@contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Hold Ctrl-C back, also from the processes that are started meanwhile, until they have made themselves deaf."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def run(request: Request, machine_code: bool) -> Block:

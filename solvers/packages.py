@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 
+from . import bounded
 from .custom import ACCEPTED, Package
 from .emitted import derivation, library_digest
 from .errors import CheckFailed, InputError
@@ -19,20 +21,51 @@ def open_package(source: str | Path | Package, label: str = "--model") -> Packag
     """
     if isinstance(source, Package):
         return source
+    if not isinstance(source, (str, os.PathLike)):
+        raise InputError(label, source, ACCEPTED, "is not the name of a file")
     path = Path(source)
-    if path.is_dir():
+    if bounded.is_folder(path):
         return _of_folder(path, label)
-    if path.suffix == ".py" and path.is_file():
-        return _of_file(path)
+    if path.suffix == ".py" and bounded.is_file(path):
+        return _of_file(path, label)
     raise InputError(label, str(source), ACCEPTED, "is neither a folder nor a model file")
+
+
+def _is_whole(package: Package) -> bool:
+    """Whether a manifest answers what is asked of it later; KeyError and the like if it has no answer at all."""
+    listed = package.manifest
+    texts = [package.name, listed["library"], listed["files"]["model.py"], *listed["files"].values()]
+    texts += [package.law_file(law["slot"], law["name"]) for law in listed["laws"]]
+    texts += [*listed["files"], *listed["structures"], *package.fields, *package.defaults, *package.plain]
+    tables = (listed["files"], listed["structures"], listed["extra"])
+    return (
+        bool(package.remedy)
+        and all(isinstance(text, str) for text in texts)
+        and all(isinstance(t, dict) for t in tables)
+    )
+
+
+def _digest(path: Path, label: str) -> str:
+    return hashlib.sha256(_read(path, label)).hexdigest()
+
+
+def _read(path: Path, label: str) -> bytes:
+    """Content of a file of a model; InputError if it cannot be read, or is larger than any."""
+    try:
+        return bounded.read(path, bounded.LARGEST)
+    except FileNotFoundError:
+        raise InputError(label, str(path), ACCEPTED, "is not there") from None
+    except bounded.NotRead as reason:
+        raise InputError(label, str(path), ACCEPTED, str(reason)) from None
 
 
 def _of_folder(folder: Path, label: str) -> Package:
     try:
-        text = (folder / "manifest.json").read_text(encoding="utf-8")
-        package = Package(text, folder)
-        known = package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1
-    except (OSError, ValueError, KeyError, TypeError):
+        package = Package(bounded.text(folder / "manifest.json"), folder)
+        known = (
+            package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1 and _is_whole(package)
+        )
+    except (OSError, ValueError, LookupError, AttributeError, TypeError, bounded.NotRead):
         known = False
     if not known:
         raise InputError(label, str(folder), ACCEPTED, "holds no emitted model")
@@ -40,7 +73,10 @@ def _of_folder(folder: Path, label: str) -> Package:
         problem = "was emitted for other equations of the library than these"
         raise InputError(label, str(folder), package.remedy.removeprefix("run "), problem)
     source = package.original
-    if source is not None and source.is_file() and _sha256(source) != package.manifest["files"]["model.py"]:
+    same = (
+        source is None or not bounded.is_file(source) or _digest(source, label) == package.manifest["files"]["model.py"]
+    )
+    if not same:
         problem = f"is stale: {source} has changed since"
         raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
     for path in package.manifest["files"]:
@@ -48,14 +84,11 @@ def _of_folder(folder: Path, label: str) -> Package:
     return package
 
 
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def _of_file(path: Path) -> Package:
+def _of_file(path: Path, label: str) -> Package:
     from .cache import kept
 
-    key = hashlib.sha256(b"\0".join([path.read_bytes(), derivation().encode(), library_digest().encode()])).hexdigest()
+    content = _read(path, label)
+    key = hashlib.sha256(b"\0".join([content, derivation().encode(), library_digest().encode()])).hexdigest()
 
     def derived() -> bytes:
         from .derived import derived_package  # imports sympy when it is called

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from .errors import InputError
 
-_MOST = 10_000_000  # values: more is a slip of the hand
+MOST = 10_000_000  # values, or collisions of a map, which takes 130 bytes for each: more is a slip of the hand
 
 
-def parse_range(text: str, label: str, read: Callable[[str], float], *, unit: str = "") -> list[float]:
+def parse_range(
+    text: str, label: str, read: Callable[[str], float], *, unit: str = "", most: int = MOST
+) -> list[float]:
     """Return the values of a range, evenly spaced, or evenly in the logarithm.
 
     Arguments:
@@ -19,6 +21,7 @@ def parse_range(text: str, label: str, read: Callable[[str], float], *, unit: st
         label: option that the range belongs to, for the error.
         read: turns one end into an SI number, or raises InputError.
         unit: said of LO and HI in the error (`in degrees`).
+        most: values there may be.
 
     Raises:
         InputError: not a range, LO above HI, a count that is no whole number, too large or does not fit.
@@ -31,18 +34,36 @@ def parse_range(text: str, label: str, read: Callable[[str], float], *, unit: st
     if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,30}\s*", parts[2], re.ASCII):
         raise InputError(label, text, accepted, "is not a range")
     low, high, count = read(parts[0]), read(parts[1]), int(parts[2])
-    if count > _MOST:
-        raise InputError(label, text, f"{accepted}, N at most {_MOST}", "has too many values")
+    if count > most:
+        raise InputError(label, text, f"{accepted}, N at most {most}", "has too many values")
     if low > high or count < 1 or (count == 1) != (low == high):
         raise InputError(label, text, accepted, "is not a range")
     if logarithmic and low <= 0:
         raise InputError(label, text, accepted + ", LO > 0 for log", "has no logarithm")
     if count == 1:
         return [low]
-    steps = [i / (count - 1) for i in range(1, count - 1)]
+    steps = (i / (count - 1) for i in range(1, count - 1))
     if logarithmic:
         log_low, log_high = math.log(low), math.log(high)
         inner = [math.exp(log_low + s * (log_high - log_low)) for s in steps]
     else:
         inner = [low + s * (high - low) for s in steps]
     return [low, *inner, high]  # the ends exactly as they were given
+
+
+def check_cells(ranges: Mapping[str, str | None]) -> None:
+    """InputError if ranges have more values together than a map can hold, before any of them is written out.
+
+    Arguments:
+        ranges: option -> its range; what is wrong with one by itself is for `parse_range` to say.
+    """
+    cells, sizes = 1, []
+    for label, text in ranges.items():
+        count = re.search(r":\s*([0-9]{1,9})\s*$", text or "", re.ASCII)
+        if text is None or count is None:
+            continue
+        cells *= max(1, int(count[1]))
+        sizes.append(count[1])
+        if cells > MOST >= int(count[1]):
+            problem = f"makes {' x '.join(sizes)} collisions"
+            raise InputError(label, text, f"at most {MOST} collisions in all", problem)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,11 +15,13 @@ import numpy as np
 
 from ..generated import scaling
 from . import files
+from .arguments import check_function
 from .custom import Package
 from .errors import InputError
 from .journal import Journal
 from .many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
 from .numbers import si_values
+from .ranges import MOST
 from .requests import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .scene import Scene
 from .settings import RTOL, bulk_engine, check_engine, check_rtol
@@ -28,7 +31,6 @@ if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[int, int], None]
-_MOST = 10_000_000  # collisions: more is a slip of the hand
 _UNKNOWN = -2  # outcome of a collision that has not been computed
 
 
@@ -116,15 +118,32 @@ def regime_map(
         array([[0, 0, 2],
                [0, 1, 2]], dtype=int8)
     """
-    grid = _grid(Scene.load(scene), stokes, speed, angle, vary or {})
+    told = (check_function(progress, "progress"), check_function(slow, "slow"))
+    grid = _grid(Scene.load(scene), stokes, speed, angle, {} if vary is None else vary)
     by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
     request = grid.request(check_rtol(rtol), by, check_of(of))
     check_some_scene(request)
     warn(grid.scene)
+    kept = _journal(journal)
+    if kept is None:
+        return _computed(grid, request, None, *told)
+    kept.under(_identity(grid, request))
+    with kept.held():
+        return _computed(grid, request, kept, *told)
+
+
+def _journal(journal: object) -> Journal | None:
+    if journal is None or isinstance(journal, Journal):
+        return journal
+    if not isinstance(journal, (str, os.PathLike)) or not str(journal).strip():
+        raise InputError("journal", journal, "a file name, or None", "is not a file name")
+    return Journal(Path(journal))
+
+
+def _computed(
+    grid: Grid, request: Request, kept: Journal | None, progress: Progress | None, slow: Slow | None
+) -> xarray.Dataset:
     results = empty(request.size, request.of)
-    kept = Journal(Path(journal)) if isinstance(journal, (str, Path)) else journal
-    if kept is not None:
-        kept.under(_identity(grid, request))
     for where, block in kept.read() if kept else ():
         fill(results, where, block)
     total = request.size
@@ -141,19 +160,20 @@ def regime_map(
 
     tell()
     missing = grid.order[results["outcome"][grid.order] == _UNKNOWN]
-    compute(request, missing, finished, slow)
+    compute(request, missing, finished, slow or (lambda _count: None))
     return _dataset(grid, request, results)
 
 
 def _grid(scene: Scene, stokes: Any, speed: Any, angle: Any, vary: Mapping[str, Any]) -> Grid:
     impact = checked_impact(scene, stokes, speed, angle)
     axes = {name: array.reshape(-1) for name, array in (impact | checked_vary(scene, vary)).items()}
+    if math.prod(axis.size for axis in axes.values()) > MOST:
+        longest = max(axes, key=lambda name: axes[name].size)
+        sizes = " x ".join(str(axis.size) for axis in axes.values())
+        raise InputError(longest, None, f"at most {MOST} collisions in all", f"makes {sizes} collisions")
     for name, axis in axes.items():
         if np.unique(axis).size != axis.size:
-            raise InputError(name, axis.tolist(), "an axis without repetitions", "has a value twice")
-    sizes = " x ".join(str(axis.size) for axis in axes.values())
-    if math.prod(axis.size for axis in axes.values()) > _MOST:
-        raise InputError("axes", sizes, f"at most {_MOST} collisions in all", "are too many")
+            raise InputError(name, axis, "an axis without repetitions", "has a value twice")
     angles = axes.pop("impact.angle")
     kind = "stokes" if "impact.stokes" in axes else "speed"
     values = axes.pop(f"impact.{kind}")

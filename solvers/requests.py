@@ -11,11 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from .arguments import check_mapping, check_names
 from .custom import Package, fields, unknown
-from .errors import InputError, did_you_mean
+from .errors import InputError
 from .scene import Scene
 from .schema import unknown_entry
 from .settings import bulk_engine, check_engine, check_rtol
+from .values import array
 
 QUANTITIES: dict[str, tuple[str, str]] = {
     "restitution": ("1", "normal restitution e_n"),
@@ -112,12 +114,7 @@ def requested(
 
 def check_of(of: Sequence[str]) -> tuple[str, ...]:
     """The quantities to keep; InputError for one that there is not."""
-    of = (of,) if isinstance(of, str) else tuple(of)
-    known = (*QUANTITIES, "outcome", "certified", "reason")
-    for name in of:
-        if name not in known:
-            raise InputError("of", name, ", ".join(known), "is not known" + did_you_mean(name, known))
-    return of
+    return check_names(of, (*QUANTITIES, "outcome", "certified", "reason"), "of")
 
 
 def checked_impact(scene: Scene, stokes: Any, speed: Any, angle: Any) -> dict[str, np.ndarray]:
@@ -137,6 +134,7 @@ def checked_impact(scene: Scene, stokes: Any, speed: Any, angle: Any) -> dict[st
 
 def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> dict[str, np.ndarray]:
     """Other entries that vary, SI; InputError for a name that cannot."""
+    vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
     for name, values in vary.items():
         check_varies(name, values, label, scene.package)
         if "." in name and name.partition(".")[0] not in {given.partition(".")[0] for given, _ in scene.given}:
@@ -171,21 +169,30 @@ def check_some_scene(request: Request) -> None:
 
 
 def checked_numbers(name: str, values: Any, package: Package | None = None) -> np.ndarray:
-    """An array of SI numbers, in one dimension or none, each acceptable for its field; text carries its unit."""
+    """An array of SI numbers, in one dimension or none, each acceptable for its field; text carries its unit.
+
+    Raises:
+        InputError: as `values.array`, and numbers outside the field's range.
+    """
     entry = fields(package)[name]
-    if isinstance(values, str):
-        values = entry.number(values)
-    elif isinstance(values, (list, tuple)):
-        values = [entry.number(value) if isinstance(value, str) else value for value in values]
-    try:
-        array = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(name, repr(values), "numbers (SI), in one dimension", "is not a list of numbers") from None
-    if array.ndim > 1:
-        raise InputError(name, f"{array.ndim} dimensions", "one dimension, or a single number", "is not accepted")
+    found = array(values, entry, name)
+    if found.ndim > 1:
+        raise InputError(name, f"{found.ndim} dimensions", "one dimension, or a single number", "is not accepted")
     # every range is an interval: the values between two ends that it holds need not be asked
-    ends = (float(array.min()), float(array.max())) if array.size else ()  # NaN if any is
+    ends = (float(found.min()), float(found.max())) if found.size else ()  # NaN if any is
     if not all(math.isfinite(end) and entry.range.holds(end) for end in ends):
-        for value in np.unique(array):
+        for value in np.unique(found):
             entry.number(float(value))
-    return array
+    return found
+
+
+def checked_span(name: str, values: Any) -> tuple[float, float]:
+    """Two SI numbers that are ascending; InputError for anything else."""
+    found = checked_numbers(name, values)
+    accepted = "(LO, HI) with LO below HI"
+    if found.shape != (2,):
+        raise InputError(name, values, accepted, "is not a pair of numbers")
+    low, high = found.tolist()
+    if not low < high:
+        raise InputError(name, f"{low}:{high}", accepted, "is not ascending")
+    return low, high

@@ -149,8 +149,10 @@ class Collision:
         """
         from .draw import draw
         from .files import save
+        from .outputs import PICTURES, check_file
 
+        file = None if path is None else check_file(path, "path", PICTURES)
         figure = draw(self)
-        if path is not None:
-            save(figure, path, dpi=150)
+        if file is not None:
+            save(figure, file, dpi=150)
         return figure

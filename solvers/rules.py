@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 
+_LONGEST_NAME = 1000  # characters: a name is a title of pictures, and an attribute of files
+
+
 def check_name(name: object) -> None:
     """InputError unless the name is text that a file can hold."""
     if not isinstance(name, str):
@@ -25,6 +28,24 @@ def check_name(name: object) -> None:
         name.encode()
     except UnicodeEncodeError:
         raise InputError("name", name, "text", "cannot be written as UTF-8") from None
+    if "\0" in name or len(name) > _LONGEST_NAME:
+        raise InputError("name", name, f"text of at most {_LONGEST_NAME} characters", "is no name")
+
+
+def check_pairs(pairs: object, label: str) -> None:
+    """InputError unless these are pairs of a dotted name and what is said of it."""
+    accepted = "pairs of a dotted name and a value, such as (('liquid.viscosity', '2 Pa s'), ...)"
+    if not isinstance(pairs, (tuple, list)):
+        raise InputError(label, pairs, accepted, "is no list of pairs")
+    for pair in pairs:
+        if not isinstance(pair, tuple) or len(pair) != 2 or not isinstance(pair[0], str):
+            raise InputError(label, pair, accepted, "is no such pair")
+
+
+def check_package(package: object) -> None:
+    """InputError unless this is a model that has been opened, or None."""
+    if package is not None and not isinstance(package, custom.Package):
+        raise InputError("package", package, "a Package, or None: models are opened by Scene.load(..., model=DIR)")
 
 
 def grouped(entries: Mapping[str, Any]) -> dict[str, Any]:

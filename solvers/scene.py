@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import rules, scenefile
+from .arguments import check_mapping
 from .custom import Package, fields
 from .errors import InputError
 from .packages import open_package
@@ -56,6 +57,9 @@ class Scene:
     def __post_init__(self) -> None:
         """Read the tables and hold them against the rules."""
         rules.check_name(self.name)
+        rules.check_pairs(self.given, "given")
+        rules.check_pairs(self.comments, "comments")
+        rules.check_package(self.package)
         given = rules.grouped(dict(self.given))
         if self.package is not None:
             given = self.package.completed(given)
@@ -103,8 +107,8 @@ class Scene:
     @classmethod
     def from_toml(cls, text: str, origin: str = "scene", package: Package | None = None) -> Self:
         """Return the scene written in TOML; `origin` names the text in errors."""
-        comments = scenefile.assumptions(text)
-        return cls.from_dict(scenefile.parse(text, origin), from_file=True, comments=comments, package=package)
+        tables = scenefile.parse(text, str(origin))
+        return cls.from_dict(tables, from_file=True, comments=scenefile.assumptions(text), package=package)
 
     @classmethod
     def from_dict(
@@ -119,6 +123,9 @@ class Scene:
 
         Plain numbers are SI and radians, unless they come from a file, where a quantity must carry its unit.
         """
+        rules.check_package(package)
+        check_mapping(tables, "tables", "{'liquid': {'viscosity': '2 Pa s', ...}, ...}")
+        check_mapping({} if comments is None else comments, "comments", "texts by dotted name")
         entries = scenefile.flatten(tables, package)
         rules.check_entries(entries, package, from_file=from_file)
         rules.check_complete(entries, tables)
@@ -188,7 +195,7 @@ class Scene:
 
     def with_entries(self, changes: Mapping[str, Any]) -> Self:
         """Return the scene with entries replaced or added, by dotted name; text carries its unit."""
-        changes = dict(changes)
+        changes = dict(check_mapping(changes, "changes", "entries by dotted name, {'liquid.viscosity': '3 Pa s'}"))
         name = changes.pop("name", self.name)
         rules.check_entries(changes, self.package)
         rules.check_replaced(dict(self.given), changes)

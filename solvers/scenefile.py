@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import custom
+from . import bounded, custom
 from .errors import InputError, did_you_mean
 from .schema import FIELDS, TABLES, Raw
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
 _FOLDER = Path(__file__).with_name("presets")
-_LARGEST = 1_000_000  # bytes: no scene is longer, and /dev/zero has no end
+_LARGEST = 200_000  # bytes: no scene is longer, and /dev/zero has no end
 _HEADER = re.compile(r"\s*\[\s*([A-Za-z_]+)\s*\]")
 _ASSUMED = re.compile(r"\s*([A-Za-z_]+)\s*=.*#\s*(assumed\b.*)")
 
@@ -27,20 +28,18 @@ def read_text(source: str | Path) -> tuple[str, str]:
     if isinstance(source, str) and source in PRESETS:
         return (_FOLDER / f"{source}.toml").read_text(encoding="utf-8"), source
     accepted = "a scene file (TOML) or a preset: " + ", ".join(PRESETS)
+    if not isinstance(source, (str, os.PathLike)):
+        raise InputError("scene", source, f"a Scene, {accepted}", "is not the name of a file")
     if isinstance(source, str) and not source.strip():  # Path("") would be the folder we are in
         raise InputError("scene", source, accepted, "is an empty name")
     try:
-        with Path(source).open("rb") as file:
-            content = file.read(_LARGEST + 1)
+        content = bounded.read(Path(source), _LARGEST)
     except FileNotFoundError:
         is_name = isinstance(source, str) and not re.search(r"[/\\]|\.toml$", source)
         hint = did_you_mean(source, PRESETS) if is_name else ""
         raise InputError("scene", str(source), accepted, "is neither a file nor a preset" + hint) from None
-    except (OSError, ValueError, TypeError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise InputError("scene", str(source), accepted, f"cannot be read ({reason})") from None
-    if len(content) > _LARGEST:
-        raise InputError("scene", str(source), accepted, "is larger than any scene")
+    except bounded.NotRead as reason:
+        raise InputError("scene", str(source), accepted, str(reason)) from None
     try:
         return content.decode("utf-8-sig"), str(source)
     except UnicodeDecodeError as error:
@@ -57,6 +56,12 @@ def parse(text: str, origin: str) -> dict[str, Any]:
     """Return the tables of TOML `text`; InputError with file and line if it is broken."""
     import tomllib
 
+    if not isinstance(text, str):
+        raise InputError(origin, text, "a scene in TOML", "is not text")
+    if len(text) > _LARGEST:
+        raise InputError(origin, None, "a scene in TOML", f"is larger than {_LARGEST} characters")
+    if bounded.too_deep(text):
+        raise InputError(origin, None, "a scene in TOML: [TABLE] and KEY = VALUE", "is nested too deeply")
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # ValueError: TOMLDecodeError, and integers of 5000 digits

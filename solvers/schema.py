@@ -80,7 +80,7 @@ class Field:
         """
         label = label or self.name
         if self.flag:
-            if raw is not True and (from_file or raw != "true"):
+            if raw is not True and (from_file or not isinstance(raw, str) or raw != "true"):
                 raise InputError(label, raw, self.accepts)
             return "true"
         if self.choices:
@@ -110,6 +110,10 @@ class Field:
             if from_file:
                 raise InputError(label, raw, self.accepts, "is text, not a number")
             return units.number(raw, label, self.accepts)
+        if not isinstance(raw, Real):
+            from .values import scalar  # imports numpy
+
+            raw = scalar(raw, self, label)
         if not isinstance(raw, Real) or isinstance(raw, bool):
             kind = "a number with its unit, as text" if self.unit else "a number"
             raise InputError(label, raw, self.accepts, f"is not {kind}")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .arguments import check_flag
 from .chain import Flown, Stopped, as_located, fly
 from .cohesion import generalised_centrifugal
 from .errors import ComputationError
@@ -71,6 +72,7 @@ def collide(
         True
     """
     rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
+    ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     v0, theta0 = loaded.need_impact()
     dimensionless = numbers(loaded, v0, theta0)

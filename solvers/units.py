@@ -83,7 +83,8 @@ _NUMBER = r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|nan|inf(?:i
 _QUANTITY = re.compile(rf"({_NUMBER})(.*)", re.IGNORECASE | re.DOTALL)
 # What pint is given to parse: names, products, quotients and small integer powers. No numbers to compute with:
 # m^9^9^9 would keep it busy for ever.
-_UNIT = re.compile(r"(?:[^\W\d_]\w*(?:\^-?[0-9]{1,2})?|\)(?:\^-?[0-9]{1,2})?|[\s*/(]|1(?=\s*/))+")
+# Nothing is tried in a second way (++): a long word would take for ever.
+_UNIT = re.compile(r"(?:[^\W\d_]\w*+(?:\^-?[0-9]{1,2})?+|\)(?:\^-?[0-9]{1,2})?+|[\s*/(]|1(?=\s*/))++")
 
 # Undefined names, bad syntax, offset and logarithmic units: pint has many ways, and all mean an unknown unit here.
 _PINT_SAYS_NO = (
@@ -141,6 +142,26 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
     return value
 
 
+def factor(unit: str, si: str | None, field: str, accepted: str, value: object) -> float:
+    """Return how many `si` one `unit` is, the unit of a value that another library holds.
+
+    Arguments:
+        unit: as the library writes it.
+        si: the unit of the result; None: a plain number is wanted.
+        value: what carries it, for the error.
+
+    Raises:
+        InputError: a unit that is unknown, or of another dimension. A plain number is an angle in radians.
+    """
+    unit = spelling(unit)
+    plain = unit in ("", "1", "dimensionless")
+    if plain and si in (None, "rad"):
+        return 1.0
+    if unit in COMMON and COMMON[unit][0] == si:
+        return float(COMMON[unit][1])
+    return _pint_factor("dimensionless" if plain else unit, si or "dimensionless", value, field, accepted)
+
+
 def spelling(unit: str) -> str:
     """Return the one spelling under which a unit is looked up (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
     for given, ours in (("µ", "u"), ("μ", "u"), ("°", "deg"), ("²", "^2"), ("³", "^3"), ("**", "^")):
@@ -149,20 +170,22 @@ def spelling(unit: str) -> str:
     return " ".join(re.sub(r"[*·⋅]", " ", unit).split())
 
 
-def _pint_factor(unit: str, si: str, text: str, field: str, accepted: str) -> float:
+def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:
     """Return how many `si` one `unit` is, by pint; InputError if it is unknown or something else."""
     try:
         if not _UNIT.fullmatch(unit):
             raise ValueError(unit)
-        size, root = _judged(unit)
-        our_size, ours = _judged(si)
+        size, root, zero = _judged(unit)
+        our_size, ours, _ = _judged(si)
     except _PINT_SAYS_NO:
         known = [name for name, (kind, _) in COMMON.items() if kind == si]
         hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
-        raise InputError(field, text, accepted, f'has the unknown unit "{unit}"{hint}') from None
+        raise InputError(field, value, accepted, f'has the unknown unit "{unit}"{hint}') from None
     # Root units rather than dimensionality: to pint an angle is as dimensionless as a percentage.
     if root != ours:
-        raise InputError(field, text, accepted, f"is {_in_words(root)}, not {_demanded(si)}")
+        raise InputError(field, value, accepted, f"is {_in_words(root)}, not {_demanded(si)}")
+    if zero:  # degrees Celsius, decibels
+        raise InputError(field, value, accepted, f'has the unit "{unit}", whose zero is not zero')
     return float(size / our_size)
 
 
@@ -182,26 +205,28 @@ def _in_words(powers: Powers) -> str:
 
 
 @cache
-def _judged(unit: str) -> tuple[float, Powers]:
-    """Return how many of pint's root units a unit is, and their powers; any of _PINT_SAYS_NO if it is unknown.
+def _judged(unit: str) -> tuple[float, Powers, float]:
+    """Return how many of pint's root units a unit is, their powers, and what its zero is in them.
 
-    Pint's root of mass is the gram, and the radian is one.
+    Any of _PINT_SAYS_NO if it is unknown. Pint's root of mass is the gram, and the radian is one.
     """
     import hashlib
     from importlib.metadata import version
 
     from .cache import kept
 
-    content = json.dumps(["pint", version("pint"), unit])
+    content = json.dumps(["pint", version("pint"), unit, "zero"])
 
     def asked() -> bytes:
         registry = _registry()
         size: Any
-        size, root = registry.get_root_units(registry.parse_units(unit))
-        return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items())]).encode()
+        parsed = registry.parse_units(unit)
+        size, root = registry.get_root_units(parsed)
+        zero = float(registry.Quantity(0.0, parsed).to_root_units().magnitude)
+        return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items()), zero]).encode()
 
-    size, powers = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", asked))
-    return size, powers
+    size, powers, zero = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", asked))
+    return size, powers, zero
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Shared data: the public reference collisions and boundaries, copied into the repository."""
+"""Settings, and shared data: the public reference collisions and boundaries, copied into the repository."""
 
 from __future__ import annotations
 
@@ -7,6 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+# no test depends on how fast the machine is
+settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("unhurried")
 
 DATA = Path(__file__).parent / "data"
 COLLISIONS: list[dict[str, Any]] = json.loads((DATA / "collisions.json").read_text())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -10,13 +9,12 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
-from ..cache import settle
 from ..cores import usable_cores
 from ..many import OUTCOMES
 from ..model import choose
-from ..remarks import hush
 from ..taylor.engine import variant
 from ..taylor.library import Variant, kernel
+from ..workers import undisturbed, workers
 from .environment import environment
 from .stress_check import FAST, RTOL, SHARE, Issue, Verdict, fast_kernel, judge, runs
 from .stress_sample import SEED, Case, sample
@@ -137,19 +135,12 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
         return
     from concurrent.futures import as_completed
 
-    from loky import ProcessPoolExecutor
-
-    settle()
-
     alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # threads of numpy's would only get in the way
-    pool, done = ProcessPoolExecutor(max_workers=cores, initializer=_deaf, env=alone), False
-    try:
-        waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
+    with workers(cores, alone) as pool:
+        with undisturbed():
+            waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
         for future in as_completed(waiting):
             yield waiting.pop(future), future.result()
-        done = True
-    finally:
-        pool.shutdown(wait=True, kill_workers=not done)  # as solvers/many.py has it
 
 
 def _blocks(cases: Sequence[Case]) -> list[list[int]]:
@@ -158,11 +149,6 @@ def _blocks(cases: Sequence[Case]) -> list[list[int]]:
     for k, case in enumerate(cases):
         alike.setdefault(choose(case.scene, bool(case.scene.angle)), []).append(k)
     return [group[k : k + _BLOCK] for group in alike.values() for k in range(0, len(group), _BLOCK)]
-
-
-def _deaf() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    hush()
 
 
 def _block(cases: Sequence[Case]) -> list[Verdict]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from ..sensitivity.boundaries import BoundarySensitivities
 
+_MOST = 100_000  # lines: half an hour
 _ENTRY = FIELDS["impact.angle"]
 
 
@@ -61,7 +62,7 @@ def command(
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
     span = STOKES if stokes is None else _span(stokes)
-    angles = None if angle is None else parse_range(angle, "--angle", _degrees, unit="in degrees")
+    angles = None if angle is None else parse_range(angle, "--angle", _degrees, unit="in degrees", most=_MOST)
     scene = options.Asked.check(source, changes, model=model).scene()
     if angles is None:
         raise InputError("--angle", None, "LO:HI:N in degrees, as 20:65:10")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ import click
 
 from ..custom import fields
 from ..errors import InputError
-from ..ranges import parse_range
+from ..ranges import check_cells, parse_range
 from ..schema import FIELDS, Field
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
@@ -63,7 +64,11 @@ def command(
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     picture = options.check_file(plot, "--plot", options.PICTURES)
-    file = options.check_file(output, "-o", (".nc",))
+    file = options.check_file(output, "-o", (".nc",), replaced=True)
+    check_cells(
+        {"--stokes": stokes, "--speed": speed, "--angle": angle}
+        | {f"--vary {each.partition('=')[0]}": each for each in vary}
+    )
     axes = _axes(stokes, speed, angle)
     asked = options.Asked.check(source, changes, model=model)
     varied = _varied(vary, asked)
@@ -141,7 +146,7 @@ def _computed(
     done = (0, 0)
     begun = journal is None or not journal.path.exists()
     try:
-        with bar("collisions") as shown:
+        with bar("collisions") as shown, journal.held("-o", file) if journal else nullcontext():
 
             def progress(*counts: int) -> None:
                 nonlocal done

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .. import files, units
+from .. import files, outputs, units
 from ..custom import Package, fields, unknown
 from ..errors import InputError, shown
 from ..packages import open_package
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
 
 Command = Callable[..., Any]
 Reader = Callable[[str], float]
-PICTURES = (".png", ".pdf", ".svg")
+PICTURES = outputs.PICTURES
 
 # Not required by click: a bad option is to be reported before a scene that is missing.
 scene_argument = click.argument("source", metavar="SCENE", required=False)
@@ -151,23 +149,9 @@ def angles(text: str, option: str = "--angle") -> list[float]:
     return parse_range(text, option, read, unit="in degrees")
 
 
-def check_file(path: str | None, option: str, suffixes: Sequence[str] = ()) -> Path | None:
-    """Return the file to be written; InputError naming the option if it cannot be, or has another suffix."""
-    if path is None:
-        return None
-    file = Path(path)
-    accepted = "a file name" + (f" ending in {', '.join(suffixes)}" if suffixes else "") + " in a folder that exists"
-    if suffixes and file.suffix.lower() not in suffixes:
-        raise InputError(option, path, accepted, "has an unsupported suffix")
-    if "\0" in path or not path.strip():
-        raise InputError(option, path, accepted, "is not a file name")
-    if not file.parent.is_dir():
-        raise InputError(option, path, accepted, "is in a folder that does not exist")
-    if file.is_dir():
-        raise InputError(option, path, accepted, "is a folder")
-    if not (os.access(file, os.W_OK) if file.exists() else _takes_files(file.parent)):
-        raise InputError(option, path, accepted, "cannot be written")
-    return file
+def check_file(path: str | None, option: str, suffixes: Sequence[str] = (), *, replaced: bool = False) -> Path | None:
+    """Return the file to be written, if one is named; InputError naming the option if it cannot be."""
+    return None if path is None else outputs.check_file(path, option, suffixes, replaced=replaced)
 
 
 def check_apart(file: Path | None, option: str, other: Path | None, its_option: str) -> None:
@@ -176,31 +160,9 @@ def check_apart(file: Path | None, option: str, other: Path | None, its_option: 
         raise InputError(option, str(file), "two different files", f"is given to {its_option} as well")
 
 
-def _takes_files(folder: Path) -> bool:
-    """Whether a file can be made in a folder: tried, because permissions say nothing of /proc and its like."""
-    try:
-        with tempfile.TemporaryFile(dir=folder):
-            return True
-    except OSError:
-        return False
-
-
 def check_folder(path: str | None, option: str = "--out") -> Path | None:
-    """Return the folder to write into, which may not exist yet; InputError naming the option if it never could."""
-    if path is None:
-        return None
-    accepted = "a folder that exists or can be made"
-    if "\0" in path or not path.strip():
-        raise InputError(option, path, accepted, "is not a file name")
-    folder = Path(path)
-    there = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
-    if not there.is_dir():
-        problem = "is a file" if there == folder else f"cannot be made: {there} is a file"
-        raise InputError(option, path, accepted, problem)
-    if not _takes_files(there):
-        problem = "cannot be written to" if there == folder else f"cannot be made: {there} cannot be written to"
-        raise InputError(option, path, accepted, problem)
-    return folder
+    """Return the folder to write into, if one is named; InputError naming the option if it never could be."""
+    return None if path is None else outputs.check_folder(path, option)
 
 
 def put(text: str, file: Path | None) -> None:

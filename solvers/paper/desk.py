@@ -12,15 +12,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from .. import boundary
-from ..cache import settle
 from ..cores import usable_cores
 from ..errors import ComputationError
 from ..look import Look
 from ..probe import ready
-from ..remarks import hush
 from ..scene import Scene
 from ..settings import RTOL
 from ..taylor.library import knows
+from ..workers import lasting_workers
 from .parts import number
 from .printed import CURVES
 
@@ -174,11 +173,8 @@ def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[
     """The function of each item, on all cores."""
     if len(items) < 2:
         return [function(item) for item in items]
-    from loky import get_reusable_executor
-
-    settle()
-    pool = get_reusable_executor(max_workers=usable_cores(), initializer=hush)
-    return list(pool.map(function, items))
+    with lasting_workers(usable_cores()) as pool:
+        return list(pool.map(function, items))
 
 
 def progress() -> Callable[[str], None]:

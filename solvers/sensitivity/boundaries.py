@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import check_function
 from ..bounds import STOKES, Boundaries, boundary
 from ..changes import Change
 from ..errors import ComputationError, InputError
@@ -123,6 +124,9 @@ def boundary_sensitivities(
     loaded = Scene.load(scene)
     names = check_boundary_wrt(loaded, wrt)
     rtol = check_rtol(rtol)
+    check_function(progress, "progress")
+    if traced is not None and not isinstance(traced, Boundaries):
+        raise InputError("traced", traced, "what boundary() has returned, or None", "is neither")
     found = boundary(loaded, angle=angle, stokes=stokes, rtol=rtol) if traced is None else traced
     lines: list[tuple[Moving, ...]] = []
     for at, line in zip(found.angles, found.changes, strict=True):

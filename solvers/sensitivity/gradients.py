@@ -7,8 +7,10 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
+from ..arguments import check_mapping
 from ..errors import ComputationError, InputError, did_you_mean
 from ..scene import Scene
+from ..schema import Field, Range
 from ..settings import check_engine, check_rtol
 from . import kernel
 from .choice import chosen
@@ -18,6 +20,7 @@ from .quantities import SPENT, check_of, computed
 from .result import Sensitivities
 
 METHODS = ("forward", "adjoint")
+_PART = Field("hessian", "a number (SI)", "1.0", Range("of either sign", lambda _: True))
 _BEST = "rosenbrock"  # its derivatives are some hundred times more accurate than those of CVODES at one tolerance
 
 
@@ -132,11 +135,11 @@ def sensitivities(
 def _along(hessian: bool | Mapping[str, float], names: tuple[str, ...]) -> Along:
     if isinstance(hessian, bool):
         return "all" if hessian else None
-    for name in hessian:
+    for name in check_mapping(hessian, "hessian", "True, False or numbers by parameter"):
         if name not in names:
             problem = "is not among the parameters" + did_you_mean(name, names)
             raise InputError("hessian", name, ", ".join(names), problem)
-    return np.array([[float(hessian.get(name, 0.0))] for name in names])
+    return np.array([[_PART.number(hessian.get(name, 0.0), label=f"hessian of {name}")] for name in names])
 
 
 Combined = tuple[float | None, np.ndarray | None, np.ndarray | None]

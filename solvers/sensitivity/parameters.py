@@ -14,6 +14,7 @@ import numpy as np
 from casadi import SX, Function, densify, hessian, jacobian, substitute, vertcat
 
 from ...generated import scaling
+from ..arguments import check_names
 from ..caches import own_cache
 from ..errors import InputError, did_you_mean
 from ..numbers import Formula, formulas
@@ -45,12 +46,9 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
     everything = known(scene)
     if wrt is None:
         return everything
-    asked = (wrt,) if isinstance(wrt, str) else tuple(dict.fromkeys(wrt))
     # not in the file, but a number of its own all the same
     more = ("pendulum.gravity",) if scene.pendulum is not None else ()
-    for name in asked:
-        if name not in everything and name not in more:
-            raise InputError(label, name, ", ".join(everything), "is not known" + did_you_mean(name, everything))
+    asked = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not asked:
         raise InputError(label, "", ", ".join(everything), "names no parameter")
     return asked

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..errors import InputError, did_you_mean
+from ..arguments import check_names
+from ..errors import InputError
 
 
 @dataclass(frozen=True)
@@ -52,11 +53,7 @@ SPENT = (*LEDGER[2:-1],)
 
 def check_of(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
     """The quantities asked for; InputError naming the nearest for one that there is not."""
-    asked = (of,) if isinstance(of, str) else tuple(dict.fromkeys(of))
-    for name in asked:
-        if name not in QUANTITIES:
-            hint = did_you_mean(name, QUANTITIES)
-            raise InputError(label, name, ", ".join(QUANTITIES), "is not known" + hint)
+    asked = check_names(of, tuple(QUANTITIES), label)
     if not asked:
         raise InputError(label, "", ", ".join(QUANTITIES), "names no quantity")
     return asked

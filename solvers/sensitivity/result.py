@@ -171,11 +171,13 @@ class Sensitivities:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
         from ..files import save
+        from ..outputs import PICTURES, check_file
         from .tornado import draw
 
+        file = None if path is None else check_file(path, "path", PICTURES)
         figure = draw(self)
-        if path is not None:
-            save(figure, path, dpi=150)
+        if file is not None:
+            save(figure, file, dpi=150)
         return figure
 
 

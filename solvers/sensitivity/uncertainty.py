@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arguments import check_mapping, check_name, check_whole
 from ..errors import ComputationError, InputError
 from ..many import OUTCOMES, collide_many
 from ..requests import QUANTITIES as MANY
+from ..requests import checked_numbers
 from ..scene import Scene
-from ..schema import FIELDS
+from ..schema import FIELDS, Field
 from .many import gradients_many
 from .parameters import check_wrt
 from .result import Sensitivities
@@ -21,6 +23,7 @@ from .result import Sensitivities
 if TYPE_CHECKING:
     import xarray
 
+_MOST = 2**20  # samples
 _LEVELS = (0.025, 0.975)
 _OVER = ("impact.stokes", "impact.speed", "impact.angle")
 
@@ -31,6 +34,7 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
     Raises:
         InputError: a name that the scene has not, or a value that is no uncertainty.
     """
+    check_mapping(uncertainty, label, "standard deviations by dotted name")
     check_wrt(scene, tuple(uncertainty), label)
     found = {}
     for name, given in uncertainty.items():
@@ -103,12 +107,14 @@ def band(
     """
     import xarray as xr
 
-    if over not in _OVER:
-        raise InputError("over", over, ", ".join(_OVER), "is not known")
-    if of not in MANY:
-        raise InputError("of", of, ", ".join(MANY), "is not known")
+    over, of = check_name(over, _OVER, "over"), check_name(of, tuple(MANY), "of")
     loaded = Scene.load(scene)
-    at = [loaded.with_impact(**{over.partition(".")[2]: float(value)}) for value in values]
+    check_mapping(uncertainty, "uncertainty", "standard deviations by dotted name")
+    where = checked_numbers(over, values).reshape(-1)
+    if not where.size:
+        raise InputError("values", values, "one value at least", "is empty")
+    check_samples(samples)
+    at = [loaded.with_impact(**{over.partition(".")[2]: value}) for value in where.tolist()]
     impacts = [one.need_impact() for one in at]
     sigma = deviations(at[0], uncertainty)
     relative = {name: str(given).strip().endswith("%") for name, given in uncertainty.items()}
@@ -132,7 +138,7 @@ def band(
             "reason": (over, np.where(known, "", found.reason.values)),
             "outcome": (over, np.array([OUTCOMES[code] if code >= 0 else "" for code in found.outcome.values])),
         },
-        {over: (over, np.array([float(value) for value in values]), {"units": unit})},
+        {over: (over, where, {"units": unit})},
         {"uncertainty": ", ".join(f"{name}: {given}" for name, given in uncertainty.items()), "samples": samples},
     )
 
@@ -152,7 +158,7 @@ def _sampled(
     for one, (speed, angle) in zip(at, impacts, strict=True):
         held = one.with_impact(speed=speed)
         varied = {
-            name: _possible(name, _value(held, name), sigma * normal[:, k])
+            name: _possible(held.fields[name], _value(held, name), sigma * normal[:, k])
             for k, (name, sigma) in enumerate(deviations(held, uncertainty).items())
         }
         for name, column in varied.items():
@@ -169,20 +175,26 @@ def _sampled(
     return np.asarray(found[of].values, dtype=float).reshape(len(at), samples)
 
 
+def check_samples(samples: object) -> int:
+    """Return how many points of a Sobol sequence there shall be; InputError unless they fill it."""
+    count = check_whole(samples, "samples", 2, _MOST)
+    if count & (count - 1):
+        raise InputError("samples", samples, "a power of two", "does not fill a Sobol sequence")
+    return count
+
+
 def _normal(samples: int, count: int) -> np.ndarray:
     """Standard normal deviates of a scrambled Sobol sequence, the same every time."""
     try:
         from scipy.stats import norm, qmc
     except ImportError:
         raise ComputationError("sampling needs scipy", advice="pip install 'wetdoublet[global]'") from None
-    if samples < 2 or samples & (samples - 1):
-        raise InputError("samples", samples, "a power of two", "does not fill a Sobol sequence")
     return np.asarray(norm.ppf(qmc.Sobol(count, seed=0).random(samples)))
 
 
-def _possible(name: str, value: float, deviation: np.ndarray) -> np.ndarray:
+def _possible(entry: Field, value: float, deviation: np.ndarray) -> np.ndarray:
     """The value and its deviations, these halved until the schema takes them; at its very edge there are none."""
-    holds = FIELDS[name].range.holds
+    holds = entry.range.holds
     moved = np.array(deviation)
     for _ in range(60):
         bad = np.array([not holds(float(value + each)) for each in moved])

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arguments import check_mapping, check_name, check_whole
 from ..errors import ComputationError, InputError
 from ..many import FAILED, collide_many
 from ..requests import QUANTITIES as MANY
 from ..scene import Scene
-from ..schema import FIELDS
+from ..settings import check_rtol
 from .parameters import check_wrt
+from .uncertainty import check_samples
 
 if TYPE_CHECKING:
     import xarray
@@ -47,12 +49,14 @@ def sobol_indices(
     import xarray as xr
 
     loaded = Scene.load(scene)
-    names = check_wrt(loaded, tuple(ranges), "ranges")
-    if of not in MANY:
-        raise InputError("of", of, ", ".join(MANY), "is not known")
-    if samples < 2 or samples & (samples - 1):
-        raise InputError("samples", samples, "a power of two", "does not fill a Sobol sequence")
-    bounds = [_bounds(name, ranges[name]) for name in names]
+    names = check_wrt(loaded, tuple(check_mapping(ranges, "ranges", "(low, high) by dotted name")), "ranges")
+    rtol, of, samples, seed = (
+        check_rtol(rtol),
+        check_name(of, tuple(MANY), "of"),
+        check_samples(samples),
+        check_whole(seed, "seed", 0, 2**32 - 1),
+    )
+    bounds = [_bounds(loaded, name, ranges[name]) for name in names]
     sample, analyze = _salib()
     problem = {"num_vars": len(names), "names": list(names), "bounds": bounds}
     points = sample(problem, samples, calc_second_order=False, seed=seed)
@@ -86,11 +90,11 @@ def sobol_indices(
     )
 
 
-def _bounds(name: str, given: Sequence[float | str]) -> list[float]:
+def _bounds(scene: Scene, name: str, given: Sequence[float | str]) -> list[float]:
     accepted = f"(low, high) of {name} with low below high"
-    if isinstance(given, str) or len(given) != 2:
+    if not isinstance(given, (list, tuple, np.ndarray)) or len(given) != 2:
         raise InputError("ranges", given, accepted, "is not a pair")
-    low, high = (FIELDS[name].number(value, label=f"ranges of {name}") for value in given)
+    low, high = (scene.fields[name].number(value, label=f"ranges of {name}") for value in given)
     if not low < high:
         raise InputError("ranges", f"({given[0]}, {given[1]})", accepted, "is not ascending")
     return [low, high]

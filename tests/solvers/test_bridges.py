@@ -94,7 +94,7 @@ def test_json_stays_pure():
     """On the command line the remark is one line on standard error, and standard output is one JSON object."""
     command = [sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--json"]
     done = subprocess.run(
-        [*command, "--set", "bridge.law=willett-simple"], capture_output=True, text=True, timeout=60, check=True
+        [*command, "--set", "bridge.law=willett-simple"], capture_output=True, text=True, timeout=900, check=True
     )
     assert json.loads(done.stdout)["outcome"] == "stick-rotate-separate"
     (line,) = done.stderr.splitlines()

@@ -86,7 +86,7 @@ def test_a_model_file_is_derived_once(mine: Path, tmp_path: Path, monkeypatch: p
     file = mine.with_suffix(".py")
     first = collide(Scene.load("granulation", model=file), engine="rosenbrock", ledger=False)
     command = [sys.executable, "-c", _COLLIDE, str(file)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=900)
     assert done.stdout.split() == [repr(first.restitution), "False"]
 
 

@@ -22,7 +22,7 @@ main(sys.argv[1:])
 def loaded(*arguments: str) -> tuple[str, set[str]]:
     """Standard output of a command in a fresh interpreter, and the packages in it at exit."""
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, *arguments], capture_output=True, text=True, check=True, timeout=120
+        [sys.executable, "-c", PROGRAM, *arguments], capture_output=True, text=True, check=True, timeout=900
     )
     return done.stdout, set(json.loads(done.stderr.partition("loaded ")[2]))
 

@@ -1,22 +1,12 @@
 """Interrupted maps: what is finished is kept on disk, and only what is missing is computed again."""
 
-import json
-import os
-import signal
-import subprocess
-import sys
-import time
-
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import Scene, many, regime_map
+from wetdoublet.solvers import InputError, Scene, many, regime_map
 from wetdoublet.solvers.journal import Journal
 
-from .command import run
-
-# slow enough to be interrupted
-LARGE = ["map", "granulation", "--stokes", "log:0.005:0.5:60", "--angle", "1:85:60", "--engine", "rosenbrock"]
+from .command import finished, run
 
 
 def test_journal(tmp_path):
@@ -80,51 +70,50 @@ def test_a_journal_of_another_request_stays(tmp_path):
     assert file.exists()
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 def test_an_interrupted_run_is_continued(tmp_path):
-    """Ctrl-C exits 130 with a line that says how to go on; the second run computes what is missing and no more."""
-    file, partial = tmp_path / "map.nc", tmp_path / "map.nc.partial"
-    start = [sys.executable, "-m", "wetdoublet.solvers", *LARGE, "-o", str(file)]
-    first = subprocess.Popen(
-        start,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )
-    deadline = time.monotonic() + 30
-    while not partial.exists() and time.monotonic() < deadline:
-        time.sleep(0.01)
-    os.killpg(first.pid, signal.SIGINT)  # as a terminal does: to the workers too
-    out, err = first.communicate(timeout=30)
-    assert (first.returncode, out) == (130, "")
-    kept = sum(len(json.loads(line.split(b" ", 2)[2])["where"]) for line in partial.read_bytes().split(b"\n") if line)
-    assert 0 < kept < 3600
-    assert err == f"interrupted: {kept} of 3600 collisions are kept in {partial}; the same command computes the rest\n"
-    assert not file.exists()
+    """What is finished is kept when a run is interrupted; the next computes what is missing and no more."""
+    path = tmp_path / "a.partial"
+    grid = {"stokes": np.geomspace(0.005, 0.5, 8), "angle": np.linspace(0, 1.5, 10), "engine": "rosenbrock"}
+    seen = []
 
-    counting = (
-        "import sys\n"
-        "from importlib import import_module\n"
-        "module = import_module('wetdoublet.solvers.regimes')\n"
-        "real = module.compute\n"
-        "def compute(request, which, finished):\n"
-        "    def counted(where, block):\n"
-        "        print(where.size)\n"
-        "        finished(where, block)\n"
-        "    real(request, which, counted)\n"
-        "module.compute = compute\n"
-        "from wetdoublet.solvers.cli import main\n"
-        "main(sys.argv[1:])\n"
-    )
-    second = subprocess.run(
-        [sys.executable, "-c", counting, *start[3:]], capture_output=True, text=True, check=False, timeout=60
-    )
-    assert second.returncode == 0, second.stderr
-    assert sum(map(int, second.stdout.split())) == 3600 - kept
-    assert not partial.exists()
-    with xr.open_dataset(file) as back:
-        assert int((back.outcome == -2).sum()) == 0
-        expected = regime_map("granulation", stokes=back.stokes.values[::20], angle=back.angle.values[::20])
-        np.testing.assert_array_equal(back.restitution.values[::20, ::20], expected.restitution.values)
+    def until_something_is_done(done, total):
+        seen.append((done, total))
+        if done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        regime_map("granulation", **grid, journal=path, progress=until_something_is_done)
+    kept = sum(where.size for where in finished(path))
+    assert seen == [(0, 80), (kept, 80)]
+    assert 0 < kept < 80
+
+    seen.clear()
+    whole = regime_map("granulation", **grid, journal=path, progress=lambda *counts: seen.append(counts))
+    assert (seen[0], seen[-1]) == ((kept, 80), (80, 80))
+    everything = np.concatenate(finished(path))
+    assert np.sort(everything).tolist() == list(range(80))  # nothing twice
+    xr.testing.assert_identical(whole, regime_map("granulation", **grid))
+
+
+def test_a_journal_is_one_run_s_at_a_time(tmp_path):
+    """A run that is given a journal that another one has is refused, and says which argument; afterwards it is free."""
+    path = tmp_path / "a.partial"
+
+    def meanwhile(done, _total):
+        if not done:
+            with pytest.raises(InputError, match="^journal: .* is being written by another run"):
+                regime_map("granulation", stokes=0.1, angle=1.0, journal=path)
+
+    regime_map("granulation", stokes=[0.1, 0.2], angle=1.0, journal=path, progress=meanwhile)
+    regime_map("granulation", stokes=0.1, angle=1.0, journal=path)
+
+
+@pytest.mark.parametrize("name", ["no/such/a.partial", "", "a\0b", "."])
+def test_a_journal_that_cannot_be_is_bad_input(tmp_path, name, monkeypatch):
+    """It is refused before anything is computed, by the argument's name."""
+    monkeypatch.chdir(tmp_path)
+    seen = []
+    with pytest.raises(InputError, match="^journal: "):
+        regime_map("granulation", stokes=0.1, angle=1.0, journal=name, progress=lambda *counts: seen.append(counts))
+    assert not seen
+    assert not list(tmp_path.iterdir())

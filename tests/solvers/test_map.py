@@ -102,7 +102,7 @@ def test_file_round_trip(data, tmp_path):
     ("arguments", "field"),
     [
         ({"stokes": [0.1, 0.1]}, "impact.stokes"),
-        ({"stokes": np.linspace(0.1, 0.2, 4000), "angle": np.linspace(0, 1, 4000)}, "axes"),
+        ({"stokes": np.linspace(0.1, 0.2, 4000), "angle": np.linspace(0, 1, 5000)}, "impact.angle"),
         ({"vary": {"model.arm": "surface"}}, "vary"),
         ({"of": ["e_n"]}, "of"),
     ],
@@ -133,6 +133,11 @@ BAD = [
         '--vary: "bridge.volume"',
     ),
     ("--set impact.stokes=1 --stokes 0.1:0.2:3 --angle 0:80:3", '--set: "impact.stokes"'),
+    ("--stokes 1:2:9000000 --angle 0:80:9000000", '--angle: "0:80:9000000" makes 9000000 x 9000000 collisions'),
+    (
+        "--stokes 1:2:90 --angle 0:80:90 --vary bridge.volume=0.1:0.2:9000",
+        '--vary bridge.volume: "bridge.volume=0.1:0.2:9000" makes 90 x 90 x 9000',
+    ),
     ("--stokes 0.1:0.2:3 --angle 0:80:3 -o map.txt", '-o: "map.txt" has an unsupported suffix'),
 ]
 

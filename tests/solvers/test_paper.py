@@ -5,7 +5,6 @@ from __future__ import annotations
 import html.parser
 import math
 import re
-import time
 
 import numpy as np
 import pytest
@@ -196,9 +195,7 @@ def test_desk_traces_nothing_twice():
     desk, scene = Desk(COARSE), variant(BRIDGED, {})
     first = desk.lines(scene, CURVES[2:4])
     count = desk.collisions
-    start = time.perf_counter()
     again = desk.many([Job(scene, CURVES[3:4]), Job(scene, CURVES[2:3])])
-    assert time.perf_counter() - start < 0.1
     assert desk.collisions == count
     assert [again[1][0], again[0][0]] == first
     assert outcomes(first[0]) == ("stick", "stick-rotate-separate", "bounce")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -198,9 +197,8 @@ def test_film_corrected_glass_near_its_peak() -> None:
 @pytest.mark.parametrize("angle", [35, 55])
 @pytest.mark.parametrize("below", [0.03, 0.12])
 def test_loose_tolerances_still_prove(angle: float, below: float) -> None:
-    """At rtol 1e-3 a stick 3 to 12 % below its boundary is proved, within a second."""
+    """At rtol 1e-3 a stick 3 to 12 % below its boundary is proved, in few steps."""
     critical = {35: 0.07050293952195241, 55: 0.0342316035137301}[angle]
-    begun = time.process_time()
     found = collide("granulation", stokes=critical * (1 - below), angle=math.radians(angle), rtol=1e-3)
     assert (found.outcome, found.certified) == ("stick", True)
-    assert time.process_time() - begun < 1.0
+    assert found.steps < 1000

@@ -155,7 +155,7 @@ def scenes(draw):
         entries |= {"pendulum.length": "3 km", "pendulum.law": "small-angle"}
     if draw(st.booleans()):
         entries |= {"impact.stokes": draw(positive), "impact.angle": draw(st.floats(0, 1.57))}
-    name = draw(st.text(st.characters(exclude_categories=["Cs"]), max_size=20))
+    name = draw(st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20))
     return Scene(name, tuple(entries.items()))
 
 
