@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 from .errors import InputError, ModelWarning, WetDoubletError, cut, did_you_mean, one_line
-from .interrupts import INTERRUPTED, termination
+from .interrupts import INTERRUPTED, handled
 from .locks import sweep_temporary
 
 COMMANDS = (
@@ -57,7 +57,7 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; an interrupt and a reader that has left are exit statuses, not errors."""
         try:
-            with termination() as signals:
+            with handled() as signals:
                 sweep_temporary()
                 super().invoke(ctx)
             sys.stdout.flush()
@@ -67,7 +67,7 @@ class Commands(click.Group):
                 error.ctx = click.Context(command, parent=ctx, info_name=name)
             raise
         except KeyboardInterrupt as interrupt:
-            click.echo(str(interrupt) or ("terminated" if signals.received else "interrupted"), err=True)
+            click.echo(str(interrupt) or ("terminated" if signals.terminated else "interrupted"), err=True)
             ctx.exit(signals.status)
         except BrokenPipeError:
             # nothing can be written any more, not even what the interpreter flushes as it ends

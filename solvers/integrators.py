@@ -17,6 +17,7 @@ from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
 
 from .buffered import Buffered
 from .caches import own_cache
+from .interrupts import check
 from .phases import Flow, Watch, event_table, expressions, mechanical_energy
 from .said import listening
 from .settings import STEPS
@@ -40,6 +41,7 @@ def quiet() -> Iterator[None]:
 
 def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
+    check()
     with listening() as heard:
         try:
             found = _buffered(function)(x0, p)
@@ -49,6 +51,8 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
             if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
                 raise KeyboardInterrupt from None
             raise IntegrationFailed(_reason(str(error))) from None
+    if "KeyboardInterrupt" in heard.getvalue():  # CVODES has taken it for a step to be tried again
+        raise KeyboardInterrupt
     if not np.isfinite(found).all():
         raise IntegrationFailed("the state is not finite")
     return found.reshape(function.size_out(0), order="F")

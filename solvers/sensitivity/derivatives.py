@@ -7,6 +7,7 @@ from casadi import DM, MX, Function, densify, jtimes
 
 from ..caches import own_cache
 from ..integrators import IntegrationFailed, quiet
+from ..interrupts import check
 from ..said import listening
 from .flight import Flight
 
@@ -18,6 +19,7 @@ _TRIES = 8
 
 def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray]:
     """A function's results as arrays; IntegrationFailed in one line, and CasADi's pages dropped."""
+    check()
     with listening() as heard:
         try:
             found = function.call([DM(each) for each in arguments])
@@ -25,6 +27,8 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
             if "KeyboardInterrupt" in str(error) + heard.getvalue():
                 raise KeyboardInterrupt from None
             raise IntegrationFailed("the integrator gave up") from None
+    if "KeyboardInterrupt" in heard.getvalue():  # CVODES has taken it for a step to be tried again
+        raise KeyboardInterrupt
     arrays = [np.asarray(each.full()) for each in found]
     if not all(np.isfinite(each).all() for each in arrays):
         raise IntegrationFailed("a result is not finite")

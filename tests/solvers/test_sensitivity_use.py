@@ -20,6 +20,7 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.benchmarks.derivatives import gradient_table, gradients
 from wetdoublet.solvers.compilers import compiler
+from wetdoublet.solvers.schema import FIELDS
 from wetdoublet.solvers.sensitivity import uncertainty
 from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 
@@ -108,7 +109,7 @@ def test_first_order_standard_deviation() -> None:
 def test_samples_at_the_edge_of_what_may_be() -> None:
     """Samples of a value that may only move one way (a contact angle of 0, a head-on impact) lie on that side alone."""
     for name in ("bridge.contact_angle", "impact.angle"):
-        assert uncertainty._possible(name, 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
+        assert uncertainty._possible(FIELDS[name], 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
 
 
 def test_band_against_samples(tmp_path: Path) -> None:
