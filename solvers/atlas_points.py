@@ -64,7 +64,7 @@ def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
     if 2 not in (arc.right, arc.left):
         return np.zeros(len(at), dtype=int)
     aside = BESIDE * _normals(arc, at) * (1 if arc.left == 2 else -1)
-    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0 if plane.kernel else len(at))
+    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0)
     criterion = np.where(labels == 2, reversal, -2)
     codes: np.ndarray = 1 + np.maximum(criterion, 0)
     known = criterion >= 0

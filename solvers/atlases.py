@@ -248,7 +248,7 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
     """The atlas of a survey, after what does not agree with it has been looked at more closely."""
     random = np.random.default_rng(20121).random((_CHECKED, 2))
     points = np.vstack([at.reshape(-1, 2), random])
-    outcomes = np.concatenate([labels.ravel(), plane.labels(random)])
+    outcomes = np.concatenate([labels.ravel(), plane.seen(random, most=0)[0]])
     middle = labels[:, ROWS // 2]
     for attempt in range(_ROUNDS + 1):
         pieces = [monotone(plane, arc) for arc in survey.arcs]

@@ -12,7 +12,7 @@ import numpy as np
 from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
 from .plane import Plane
 
-LONGEST = 0.03  # step of a continuation, of the window
+LONGEST = 0.06  # step of a continuation, of the window
 _MOST_CURVES = 400
 _SAME = 3e-5  # of the window: meeting points that are nearer are one
 _COVERED, _SLACK = (
@@ -218,7 +218,7 @@ def lattice(plane: Plane, columns: int, rows: int) -> tuple[np.ndarray, np.ndarr
     """Points of an even lattice (columns x rows x 2), and their labels."""
     across, up = np.linspace(0, 1, columns), np.linspace(0, 1, rows)
     at = np.stack(np.meshgrid(across, up, indexing="ij"), axis=-1)
-    return at, plane.labels(at.reshape(-1, 2)).reshape(columns, rows)
+    return at, plane.seen(at.reshape(-1, 2), most=0)[0].reshape(columns, rows)
 
 
 def surveyed(
