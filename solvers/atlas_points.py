@@ -17,7 +17,7 @@ from .numbers import numbers
 from .plane import ANGLE, Plane
 from .probe import WITHOUT_SOLIDS, Probe
 from .saddle import barrier_of
-from .survey import Arc, Meeting
+from .survey import Meeting
 
 TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
 CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .arcs import CHORD, monotone, refined
+from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .bounds import STOKES, Boundaries, Traced, trace
 from .changes import Change
@@ -25,7 +25,7 @@ from .regions import Slab, apart, labelled, slabs
 from .samples import OUTCOMES
 from .scene import Scene
 from .settings import RTOL, check_rtol
-from .survey import Arc, Survey, lattice, passes, surveyed
+from .survey import Survey, lattice, passes, surveyed
 from .validity import warn
 
 LINES = 33
@@ -252,7 +252,7 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
     middle = labels[:, ROWS // 2]
     for attempt in range(_ROUNDS + 1):
         pieces = [monotone(plane, arc) for arc in survey.arcs]
-        arcs = refined(plane, [part for parts, _ in pieces for part in parts])
+        arcs = refined(plane, [part for parts, _ in pieces for part in parts], ascending=True)
         regions = slabs(arcs, at[:, 0, 0], middle)
         wrong = _wrong(arcs, regions, points, outcomes)
         if attempt == _ROUNDS or not wrong.size:

@@ -23,7 +23,7 @@ _DOUBT = 1e-8  # width of an interval without a known label that is still a loca
 _PARTS = 49  # into which an interval is divided
 _FIRST = np.geomspace(1e-6, 1.0, 24)  # distances from the prediction that are looked at first, of the reach
 _REACH = 0.35  # of the step: how far from the prediction a curve is sought
-_TURN, _AIM = 0.4, 0.15  # rad: the most that a step may turn, and what is aimed at
+_TURN, _AIM = 0.3, 0.1  # rad: the most that a step may turn, and what is aimed at
 _AROUND, _AHEAD = 768, 256  # points on a circle, and more of them about a direction
 _MOST = 20_000  # points of a curve
 

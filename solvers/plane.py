@@ -98,7 +98,7 @@ class Plane:
         """Outcomes, and the first rebound criterion met (-1 for none; -2: not known), at points.
 
         Arguments:
-            most: collisions that Rosenbrock, which may take seconds, is asked for: one in the middle of each long run of
+            most: collisions that Rosenbrock, which may take seconds, is asked for: one amid each long run of
                 neighbours that the kernel hands over, since nothing would narrow that down.
         """
         request = self._request(points)

@@ -9,10 +9,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from .arcs import Arc, refined
 from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
 from .plane import Plane
 
-LONGEST = 0.06  # step of a continuation, of the window
+LONGEST = 0.03  # step of a continuation, of the window
 _MOST_CURVES = 400
 _SAME = 3e-5  # of the window: meeting points that are nearer are one
 _COVERED, _SLACK = (
@@ -31,19 +32,6 @@ class Meeting:
     place: np.ndarray
     leaving: list[Branch]
     used: set[int] = field(default_factory=set)
-
-
-@dataclass
-class Arc:
-    """Points of the unit square along a curve, and the labels on its right and on its left."""
-
-    points: np.ndarray
-    right: int
-    left: int
-
-    def reversed(self) -> Arc:
-        """The same the other way."""
-        return Arc(self.points[::-1], self.left, self.right)
 
 
 @dataclass
@@ -177,7 +165,7 @@ class Survey:
 
     def _keep(self, arc: Arc) -> None:
         if len(arc.points) > 1:
-            self.arcs.append(arc)
+            self.arcs += refined(self.plane, [arc])  # so that what is on it is known to be
 
     def _covered(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> bool:
         """Whether a curve that is known passes between two points of a vertical or horizontal with these labels."""
