@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from .arcs import Arc
 from .changes import FREE, GRAZE, REVERSED
 from .continuation import crossings
 from .errors import ComputationError
