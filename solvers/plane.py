@@ -23,7 +23,7 @@ ANGLE = "impact.angle"
 # angle. Where nothing attracts a doublet takes the longer to separate the less oblique it is.
 LEAST_ANGLE, LEAST_UNBOUND = 1e-5, 1e-3
 _RESOLVED = 2  # collisions of a batch that Rosenbrock is asked for where the kernel hands over
-_RUN = 40  # so many neighbours in a row
+_RUN = 15  # so many neighbours in a row
 _THREADED = 20_000  # collisions that are worth several cores
 
 
