@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from .arcs import Arc, refined
+from .arcs import CHORD, Arc, refined
 from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
 from .plane import Plane
 
@@ -55,6 +55,8 @@ class Survey:
         """Follow the curve through a change of label upwards at a place, unless it is known."""
         near = np.array([0.0, _COVERED])
         for y in self._between(np.clip(place - near, 0, 1), np.clip(place + near, 0, 1), below, above):
+            if abs(y - place[1]) < 2 * CHORD:
+                return
             # straight lines between points of a curve are not the curve
             found = crossings(
                 self.plane.labels, np.array([[place[0], y]]), np.array([[0.0, 1.0]]), np.array([_COVERED]),
