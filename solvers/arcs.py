@@ -3,18 +3,31 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from .continuation import crossings
 from .plane import Plane
-from .survey import Arc
 
 CHORD = 2e-5  # of the window: how far a curve may lie from the straight lines between its points
 _ROUNDS = 4
 _FLAT = 1e-9  # change of x that is rounding
 _ZOOMS = (1.0, 0.3, 0.1)  # parts of the surroundings of a fold on which it is located
+
+
+@dataclass
+class Arc:
+    """Points of the unit square along a curve, and the labels on its right and on its left."""
+
+    points: np.ndarray
+    right: int
+    left: int
+
+    def reversed(self) -> Arc:
+        """The same the other way."""
+        return Arc(self.points[::-1], self.left, self.right)
 
 
 def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
@@ -88,8 +101,12 @@ def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
     return place
 
 
-def refined(plane: Plane, arcs: list[Arc]) -> list[Arc]:
-    """The same curves with more points where the straight lines between them leave the curve."""
+def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]:
+    """The same curves with more points where the straight lines between them leave the curve.
+
+    Arguments:
+        ascending: x stays so.
+    """
     for _ in range(_ROUNDS):
         chords = [(k, j) for k, arc in enumerate(arcs) for j in _coarse(arc.points)]
         if not chords:
@@ -101,7 +118,7 @@ def refined(plane: Plane, arcs: list[Arc]) -> list[Arc]:
         normal = np.column_stack([-way[:, 1], way[:, 0]]) / length[:, None]
         right, left = (np.array([getattr(arcs[k], side) for k, _ in chords]) for side in ("right", "left"))
         found = crossings(plane.labels, 0.5 * (one + other), normal, 0.2 * length, right, left)
-        arcs = [_with(arc, k, chords, found) for k, arc in enumerate(arcs)]
+        arcs = [_with(arc, k, chords, found, ascending) for k, arc in enumerate(arcs)]
     return arcs
 
 
@@ -117,12 +134,13 @@ def _coarse(points: np.ndarray) -> list[int]:
     return np.flatnonzero(bend * length**2 / 8 > CHORD).tolist()
 
 
-def _with(arc: Arc, k: int, chords: list[tuple[int, int]], found: np.ndarray) -> Arc:
+def _with(arc: Arc, k: int, chords: list[tuple[int, int]], found: np.ndarray, ascending: bool) -> Arc:
     own = [(j, place) for (which, j), place in zip(chords, found, strict=True) if which == k]
     fits = [
-        (j, place) for j, place in own
-        if not math.isnan(place[0]) and arc.points[j, 0] < place[0] < arc.points[j + 1, 0]
-    ]  # fmt: skip
+        (j, place)
+        for j, place in own
+        if not math.isnan(place[0]) and (not ascending or arc.points[j, 0] < place[0] < arc.points[j + 1, 0])
+    ]
     if not fits:
         return arc
     points = np.insert(arc.points, [j + 1 for j, _ in fits], np.array([place for _, place in fits]), axis=0)

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from .arcs import Arc
 from .changes import FREE, GRAZE, REVERSED
 from .continuation import crossings
 from .errors import ComputationError
@@ -17,7 +18,7 @@ from .numbers import numbers
 from .plane import ANGLE, Plane
 from .probe import WITHOUT_SOLIDS, Probe
 from .saddle import barrier_of
-from .survey import Arc, Meeting
+from .survey import Meeting
 
 TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
 CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"
@@ -64,7 +65,7 @@ def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
     if 2 not in (arc.right, arc.left):
         return np.zeros(len(at), dtype=int)
     aside = BESIDE * _normals(arc, at) * (1 if arc.left == 2 else -1)
-    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0 if plane.kernel else len(at))
+    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0)
     criterion = np.where(labels == 2, reversal, -2)
     codes: np.ndarray = 1 + np.maximum(criterion, 0)
     known = criterion >= 0

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .arcs import CHORD, monotone, refined
+from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .bounds import STOKES, Boundaries, Traced, trace
 from .changes import Change
@@ -25,12 +25,13 @@ from .regions import Slab, apart, labelled, slabs
 from .samples import OUTCOMES
 from .scene import Scene
 from .settings import RTOL, check_rtol
-from .survey import Arc, Survey, lattice, passes, surveyed
+from .survey import Survey, lattice, passes, surveyed
 from .validity import warn
 
 LINES = 33
-COLUMNS, ROWS = 65, 193  # of the lattice
-_CHECKED = 4096  # random collisions that are held against the regions
+# Columns and rows of the lattice, and random collisions that are held against the regions; and where every collision is
+# integrated one by one.
+BY_KERNEL, BY_ROSENBROCK = (65, 193, 4096), (17, 49, 256)
 _ROUNDS = 3  # in which what does not agree is looked at more closely
 _FINER_ROWS, _MORE = 769, 12  # of a column through a collision that does not agree; most of those columns a round
 _AGREES = 1e-6  # in ln St: a line and a curve
@@ -88,6 +89,7 @@ class Atlas(Boundaries):
         curves, points: boundaries, and where they meet, turn or change in kind.
         unsettled: places (x, St) that could not be brought into agreement, and why.
         sought: what the curves were sought with: lattice and lines.
+        lattice: its columns and rows; fewer where there is no kernel for the scene.
     """
 
     over: str = ANGLE
@@ -97,6 +99,7 @@ class Atlas(Boundaries):
     points: tuple[Point, ...] = ()
     unsettled: tuple[tuple[float, float, str], ...] = ()
     background: str = OUTCOMES[0]
+    lattice: tuple[int, int] = BY_KERNEL[:2]
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
@@ -119,8 +122,8 @@ class Atlas(Boundaries):
             "lines": len(self.at),
             "line_spacing": across / max(len(self.at) - 1, 1),
             "line_stokes": self.resolution,
-            "lattice_spacing": across / (COLUMNS - 1),
-            "lattice_stokes": math.expm1(decades / (ROWS - 1)),
+            "lattice_spacing": across / (self.lattice[0] - 1),
+            "lattice_stokes": math.expm1(decades / (self.lattice[1] - 1)),
             "chord_stokes": math.expm1(CHORD * decades),
         }
 
@@ -168,6 +171,10 @@ class Atlas(Boundaries):
             f"on them; {self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St"
         )
+        if self.lattice != BY_KERNEL[:2]:
+            told += (
+                f"; without the compiled kernel, from a lattice of {self.lattice[0]} by {self.lattice[1]} collisions"
+            )
         return "\n".join([*lines, "", told])
 
 
@@ -213,7 +220,7 @@ def atlas(
     if lines < 2:
         raise InputError("lines", lines, "2 or more", "is too few")
     warn(loaded)
-    at, labels = lattice(plane, COLUMNS, ROWS)
+    at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
     x = np.linspace(*plane.span, lines)
     traced = _lines(plane, x, progress or (lambda *_: None))
     survey = surveyed(plane, at, labels, _changes(plane, x, traced))
@@ -246,13 +253,13 @@ def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarr
 
 def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Atlas:
     """The atlas of a survey, after what does not agree with it has been looked at more closely."""
-    random = np.random.default_rng(20121).random((_CHECKED, 2))
+    random = np.random.default_rng(20121).random(((BY_KERNEL if plane.kernel else BY_ROSENBROCK)[2], 2))
     points = np.vstack([at.reshape(-1, 2), random])
-    outcomes = np.concatenate([labels.ravel(), plane.labels(random)])
-    middle = labels[:, ROWS // 2]
+    outcomes = np.concatenate([labels.ravel(), plane.seen(random, most=0)[0]])
+    middle = labels[:, labels.shape[1] // 2]
     for attempt in range(_ROUNDS + 1):
         pieces = [monotone(plane, arc) for arc in survey.arcs]
-        arcs = refined(plane, [part for parts, _ in pieces for part in parts])
+        arcs = refined(plane, [part for parts, _ in pieces for part in parts], ascending=True)
         regions = slabs(arcs, at[:, 0, 0], middle)
         wrong = _wrong(arcs, regions, points, outcomes)
         if attempt == _ROUNDS or not wrong.size:
@@ -273,7 +280,7 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
     parts, inner = stretches(plane, arcs)
     parts, meetings = named(plane, survey.meetings, parts)
     places = [*meetings, *((FOLD, place) for place in folds), *inner]
-    return _made(plane, parts, places, unsettled, x, traced, int(middle[COLUMNS // 2]))
+    return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]), labels.shape)
 
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
@@ -347,6 +354,7 @@ def _made(
     x: np.ndarray,
     traced: Traced,
     background: int,
+    size: tuple[int, ...],
 ) -> Atlas:
     curves = [
         Curve(
@@ -374,4 +382,5 @@ def _made(
         points=tuple(points),
         unsettled=tuple((float(plane.x(at)), float(plane.stokes_at(at)), why) for at, why in unsettled),
         background=OUTCOMES[background],
+        lattice=(size[0], size[1]),
     )

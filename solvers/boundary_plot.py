@@ -123,7 +123,7 @@ def _frame(axes: Axes, scene: Scene, whole: Atlas, low: float, high: float, sing
     factor, text = _across(scene, whole.over, whole.span)
     axes.set_yscale("log")
     axes.set_ylim(low, high)
-    ticks.plain(axes.yaxis, (1, 2, 5) if high / low < 1e3 else (1,))
+    ticks.plain(axes.yaxis, (1, 1.5, 2, 3, 4, 5, 7) if high / low < 8 else (1, 2, 5) if high / low < 1e3 else (1,))
     axes.set_ylabel("normal Stokes number St")
     if single:
         axes.set_xlim(0, 1)

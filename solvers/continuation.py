@@ -1,8 +1,8 @@
 """Curves between labelled regions of the unit square, followed by pseudo-arclength continuation.
 
 A region is known by its label at points. A curve is where two labels meet: the corrector of a step finds the place on
-the normal of the predicted tangent where one label gives way to the other, by batches of points that narrow by a factor
-of fifty. So a point that is found is a change of label, and the curve ends where it ceases to be one.
+the normal of the predicted tangent where one label gives way to the other, by batches of points that narrow it by a
+factor of seventeen. So a point that is found is a change of label, and the curve ends where it ceases to be one.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ LOCATED = 2e-11  # width of the interval in which a change of label is enclosed
 SHORTEST = 1e-6  # step below which a curve is lost
 CIRCLE = 1e-5  # radius about a point in which the curves that leave it are sought
 _DOUBT = 1e-8  # width of an interval without a known label that is still a location
-_PARTS = 49  # into which an interval is divided
-_FIRST = np.geomspace(1e-6, 1.0, 24)  # distances from the prediction that are looked at first, of the reach
+_PARTS = 17  # into which an interval is divided
+_FIRST = np.geomspace(1e-6, 1.0, 13)  # distances from the prediction that are looked at first, of the reach
 _REACH = 0.35  # of the step: how far from the prediction a curve is sought
 _TURN, _AIM = 0.3, 0.1  # rad: the most that a step may turn, and what is aimed at
 _AROUND, _AHEAD = 768, 256  # points on a circle, and more of them about a direction
@@ -64,7 +64,7 @@ def crossings(
     at = np.clip(reach[:, None] * first, least[:, None], most[:, None])
     found = np.full(centre.shape, np.nan)
     open_ = np.arange(centre.shape[0])
-    for _ in range(12):
+    for _ in range(20):
         if not open_.size:
             break
         points = centre[open_, None, :] + at[:, :, None] * along[open_, None, :]
@@ -263,7 +263,7 @@ def branches(labels: Labels, centre: np.ndarray, radius: float, ahead: float | N
     located = []
     for k in change.tolist():
         low, high, right, left = at[k], following[k], int(found[k]), int(then[k])
-        for _ in range(3):
+        for _ in range(5):
             trial = np.linspace(low, high, _PARTS + 1)
             ring = centre + radius * np.column_stack([np.cos(trial), np.sin(trial)])
             interval = _nearest(trial - 0.5 * (low + high), labels(np.clip(ring, 0, 1)), right, left)

@@ -22,7 +22,8 @@ ANGLE = "impact.angle"
 # rad: a plane that begins head-on begins here, where collisions are still oblique; St* moves with the square of the
 # angle. Where nothing attracts a doublet takes the longer to separate the less oblique it is.
 LEAST_ANGLE, LEAST_UNBOUND = 1e-5, 1e-3
-_RESOLVED = 2  # collisions of a batch that Rosenbrock is asked for where the kernel hands them over
+_RESOLVED = 2  # collisions of a batch that Rosenbrock is asked for where the kernel hands over
+_RUN = 15  # so many neighbours in a row
 _THREADED = 20_000  # collisions that are worth several cores
 
 
@@ -97,7 +98,8 @@ class Plane:
         """Outcomes, and the first rebound criterion met (-1 for none; -2: not known), at points.
 
         Arguments:
-            most: collisions that Rosenbrock is asked for where the kernel hands them over.
+            most: collisions that Rosenbrock, which may take seconds, is asked for: one amid each long run of
+                neighbours that the kernel hands over, since nothing would narrow that down.
         """
         request = self._request(points)
         self.collisions += request.size
@@ -111,11 +113,7 @@ class Plane:
                 where = np.flatnonzero(sound)
                 outcome[where] = np.where(told["status"] <= 1, told["outcome"], -1)
                 reversal[where] = told["reversal"]
-        else:
-            most = request.size
-        left = np.flatnonzero(outcome < 0)
-        if left.size > most:  # spread: they are often neighbours
-            left = left[np.linspace(0, left.size - 1, most).round().astype(int)]
+        left = np.flatnonzero(outcome < 0) if not self.kernel else _middles(outcome < 0)[:most]
         if left.size:
             outcome[left] = run(request.part(left), True)["outcome"]
         return outcome, reversal
@@ -149,6 +147,15 @@ class Plane:
             engine="taylor" if self.kernel else "rosenbrock",
             of=(),
         )
+
+
+def _middles(unknown: np.ndarray) -> np.ndarray:
+    """The middle of each long run of what is not known."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
+    runs = edges.reshape(-1, 2)
+    long = runs[runs[:, 1] - runs[:, 0] >= _RUN]
+    middles: np.ndarray = long.sum(axis=1) // 2
+    return middles
 
 
 def _least(scene: Scene) -> float:

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from .survey import Arc
+from .arcs import Arc
 
 UNKNOWN = -1
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from .arcs import CHORD, Arc, refined
 from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
 from .plane import Plane
 
@@ -34,19 +35,6 @@ class Meeting:
 
 
 @dataclass
-class Arc:
-    """Points of the unit square along a curve, and the labels on its right and on its left."""
-
-    points: np.ndarray
-    right: int
-    left: int
-
-    def reversed(self) -> Arc:
-        """The same the other way."""
-        return Arc(self.points[::-1], self.left, self.right)
-
-
-@dataclass
 class Survey:
     """Curves of a plane, found so far, and what could not be followed."""
 
@@ -67,6 +55,8 @@ class Survey:
         """Follow the curve through a change of label upwards at a place, unless it is known."""
         near = np.array([0.0, _COVERED])
         for y in self._between(np.clip(place - near, 0, 1), np.clip(place + near, 0, 1), below, above):
+            if abs(y - place[1]) < 2 * CHORD:
+                return
             # straight lines between points of a curve are not the curve
             found = crossings(
                 self.plane.labels, np.array([[place[0], y]]), np.array([[0.0, 1.0]]), np.array([_COVERED]),
@@ -177,7 +167,7 @@ class Survey:
 
     def _keep(self, arc: Arc) -> None:
         if len(arc.points) > 1:
-            self.arcs.append(arc)
+            self.arcs += refined(self.plane, [arc])  # so that what is on it is known to be
 
     def _covered(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> bool:
         """Whether a curve that is known passes between two points of a vertical or horizontal with these labels."""
@@ -218,7 +208,7 @@ def lattice(plane: Plane, columns: int, rows: int) -> tuple[np.ndarray, np.ndarr
     """Points of an even lattice (columns x rows x 2), and their labels."""
     across, up = np.linspace(0, 1, columns), np.linspace(0, 1, rows)
     at = np.stack(np.meshgrid(across, up, indexing="ij"), axis=-1)
-    return at, plane.labels(at.reshape(-1, 2)).reshape(columns, rows)
+    return at, plane.seen(at.reshape(-1, 2), most=0)[0].reshape(columns, rows)
 
 
 def surveyed(

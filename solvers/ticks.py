@@ -7,7 +7,7 @@ from typing import Any
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 
-def plain(axis: Any, subs: tuple[int, ...] = (1, 2, 5)) -> None:
+def plain(axis: Any, subs: tuple[float, ...] = (1, 2, 5)) -> None:
     """Label 0.01, 0.02, 0.05, ... and nothing between.
 
     Arguments:

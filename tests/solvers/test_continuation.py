@@ -6,9 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers.arcs import monotone, refined
+from wetdoublet.solvers.arcs import Arc, monotone, refined
 from wetdoublet.solvers.continuation import Branch, Followed, Labels, branches, crossings, follow, meeting
-from wetdoublet.solvers.survey import Arc
 
 RADIUS = 0.3
 

@@ -29,7 +29,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from wetdoublet import solvers
-from wetdoublet.solvers import Scene, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
+from wetdoublet.solvers import Scene, atlas, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
 from wetdoublet.solvers.compilers import compiler
 from wetdoublet.solvers.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.model import choose, load
@@ -62,7 +62,7 @@ def _traced(**options: Any) -> Any:
 def _drawn_boundary() -> bytes:
     from wetdoublet.solvers import boundary_plot
 
-    return _png(boundary_plot.draw(Scene.load(GRANULATION), _traced()))
+    return _png(boundary_plot.draw(Scene.load(GRANULATION), boundary(GRANULATION, angle=0.9, rtol=1e-8)))
 
 
 def _drawn_map() -> bytes:
@@ -122,6 +122,7 @@ QUICK: dict[str, Callable[[], Any]] = {
     "gradients": lambda: gradients_many(GRANULATION, wrt=WRT, engine="taylor", stokes=MANY["stokes"], angle=0.9),
 }
 LONG: dict[str, Callable[[], Any]] = {
+    "atlas": lambda: atlas(GRANULATION, span=(0.6, 0.7), stokes=(0.03, 0.3), lines=2),
     "few by cvodes": lambda: collide_many(GRANULATION, engine="cvodes", **FEW),
     "a small map": lambda: regime_map(GRANULATION, stokes=FEW["stokes"], angle=[0.4, 0.9], engine="rosenbrock"),
     "adjoint": lambda: sensitivities(GRANULATION, wrt=WRT, method="adjoint", engine="cvodes", **IMPACT),
