@@ -29,6 +29,7 @@ from .survey import Survey, lattice, passes, surveyed
 from .validity import warn
 
 LINES = 33
+_MOST_LINES = 10_000
 # Columns and rows of the lattice, and random collisions that are held against the regions; and where every collision is
 # integrated one by one.
 BY_KERNEL, BY_ROSENBROCK = (65, 193, 4096), (17, 49, 256)
@@ -131,12 +132,13 @@ class Atlas(Boundaries):
         """Outcomes (0 stick, 1 stick-rotate-separate, 2 bounce) of the regions that points of the plane lie in.
 
         Arguments:
-            x, stokes: arrays of one shape; x in rad, or SI.
+            x, stokes: arrays of one shape; x in rad, or SI. Points that are not in the window have -1.
         """
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
-        at = self.unit(x.ravel(), stokes.ravel())
-        labels = labelled(self.slabs(), at)[0]
-        return labels.reshape(x.shape)
+        inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
+        found = np.full(x.shape, -1, dtype=np.int8)
+        found[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
+        return found
 
     def unit(self, x: Any, stokes: Any) -> np.ndarray:
         """Points of the unit square, n x 2, at values of x and Stokes numbers."""
@@ -217,8 +219,8 @@ def atlas(
     """
     loaded = Scene.load(scene)
     plane = check_plane(loaded, over, tuple(span), stokes, check_rtol(rtol))
-    if lines < 2:
-        raise InputError("lines", lines, "2 or more", "is too few")
+    if not isinstance(lines, int) or isinstance(lines, bool) or not 2 <= lines <= _MOST_LINES:
+        raise InputError("lines", lines, f"a whole number from 2 to {_MOST_LINES}", "is none")
     warn(loaded)
     at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
     x = np.linspace(*plane.span, lines)

@@ -39,6 +39,7 @@ _TOGETHER = 16  # lines that are sampled together
 _FINER, _SHARPER = 2, 1e-2  # a line that fails once: more samples, and a tolerance that is so much smaller
 _HOLE = 4.5  # spacings of the first grid over which collisions may be missing
 _ROUNDED = 1.01  # times a spacing, which is rounded
+_CREEPING = 0.1  # of the samples of a line: where the kernel hands over more for creeping, Rosenbrock samples the line
 _SLOW = 8  # collisions that are asked for again where more are missing
 
 
@@ -223,6 +224,13 @@ def _block(
     changes: list[tuple[Change, ...]] = []
     failures: list[str] = []
     for angle, samples in zip(angles.tolist(), sampled(angles, grid, look), strict=True):
+        if (
+            look.creeping[angle] > _CREEPING * grid.size and kernel is None
+        ):  # Rosenbrock's steps are not bound by the decay
+            alone = _block(scene, np.array([angle]), span, rtol, finer, traced, False)
+            changes += alone[0]
+            failures += alone[1]
+            continue
         line = Line(scene, angle, rtol, kernel)
         try:
             samples, widest = _completed(samples, grid, look, angle)

@@ -19,6 +19,7 @@ GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
 MERGED = 1e-8  # relative: changes closer than this are one
 _BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
 _ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
+_LOCATED = 1e-8  # and at which they must with one that a smooth function has located, or outcomes enclose it anew
 _ROUNDS = 12  # of dividing brackets; four do where every collision is decided
 _PARTS = 64  # into which a bracket is divided by outcomes alone, again and again
 
@@ -59,13 +60,16 @@ def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]
     ]
     grazes = [{ROTATE, BOUNCE} == set(end[2:]) for end in ends]
     first = [[] if graze else _located(line, *end) for end, graze in zip(ends, grazes)]
-    agrees = _confirmed(line, look, first)
+    agrees = _confirmed(line, look, first, _LOCATED)
     found = [
-        own if good else _by_outcomes(line, look, *end, kind=GRAZE if graze else PLAIN)
+        own
+        if good
+        else _by_outcomes(line, look, *end, kind=GRAZE if graze else own[0].kind if len(own) == 1 else PLAIN)
         for own, good, end, graze in zip(first, agrees, ends, grazes)
     ]
-    if not all(agrees) and not all(_confirmed(line, look, found)):
-        at = next(one[0].stokes for one, good in zip(found, _confirmed(line, look, found)) if not good)
+    agrees = _confirmed(line, look, found, _ACCEPTED)
+    if not all(agrees):
+        at = next(one[0].stokes for one, good in zip(found, agrees) if not good)
         raise ComputationError(
             f"collisions beside St {at:.10g} do not agree with a change of outcome there", advice="try a smaller --rtol"
         )
@@ -151,14 +155,14 @@ def _escaping(line: Line, reversed_: bool) -> Function:
     return function
 
 
-def _confirmed(line: Line, look: Look, groups: list[list[Change]]) -> list[bool]:
-    """Whether collisions just below and above each group's changes have their outcomes."""
+def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: float) -> list[bool]:
+    """Whether collisions at a relative distance below and above each group's changes have their outcomes."""
     stokes = np.array([one.stokes for group in groups for one in group])
     if not stokes.size:
         return [bool(group) for group in groups]
     gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
-    below = stokes - np.minimum(_ACCEPTED * stokes, gaps[:-1])
-    above = stokes + np.minimum(_ACCEPTED * stokes, gaps[1:])
+    below = stokes - np.minimum(distance * stokes, gaps[:-1])
+    above = stokes + np.minimum(distance * stokes, gaps[1:])
     seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))
     agrees, k, size = [], 0, stokes.size
     narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
@@ -191,6 +195,9 @@ def _by_outcomes(
         narrower = []
         for (first, last, one, other), grid, own in zip(open_, grids, parts):
             usable = own >= 0
+            if not usable.any() and last < first * (1 + MERGED):
+                narrower.append((first, first * (1 + LOCATED / 2), one, other))  # a band within the error of collisions
+                continue
             if not usable.any():
                 reason = look.reason(line.angle, first, last)
                 raise ComputationError(f"a change of outcome between St {first:.10g} and {last:.10g}: {reason}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -37,6 +38,7 @@ class Look:
     kernel: bool | None = None
     collisions: int = field(default=0, init=False)
     reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
+    creeping: Counter[float] = field(default_factory=Counter, init=False)  # collisions handed over for it, by angle
 
     def __post_init__(self) -> None:
         """Ask once whether there is a kernel for the scene."""
@@ -65,14 +67,14 @@ class Look:
     def outcomes(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
         """Outcomes alone (indices of OUTCOMES, -1 for none, with its reason), by all steps that a collision may cost.
 
-        What the kernel has spent them on is given up; what it hands over otherwise goes to Rosenbrock.
+        Chatter on which the kernel has spent them is given up; what it hands over otherwise goes to Rosenbrock.
         """
         told = self._told(angle, stokes, STEPS) if self.kernel else None
         if told is None:
             return self.by_rosenbrock(angle, stokes)["outcome"]
-        for k in np.flatnonzero(told["spent"]).tolist():
+        for k in np.flatnonzero(told["chatters"]).tolist():
             self._give_up(float(angle[k]), float(stokes[k]), told[k])
-        for k in np.flatnonzero((told["outcome"] < 0) & ~told["spent"]).tolist():
+        for k in np.flatnonzero((told["outcome"] < 0) & ~told["chatters"]).tolist():
             told["outcome"][k] = self.by_rosenbrock(angle[k : k + 1], stokes[k : k + 1])["outcome"][0]
         return told["outcome"]
 
@@ -92,6 +94,7 @@ class Look:
         told = by_kernel.looked(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
         if told is not None:
             self.collisions += int(np.count_nonzero(~told["at_touch"]))
+            self.creeping.update(angle[told["creeps"]].tolist())
         return told
 
     def _whole(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:

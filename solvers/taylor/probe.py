@@ -28,7 +28,8 @@ _ZOOMS = 4
 LOOK = np.dtype(
     [
         ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 handed over
-        ("spent", "?"),  # handed over because its steps were spent
+        ("creeps", "?"),  # handed over because its steps were spent on few events
+        ("chatters", "?"),  # ... or on many
         ("reversal", "i1"),  # the first criterion met, in the order glass, elastic, rough; -1 for none
         ("at_touch", "?"),  # decided at initial contact
         ("events", "i4"),  # how many
@@ -90,7 +91,7 @@ def looked(
         answers = told.answers
         part = np.zeros(which.size, LOOK)
         part["outcome"] = np.where(answers["status"] <= 1, answers["outcome"], -1)
-        part["spent"] = np.isin(answers["status"], (NO_BUDGET, CHATTER))
+        part["creeps"], part["chatters"] = (answers["status"] == status for status in (NO_BUDGET, CHATTER))
         part["at_touch"] = answers["time"] == 0
         part["restitution"] = answers["shown"][:, 0]
         part["glass"] = told.peaks

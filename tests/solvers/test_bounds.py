@@ -112,6 +112,25 @@ def test_strips_narrower_than_the_samples(width: float) -> None:
     assert strip < width
 
 
+def test_an_escape_from_the_film_alone_is_located() -> None:
+    """Head-on, without a bridge, e_n starts from zero: collisions 1e-8 on either side of St* stick, and separate."""
+    scene = Scene.load("granulation-dry-bridge").with_entries({"particles.dry_restitution": 0.4})
+    (change,) = boundary(scene, angle=0.0).changes[0]
+    beside = change.stokes * (1 + np.array([-1e-8, 1e-8]))
+    seen = collide_many(scene, stokes=beside, angle=0.0, rtol=1e-12, engine="taylor").outcome.values
+    assert [OUTCOMES[k] for k in seen] == ["stick", "bounce"]
+
+
+def test_creeping_pairs_are_looked_at_by_rosenbrock() -> None:
+    """Nearly head-on, unequal spheres creep out of an infinite film: their line is traced all the same."""
+    tables = Scene.load("granulation-dry-bridge").to_dict()
+    tables["partner"] = {"radius": 3e-4, "density": 2500.0}
+    tables["model"] = {"film": "infinite"}
+    found = boundary(Scene.from_dict(tables), angle=0.02, stokes=(0.02, 2.0))
+    assert not found.failed
+    holds_on_both_sides(Scene.from_dict(tables), found)
+
+
 def test_resolution_is_stated() -> None:
     """The spacing of the Stokes numbers looked at is part of the result and of its text."""
     found = boundary("granulation", angle=1.0, stokes=(0.01, 1.0))
