@@ -59,6 +59,10 @@ class OwnCache(Generic[P, T]):
         """Forget what this thread has."""
         self._here().cache_clear()
 
+    def cache_info(self) -> Any:
+        """How often this thread has been given what it had, and how often it was built."""
+        return self._here().cache_info()
+
     def _here(self) -> Any:
         workspace = _OWN.workspace
         try:
