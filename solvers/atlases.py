@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 
 from .arcs import CHORD, Arc, monotone, refined
+from .arguments import check_function, check_whole
 from .atlas_points import FOLD, Stretch, named, stretches
 from .bounds import STOKES, Boundaries, Traced, trace
 from .changes import Change
 from .continuation import crossings
-from .errors import InputError
 from .plane import ANGLE, Plane, check_plane
 from .regions import Slab, apart, labelled, slabs
 from .samples import OUTCOMES
@@ -29,7 +29,7 @@ from .survey import Survey, lattice, passes, surveyed
 from .validity import warn
 
 LINES = 33
-_MOST_LINES = 10_000
+_MOST = 10_000  # lines
 # Columns and rows of the lattice, and random collisions that are held against the regions; and where every collision is
 # integrated one by one.
 BY_KERNEL, BY_ROSENBROCK = (65, 193, 4096), (17, 49, 256)
@@ -218,13 +218,13 @@ def atlas(
         (('stick', 'bounce'), 'triple point')
     """
     loaded = Scene.load(scene)
-    plane = check_plane(loaded, over, tuple(span), stokes, check_rtol(rtol))
-    if not isinstance(lines, int) or isinstance(lines, bool) or not 2 <= lines <= _MOST_LINES:
-        raise InputError("lines", lines, f"a whole number from 2 to {_MOST_LINES}", "is none")
+    plane = check_plane(loaded, over, span, stokes, check_rtol(rtol))
+    lines = check_whole(lines, "lines", 2, _MOST)
+    tell = check_function(progress, "progress") or (lambda *_: None)
     warn(loaded)
     at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
     x = np.linspace(*plane.span, lines)
-    traced = _lines(plane, x, progress or (lambda *_: None))
+    traced = _lines(plane, x, tell)
     survey = surveyed(plane, at, labels, _changes(plane, x, traced))
     return _settled(plane, survey, x, traced, at, labels)
 

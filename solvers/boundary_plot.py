@@ -20,6 +20,7 @@ from .atlases import LINES, Atlas, Curve, Point, atlas
 from .draw_map import COLOURS
 from .errors import InputError
 from .files import save
+from .outputs import PICTURES, check_file
 from .plane import ANGLE
 from .plot_labels import place_names
 from .samples import OUTCOMES
@@ -47,8 +48,7 @@ def plot(found: Boundaries, file: str | Path) -> None:
     Raises:
         InputError: another kind of file, or boundaries that do not say whose they are.
     """
-    if Path(file).suffix.lower() not in (".png", ".pdf", ".svg"):
-        raise InputError("file", str(file), "a name ending in .png, .pdf, .svg", "has an unsupported suffix")
+    check_file(file, "file", PICTURES)
     if found.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
     save(draw(found.scene, found), file, dpi=_DPI)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -164,19 +165,19 @@ def _least(scene: Scene) -> float:
     return LEAST_ANGLE if bound else LEAST_UNBOUND
 
 
-def check_plane(
-    scene: Scene, over: str, span: tuple[float, float], stokes: tuple[float, float], rtol: float, label: str = "over"
-) -> Plane:
+def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:
     """A plane of a scene; InputError for what cannot be.
 
     Arguments:
         label: of the argument or option that `over` and `span` come from.
     """
+    if not isinstance(over, str):
+        raise InputError(label, over, "the dotted name of an entry", "is not a name")
     ends = _ascending("stokes", checked_numbers("impact.stokes", stokes))
     if over == ANGLE:
         plane = Plane(scene, over, _ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
     else:
-        values = checked_vary(scene, {over: list(span)}, label)[over]
+        values = checked_vary(scene, {over: span}, label)[over]
         plane = Plane(scene, over, _ascending("span", values), ends, rtol)
         if scene.angle is None:
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')

@@ -73,6 +73,7 @@ FUNCTIONS = {
     "collide_many": {},
     "regime_map": {},
     "boundary": {},
+    "atlas": {"span": (0.5, 0.6)},
     "sensitivities": {},
     "gradients_many": {},
     "boundary_sensitivities": {},
@@ -82,7 +83,7 @@ FUNCTIONS = {
 }
 ARGUMENTS = [(name, each) for name in FUNCTIONS for each in inspect.signature(getattr(public, name)).parameters]
 FINE = [("progress", "a class"), ("slow", "a class")]  # what happens to be right
-NAMED = {"values": "impact.stokes", "vary": "nonsense"}  # by the entry that they are values of
+NAMED = {"values": "impact.stokes", "span": "impact.angle", "vary": "nonsense"}  # by the entry that they are values of
 
 
 @pytest.mark.parametrize(("name", "argument"), ARGUMENTS, ids=[".".join(each) for each in ARGUMENTS])

@@ -136,7 +136,6 @@ LONG: dict[str, Callable[[], Any]] = {
     "trajectory sensitivities": lambda: solvers.trajectory_sensitivities(GRANULATION, wrt=WRT, **IMPACT),
     "boundary sensitivities": lambda: solvers.boundary_sensitivities(GRANULATION, angle=0.9, wrt=WRT),
     "boundary, drawn": _drawn_boundary,
-    "atlas": lambda: solvers.atlas(GRANULATION, span=(0.6, 0.9), stokes=(0.02, 0.3), lines=8, rtol=1e-7),
     "map, drawn": _drawn_map,
     "a model of one's own": lambda: collide(Scene.load(GRANULATION, model=MODEL), stokes=0.1, angle=0.9),
     "a structure derived": lambda: collide_many(
