@@ -20,6 +20,7 @@ from .atlas_points import FOLD, Stretch, named, stretches
 from .bounds import STOKES, Boundaries, Traced, trace
 from .changes import Change
 from .continuation import crossings
+from .errors import ComputationError
 from .plane import ANGLE, Plane, check_plane
 from .regions import Slab, apart, labelled, slabs
 from .samples import OUTCOMES
@@ -258,7 +259,7 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
     random = np.random.default_rng(20121).random(((BY_KERNEL if plane.kernel else BY_ROSENBROCK)[2], 2))
     points = np.vstack([at.reshape(-1, 2), random])
     outcomes = np.concatenate([labels.ravel(), plane.seen(random, most=0)[0]])
-    middle = labels[:, labels.shape[1] // 2]
+    middle = _known_along(plane, at[:, at.shape[1] // 2], labels[:, labels.shape[1] // 2])
     for attempt in range(_ROUNDS + 1):
         pieces = [monotone(plane, arc) for arc in survey.arcs]
         arcs = refined(plane, [part for parts, _ in pieces for part in parts], ascending=True)
@@ -283,6 +284,20 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
     parts, meetings = named(plane, survey.meetings, parts)
     places = [*meetings, *((FOLD, place) for place in folds), *inner]
     return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]), labels.shape)
+
+
+def _known_along(plane: Plane, points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
+    """Outcomes at points, those that are not known (-1) asked for once more; ComputationError where that fails."""
+    found = outcomes.copy()
+    for k in np.flatnonzero(found < 0).tolist():
+        found[k] = plane.seen(points[k : k + 1], most=1)[0][0]
+        if found[k] < 0:
+            x, stokes = float(plane.x(points[k])), float(plane.stokes_at(points[k]))
+            raise ComputationError(
+                f"no collision could be computed at {plane.over} = {x:.6g}, St {stokes:.6g}, which tells regions apart",
+                advice="try another span, or other Stokes numbers",
+            )
+    return found
 
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:

@@ -151,10 +151,10 @@ class Plane:
 
 
 def _middles(unknown: np.ndarray) -> np.ndarray:
-    """The middle of each long run of what is not known."""
+    """The middle of each long run of what is not known; a run of all there is counts as long."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
     runs = edges.reshape(-1, 2)
-    long = runs[runs[:, 1] - runs[:, 0] >= _RUN]
+    long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]
     middles: np.ndarray = long.sum(axis=1) // 2
     return middles
 
