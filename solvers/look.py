@@ -21,6 +21,7 @@ from .taylor.library import knows
 from .taylor.record import Purpose
 
 BY_KERNEL, BY_ROSENBROCK = 100, 10  # samples a decade of the Stokes number that a line begins with
+_MARGIN = 500  # steps of a flight for a margin: one that creeps for longer shows none
 DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
 
 
@@ -120,14 +121,20 @@ class Look:
         found["reach"] = np.nan
         found["time"][found["outcome"] == 0] = np.nan
         if sticks.size:
-            told = by_kernel.looked(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE)
+            told = by_kernel.looked(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE, budget=_MARGIN)
             if told is not None:
                 found["reach"][sticks] = np.where(told["outcome"] == 0, told["final_gap"], np.nan)
         bounces = np.flatnonzero(found["outcome"] == 2)
         if bounces.size:
             contact = contact_gap(self.scene, speed[bounces])
             told = by_kernel.looked(
-                self.scene, speed[bounces], angle[bounces], self.rtol, Purpose.APPROACH, self.no_solids(contact)
+                self.scene,
+                speed[bounces],
+                angle[bounces],
+                self.rtol,
+                Purpose.APPROACH,
+                self.no_solids(contact),
+                _MARGIN,
             )
             if told is not None:
                 found["criterion"][bounces] = np.where(told["outcome"] >= 0, _margin(told, contact), np.nan)
