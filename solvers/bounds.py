@@ -224,9 +224,7 @@ def _block(
     changes: list[tuple[Change, ...]] = []
     failures: list[str] = []
     for angle, samples in zip(angles.tolist(), sampled(angles, grid, look), strict=True):
-        if (
-            look.creeping[angle] > _CREEPING * grid.size and kernel is None
-        ):  # Rosenbrock's steps are not bound by the decay
+        if kernel is None and look.creeping[angle] > _CREEPING * grid.size:
             alone = _block(scene, np.array([angle]), span, rtol, finer, traced, False)
             changes += alone[0]
             failures += alone[1]

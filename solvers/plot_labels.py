@@ -32,7 +32,6 @@ def place_names(
 
     Arguments:
         outcome: of arrays of places, as drawn on the axes.
-        colours: of the outcomes.
     """
     canvas = FigureCanvasAgg(figure)
     figure.draw_without_rendering()
