@@ -257,7 +257,7 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
     if missing.size:
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
         found = blank(some)
-        found["outcome"] = look.outcomes(np.full(some.size, angle), some)
+        found["outcome"] = look.outcomes(np.full(some.size, angle), some)["outcome"]
         samples = merged(samples, found)
         at = _spaced(samples, grid)
     widest = int(np.argmax(np.diff(at)))

@@ -11,7 +11,7 @@ import numpy as np
 from .errors import ComputationError
 from .look import Look
 from .probe import Line
-from .roots import LOCATED, Function, root, sample
+from .roots import Function, root, sample
 from .samples import BOUNCE, OUTCOMES, ROTATE, STICK, known
 
 # What happens at a change: a criterion is just met; a doublet begins to escape, not reversed or reversed; other.
@@ -20,8 +20,9 @@ MERGED = 1e-8  # relative: changes closer than this are one
 _BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
 _ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
 _LOCATED = 1e-8  # and at which they must with one that a smooth function has located, or outcomes enclose it anew
-_ROUNDS = 12  # of dividing brackets; four do where every collision is decided
-_PARTS = 64  # into which a bracket is divided by outcomes alone, again and again
+_NARROW = 2e-9  # width in ln St to which outcomes enclose a change
+_ROUNDS = 16  # of dividing brackets; four do where every collision is decided
+_PARTS = 16  # into which a bracket is divided, again and again
 
 
 @dataclass(frozen=True)
@@ -46,30 +47,41 @@ class Change:
         return {"stokes": self.stokes, "centrifugal": self.centrifugal, "from": self.before, "to": self.after}
 
 
+@dataclass(frozen=True)
+class _Bracket:
+    """Two Stokes numbers with different outcomes, and the rebound criterion first met at each (-1 for none)."""
+
+    low: float
+    high: float
+    before: str
+    after: str
+    met: tuple[int, int]
+
+    @property
+    def width(self) -> float:
+        return math.log(self.high / self.low)
+
+
 def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]:
     """All changes between neighbouring samples of a line, each confirmed by collisions on either side.
+
+    The kernel encloses them by outcomes; what it hands over, and all without a kernel, by functions that are smooth
+    through a change, or by Rosenbrock's outcomes.
 
     Raises:
         ComputationError: a change that could not be located, or that collisions beside it deny.
     """
     samples = known(samples)
-    ends = [
-        (float(low["stokes"]), float(high["stokes"]), OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]])
-        for low, high in pairwise(samples)
-        if low["outcome"] != high["outcome"]
-    ]
-    grazes = [{ROTATE, BOUNCE} == set(end[2:]) for end in ends]
-    first = [[] if graze else _located(line, *end) for end, graze in zip(ends, grazes)]
+    brackets = [_bracket(low, high) for low, high in pairwise(samples) if low["outcome"] != high["outcome"]]
+    found = _enclosed(line, look, brackets, True) if look.kernel else [[] for _ in brackets]
+    missing = [k for k, own in enumerate(found) if not own]
+    first = [_located(line, brackets[k]) for k in missing]
     agrees = _confirmed(line, look, first, _LOCATED)
-    found = [
-        own
-        if good
-        else _by_outcomes(line, look, *end, kind=GRAZE if graze else own[0].kind if len(own) == 1 else PLAIN)
-        for own, good, end, graze in zip(first, agrees, ends, grazes)
-    ]
+    for k, own, good in zip(missing, first, agrees, strict=True):
+        found[k] = own if good else _enclosed(line, look, [brackets[k]], False)[0]
     agrees = _confirmed(line, look, found, _ACCEPTED)
     if not all(agrees):
-        at = next(one[0].stokes for one, good in zip(found, agrees) if not good)
+        at = next(one[0].stokes for one, good in zip(found, agrees, strict=True) if not good)
         raise ComputationError(
             f"collisions beside St {at:.10g} do not agree with a change of outcome there", advice="try a smaller --rtol"
         )
@@ -78,10 +90,17 @@ def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]
     return _merged(changes)
 
 
-def _located(line: Line, low: float, high: float, before: str, after: str) -> list[Change]:
-    """Changes between two Stokes numbers by the functions that are smooth through them; none where they do not show."""
+def _bracket(low: np.void, high: np.void) -> _Bracket:
+    outcomes = OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]]
+    return _Bracket(
+        float(low["stokes"]), float(high["stokes"]), *outcomes, (int(low["reversal"]), int(high["reversal"]))
+    )
+
+
+def _located(line: Line, bracket: _Bracket) -> list[Change]:
+    """Changes within a bracket by the functions that are smooth through them; none where they do not show."""
     try:
-        found = _smooth(line, low, high, before, after)
+        found = _smooth(line, bracket.low, bracket.high, bracket.before, bracket.after)
     except ComputationError:
         found = None
     return [] if found is None else [_change(line, *one) for one in found]
@@ -163,7 +182,7 @@ def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: flo
     gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
     below = stokes - np.minimum(distance * stokes, gaps[:-1])
     above = stokes + np.minimum(distance * stokes, gaps[1:])
-    seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))
+    seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))["outcome"]
     agrees, k, size = [], 0, stokes.size
     narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
     narrow[[0, -1]] = False
@@ -177,48 +196,75 @@ def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: flo
     return agrees
 
 
-def _by_outcomes(
-    line: Line, look: Look, low: float, high: float, before: str, after: str, kind: str = PLAIN
-) -> list[Change]:
-    """Changes between two Stokes numbers by outcomes alone: brackets are divided until they are LOCATED wide.
+def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: bool) -> list[list[Change]]:
+    """Changes within each bracket by outcomes: all are divided together until they are _NARROW wide.
 
     Arguments:
-        kind: of a change that has the outcomes of the whole bracket.
+        kernel_only: a bracket in which the kernel decides no collision has no changes here.
+
+    Raises:
+        ComputationError: a bracket in which no collision could be decided.
     """
-    open_, closed = [(low, high, before, after)], []
+    open_ = list(enumerate(brackets))
+    closed: list[list[_Bracket]] = [[] for _ in brackets]
+    undecided: set[int] = set()
     for _ in range(_ROUNDS):
-        if not open_:
+        grids = [np.geomspace(one.low, one.high, _PARTS + 1)[1:-1] for _, one in open_]
+        if not grids:
             break
-        grids = [np.geomspace(first, last, _PARTS + 1)[1:-1] for first, last, _, _ in open_]
-        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids))
+        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids), kernel_only)
         parts = np.split(seen, np.cumsum([len(grid) for grid in grids])[:-1])
-        narrower = []
-        for (first, last, one, other), grid, own in zip(open_, grids, parts):
-            usable = own >= 0
-            if not usable.any() and last < first * (1 + MERGED):
-                narrower.append((first, first * (1 + LOCATED / 2), one, other))  # a band within the error of collisions
-                continue
-            if not usable.any():
-                reason = look.reason(line.angle, first, last)
-                raise ComputationError(f"a change of outcome between St {first:.10g} and {last:.10g}: {reason}")
-            at = [first, *grid[usable].tolist(), last]
-            outcomes = [one, *(OUTCOMES[k] for k in own[usable]), other]
-            narrower += [
-                (at[k], at[k + 1], outcomes[k], outcomes[k + 1])
-                for k in range(len(at) - 1)
-                if outcomes[k] != outcomes[k + 1]
-            ]
-        closed += [one for one in narrower if math.log(one[1] / one[0]) <= LOCATED]
-        open_ = [one for one in narrower if math.log(one[1] / one[0]) > LOCATED]
-    if open_:
-        raise ComputationError(
-            f"a change of outcome between St {open_[0][0]:.10g} and {open_[0][1]:.10g} is not enclosed"
-        )
-    closed.sort()
+        narrower: list[tuple[int, _Bracket]] = []
+        for (k, one), grid, own in zip(open_, grids, parts, strict=True):
+            usable = own["outcome"] >= 0
+            if usable.any():
+                narrower += [(k, each) for each in _parts_of(one, grid[usable], own[usable])]
+            elif one.width < MERGED:  # a band within the error of collisions
+                closed[k].append(one)
+            elif kernel_only:
+                undecided.add(k)
+            else:
+                reason = look.reason(line.angle, one.low, one.high)
+                raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g}: {reason}")
+        open_ = [(k, one) for k, one in narrower if one.width > _NARROW and k not in undecided]
+        for k, one in narrower:
+            if one.width <= _NARROW:
+                closed[k].append(one)
+    if open_ and not kernel_only:
+        one = open_[0][1]
+        raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g} is not enclosed")
+    undecided |= {k for k, _ in open_}
     return [
-        _change(line, math.sqrt(first * last), one, other, kind if (one, other) == (before, after) else PLAIN)
-        for first, last, one, other in closed
+        [] if k in undecided else [_enclosed_change(line, one) for one in sorted(own, key=lambda one: one.low)]
+        for k, own in enumerate(closed)
     ]
+
+
+def _parts_of(bracket: _Bracket, grid: np.ndarray, seen: np.ndarray) -> list[_Bracket]:
+    """The narrower brackets that collisions within one show."""
+    at = [bracket.low, *grid.tolist(), bracket.high]
+    outcomes = [bracket.before, *(OUTCOMES[k] for k in seen["outcome"]), bracket.after]
+    met = [bracket.met[0], *seen["reversal"].tolist(), bracket.met[1]]
+    return [
+        _Bracket(at[k], at[k + 1], outcomes[k], outcomes[k + 1], (met[k], met[k + 1]))
+        for k in range(len(at) - 1)
+        if outcomes[k] != outcomes[k + 1]
+    ]
+
+
+def _enclosed_change(line: Line, one: _Bracket) -> Change:
+    return _change(line, math.sqrt(one.low * one.high), one.before, one.after, _kind(line, one))
+
+
+def _kind(line: Line, one: _Bracket) -> str:
+    """What happens at a change that is enclosed narrowly."""
+    if STICK not in (one.before, one.after):
+        return GRAZE
+    stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
+    rebounds = stuck >= 0 or (BOUNCE in (one.before, one.after) and line.criterion(at) >= 0)
+    if BOUNCE in (one.before, one.after):
+        return REVERSED if rebounds else GRAZE
+    return GRAZE if rebounds else FREE
 
 
 def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:

@@ -65,19 +65,26 @@ class Look:
             self._by_rosenbrock(found[k : k + 1], float(angle[k]))
         return found
 
-    def outcomes(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """Outcomes alone (indices of OUTCOMES, -1 for none, with its reason), by all steps that a collision may cost.
+    def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
+        """Outcomes (`outcome`, -1 for none, with its reason) and first criteria met (`reversal`) alone.
 
-        Chatter on which the kernel has spent them is given up; what it hands over otherwise goes to Rosenbrock.
+        A collision may cost all steps of the budget. Chatter on which the kernel has spent them is given up; what it
+        hands over otherwise goes to Rosenbrock.
+
+        Arguments:
+            kernel_only: leave undecided what the kernel hands over; it then has the steps of a sample.
         """
-        told = self._told(angle, stokes, STEPS) if self.kernel else None
+        told = self._told(angle, stokes, by_kernel.LOOK_BUDGET if kernel_only else STEPS) if self.kernel else None
         if told is None:
-            return self.by_rosenbrock(angle, stokes)["outcome"]
-        for k in np.flatnonzero(told["chatters"]).tolist():
+            return self.by_rosenbrock(angle, stokes)
+        if kernel_only:
+            return told
+        for k in np.flatnonzero(told["chatters"] & (told["outcome"] < 0)).tolist():
             self._give_up(float(angle[k]), float(stokes[k]), told[k])
         for k in np.flatnonzero((told["outcome"] < 0) & ~told["chatters"]).tolist():
-            told["outcome"][k] = self.by_rosenbrock(angle[k : k + 1], stokes[k : k + 1])["outcome"][0]
-        return told["outcome"]
+            found = self.by_rosenbrock(angle[k : k + 1], stokes[k : k + 1])[0]
+            told["outcome"][k], told["reversal"][k] = found["outcome"], found["reversal"]
+        return told
 
     def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
         n = numbers(self.scene, self.scene.speed_of(stokes), angle)

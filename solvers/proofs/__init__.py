@@ -6,6 +6,7 @@ from .barrier import Barrier, BarrierProof
 from .base import NoProof, Proof
 from .chatter import ChatterProof
 from .choice import energy_proof, proof_for
+from .circling import comes_to
 from .film import FilmProof
 from .held import HeldProof
 from .orbital import OrbitalProof
@@ -21,6 +22,7 @@ __all__ = [
     "OrbitalProof",
     "Proof",
     "TetherProof",
+    "comes_to",
     "energy_proof",
     "proof_for",
 ]

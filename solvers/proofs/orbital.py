@@ -36,7 +36,7 @@ class OrbitalProof:
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
         self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
-        groups = dict(zip(model.groups, p, strict=True))
+        self.groups = groups = dict(zip(model.groups, p, strict=True))
         self.end = groups.get("rupture_gap", 1.0)
         self.aspect, self.obliquity = groups["aspect"], groups["obliquity"]
         self.lever = model.choice.law("arm") or "midgap"

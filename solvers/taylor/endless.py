@@ -1,4 +1,4 @@
-"""Chatter that has spent the kernel's steps: whether the state that it has come to is held for good."""
+"""Chatter that has spent the kernel's steps: whether its last state is held for good, or the limit that it nears."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import numpy as np
 
 from ..model import Choice, load
 from ..numbers import numbers
-from ..proofs import OrbitalProof, proof_for
+from ..proofs import OrbitalProof, comes_to, proof_for
 from ..scene import Scene
 
 CHATTER = 4  # status of a collision that has spent its steps in many phases (runtime/queue.h)
+_SPENT = 2  # ... or in few
 _DECIDED, _STICK = 0, 0
 
 
@@ -22,12 +23,43 @@ def decide(
     the last state does not. `shown` has that state from the opening velocity on.
     """
     for k in np.flatnonzero(answers["status"] == CHATTER).tolist():
-        model, told = load(choice), answers[k]
-        p = model.group_values(numbers(scene, float(speed[k]), float(angle[k])).groups)
-        proof = proof_for(model, p, rtol)
-        if not isinstance(proof, OrbitalProof) or model.strings:  # strings may feed the slip
+        told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
+        if proof is None:
             continue
-        y = np.array([told["final_gap"], *told["shown"][: len(model.state) - 1]])
+        y = _state(proof, told)
         if proof.holds(y) or proof.settles(y):
             told["status"], told["outcome"], told["certified"] = _DECIDED, _STICK, proof.proves
             told["shown"] = 0.0
+
+
+def limits(
+    earlier: np.ndarray,
+    answers: np.ndarray,
+    scene: Scene,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    choice: Choice,
+    rtol: float,
+) -> list[bool | None]:
+    """Whether doublets that circle are held in the limit of many turns; None where that is not clear.
+
+    Arguments:
+        earlier, answers: of the same impacts after fewer steps and after more.
+    """
+    found: list[bool | None] = []
+    for k in range(answers.size):
+        both = earlier[k], answers[k]
+        circles = all(told["status"] in (_SPENT, CHATTER) for told in both)
+        proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
+        found.append(None if proof is None else comes_to(proof, *(_state(proof, told) for told in both)))
+    return found
+
+
+def _proof(scene: Scene, speed: float, angle: float, choice: Choice, rtol: float) -> OrbitalProof | None:
+    model = load(choice)
+    found = proof_for(model, model.group_values(numbers(scene, float(speed), float(angle)).groups), rtol)
+    return found if isinstance(found, OrbitalProof) and not model.strings else None  # strings may feed the slip
+
+
+def _state(proof: OrbitalProof, told: np.void) -> np.ndarray:
+    return np.array([told["final_gap"], *told["shown"][: len(proof.model.state) - 1]])

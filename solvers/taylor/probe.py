@@ -10,9 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..model import choose
 from ..numbers import Numbers
+from ..samples import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..scene import Scene
-from .endless import CHATTER
+from .endless import CHATTER, limits
 from .engine import Impacts
 from .one import FELL_BACK, TURNED
 from .record import Purpose, Recorded, Steps, recorded
@@ -23,6 +25,7 @@ LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a sepa
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
 _FINER = 12  # parts of the surroundings of a maximum, again and again
 _ZOOMS = 4
+_EARLIER = 5  # of the steps that chatter has spent, one in so many leads to the state that its last is held against
 
 
 LOOK = np.dtype(
@@ -97,8 +100,29 @@ def looked(
         part["glass"] = told.peaks
         for name in ("reversal", "events", "time", "smallest_gap", "final_gap"):
             part[name] = answers[name]
+        if purpose == Purpose.WHOLE and not others:
+            _take_limits(part, impacts, answers, oblique, rtol, budget)
         found[which] = part
     return found
+
+
+def _take_limits(
+    part: np.ndarray, impacts: Impacts, answers: np.ndarray, oblique: bool, rtol: float, budget: int
+) -> None:
+    """Outcomes of doublets that have circled in and out of their film until their steps were spent, in the limit."""
+    endless = np.flatnonzero(part["chatters"])
+    if not endless.size:
+        return
+    those = impacts.part(endless)
+    before = recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
+    assert before is not None  # the kernel is there
+    choice = choose(impacts.scene, oblique, fold=False)
+    held = limits(before.answers, answers[endless], impacts.scene, those.speed, those.angle, choice, rtol)
+    for k, stays in zip(endless.tolist(), held, strict=True):
+        if stays is not None:
+            reached = BOUNCE if part["reversal"][k] >= 0 else ROTATE
+            part["outcome"][k] = OUTCOMES.index(STICK if stays else reached)
+            part["restitution"][k] = part["time"][k] = np.nan
 
 
 def approach(
