@@ -28,7 +28,7 @@ from typing import TypeVar
 from .caches import Locks
 from .files import write_all
 from .locks import TEMPORARY, held_file, held_folder, sweep, temporary
-from .remarks import say
+from .remarks import say, say_once
 
 Loaded = TypeVar("Loaded")
 
@@ -188,7 +188,7 @@ def _whole(path: Path, digest: str) -> bytes | None:
     except FileNotFoundError:
         pass
     except OSError as error:
-        _once(f"{path} is damaged and cannot be removed ({error.strerror}): it is not used")
+        say_once(f"{path} is damaged and cannot be removed ({error.strerror}): it is not used")
     return None
 
 
@@ -281,8 +281,3 @@ def _leave(stack: ExitStack, owner: int) -> None:
 def _sweep(place: Path, prefix: str) -> None:
     """Once a process."""
     sweep(place, prefix)
-
-
-@cache
-def _once(line: str) -> None:
-    say(line)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from casadi import Function, external
 
 from .cache import kept, loaded
-from .caches import once
 from .compilers import CannotCompile, compiler, key, library, more_flags
-from .remarks import say
+from .remarks import say_once
 
 FLAGS = ("-O1", "-fPIC", "-shared")  # -O3 takes 1.6 times as long to compile and saves a sixth (docs/performance.md)
 
@@ -23,7 +22,7 @@ def compiled(function: Function) -> Function:
         return loaded(content, lambda path: external(name, path))
     except (CannotCompile, OSError, RuntimeError) as error:
         said = " ".join(str(error).split())
-        _once(f"{found} cannot compile {name} ({said}): it runs interpreted")
+        say_once(f"{found} cannot compile {name} ({said}): it runs interpreted")
         return function
 
 
@@ -34,8 +33,3 @@ def _source(function: Function) -> str:
     generator = CodeGenerator(function.name())
     generator.add(function)
     return str(generator.dump())
-
-
-@once
-def _once(line: str) -> None:
-    say(line)

@@ -13,7 +13,8 @@ import shlex
 import shutil
 import signal
 import subprocess
-from collections.abc import Sequence
+import threading
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -34,7 +35,7 @@ _TRIAL = """#include <math.h>
 int main(int count, char **words) { return words[0] && sqrt(8.0 + count) == 3.0 ? 42 : 1; }
 """
 _ANSWER = 42
-_RUNNING: set[subprocess.Popen[bytes]] = set()
+_RUNNING: dict[subprocess.Popen[bytes], int] = {}  # by the threads that wait for them
 _STOPPED: set[subprocess.Popen[bytes]] = set()
 
 
@@ -132,11 +133,12 @@ def more_flags() -> tuple[str, ...]:
     return tuple(shlex.split(os.environ.get("WETDOUBLET_CFLAGS", "")))
 
 
-def stop() -> None:
-    """End the compilers that are running, as an interrupt does."""
-    for process in list(_RUNNING):
-        _STOPPED.add(process)
-        _end(process)
+def stop(threads: Collection[int]) -> None:
+    """End the compilers that these threads wait for, as an interrupt does."""
+    for process, waiting in list(_RUNNING.items()):
+        if waiting in threads:
+            _STOPPED.add(process)
+            _end(process)
 
 
 def _limit() -> float:
@@ -247,7 +249,7 @@ def _run(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         env=environment, pass_fds=passed, process_group=0 if os.name == "posix" else None,
     )  # fmt: skip
-    _RUNNING.add(process)
+    _RUNNING[process] = threading.get_ident()
     try:
         out, err = process.communicate(timeout=limit)
     except BaseException:
@@ -256,7 +258,7 @@ def _run(
             process.communicate(timeout=1)
         raise
     finally:
-        _RUNNING.discard(process)
+        _RUNNING.pop(process, None)
         stopped = process in _STOPPED
         _STOPPED.discard(process)
     if stopped or process.returncode in _INTERRUPTED:

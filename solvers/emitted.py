@@ -44,46 +44,41 @@ def library_digest() -> str:
 
 def structure(name: str) -> ModuleType:
     """The module of a structure: committed, or derived on first use."""
-    return module(name, lambda: _derived_structure(name))
+    return module(name)
 
 
 def law(slot: str, name: str) -> ModuleType:
-    """The module of a law of the library: committed, or derived on first use."""
-    path = f"{slot}_{name.replace('-', '_')}"
-    return module(f"laws.{path}", lambda: _derived_law(slot, name))
+    """The module of a law of the library."""
+    return module(f"laws.{slot}_{name.replace('-', '_')}")
 
 
 @cache
-def module(name: str, derived: Callable[[], str] | None = None) -> ModuleType:
+def module(name: str) -> ModuleType:
     """An emitted module of the library.
 
     Arguments:
-        name: dotted, below `generated`.
-        derived: gives its text where it is not committed.
+        name: dotted, below `generated`; a structure that is not committed is derived.
 
     Raises:
         CheckFailed: the file is not the one that was emitted; says what to run.
     """
     path = name.replace(".", "/") + ".py"
-    if committed(path):
-        for each in (path, "assemble.py", "scaling.py"):
-            _verified(each)
-        return import_module(f"{_PACKAGE}.{name}")
-    if derived is None:
-        raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
-    return executed(f"{_PACKAGE}.{name}", derived_once(f"{name}.py", derived).encode())
+    if not committed(path):
+        return executed(f"{_PACKAGE}.{name}", text(name).encode())
+    for each in (path, "assemble.py", "scaling.py"):
+        _verified(each)
+    return import_module(f"{_PACKAGE}.{name}")
 
 
 def text(name: str) -> str:
-    """Text of an emitted module of the library, which is never run."""
+    """Text of an emitted module of the library, which is never run. Errors: see `module`."""
     path = name.replace(".", "/") + ".py"
     if committed(path):
         _verified(path)
         return (_FOLDER / path).read_text(encoding="utf-8")
-    kind, _, rest = name.rpartition(".")
-    slot, _, law_name = rest.partition("_")
-    derived = (lambda: _derived_law(slot, law_name)) if kind else (lambda: _derived_structure(name))
-    return derived_once(f"{name}.py", derived)
+    if "." in name:  # all laws are committed
+        raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
+    return derived_once(f"{name}.py", lambda: _derived_structure(name))
 
 
 def header(path: str) -> str:
@@ -154,9 +149,3 @@ def _derived_header(name: str, tangent: bool) -> str:
     from ..derive.emit.one import structure_header_text, structure_tangent_text  # imports sympy
 
     return structure_tangent_text(name) if tangent else structure_header_text(name)
-
-
-def _derived_law(slot: str, name: str) -> str:
-    from ..derive.emit.one import law_text  # imports sympy
-
-    return law_text(slot, name)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+from functools import cache
 
 from .errors import one_line
 
@@ -24,6 +25,12 @@ def say(line: str, only_here: bool = False) -> None:
     if (only_here or _HUSHED not in os.environ) and sys.stderr is not None:
         with contextlib.suppress(OSError, ValueError):
             sys.stderr.write(f"{one_line(line)}\n")
+
+
+@cache
+def say_once(line: str) -> None:
+    """Write a remark that this process has not written yet."""
+    say(line)
 
 
 def hush() -> None:

@@ -17,6 +17,7 @@ from .remarks import hush
 
 _LOOK = 0.2  # s between two looks at whether the parent is there
 _PR_SET_PDEATHSIG = 1
+_LASTING = threading.Lock()  # of the pool that stays
 
 
 @contextmanager
@@ -37,16 +38,26 @@ def workers(count: int, env: Mapping[str, str] | None = None) -> Iterator[Any]:
 
 @contextmanager
 def lasting_workers(count: int) -> Iterator[Any]:
-    """A pool that stays for the next caller; it is killed if it is left by an exception."""
-    from loky import get_reusable_executor
+    """A pool that stays for the next caller; it is killed if it is left by an exception.
 
-    settle()
-    pool = get_reusable_executor(max_workers=count, initializer=_begin, initargs=(os.getpid(), False))
+    There is one; while a thread has it, others have one each for the while.
+    """
+    if not _LASTING.acquire(blocking=False):
+        with workers(count) as pool:
+            yield pool
+        return
     try:
-        yield pool
-    except BaseException:
-        pool.shutdown(wait=True, kill_workers=True)
-        raise
+        from loky import get_reusable_executor
+
+        settle()
+        pool = get_reusable_executor(max_workers=count, initializer=_begin, initargs=(os.getpid(), False))
+        try:
+            yield pool
+        except BaseException:
+            pool.shutdown(wait=True, kill_workers=True)
+            raise
+    finally:
+        _LASTING.release()
 
 
 @contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import platform
+import threading
 from collections.abc import Collection
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from ..compilers import CannotCompile, compiler, key, more_flags, stop
 from ..compilers import library as compiled
 from ..cores import usable_cores
 from ..model import Choice, choose
-from ..remarks import say
+from ..remarks import say_once
 from .headers import headers, tangents
 from .layout import MOST_STEPS, RESULTS, declarations
 
@@ -186,7 +187,7 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
     try:
         library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
     except (CannotCompile, OSError) as error:
-        _once(f"{found} cannot compile the Taylor kernel ({error}): other engines answer")
+        say_once(f"{found} cannot compile the Taylor kernel ({error}): other engines answer")
         return None
     library.collide.restype = ctypes.c_char_p
     library.collide.argtypes = [ctypes.c_void_p]
@@ -196,14 +197,15 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
 def compile_all(variants: Collection[Variant]) -> None:
     """Have the kernels of several variants, compiled side by side where they are not there yet."""
     if len(variants) > 1:
+        threads: list[int] = []
+
+        def compiled_here(variant: Variant) -> None:
+            threads.append(threading.get_ident())
+            kernel(variant)
+
         with ThreadPoolExecutor(usable_cores()) as pool:  # compilers are processes of their own
             try:
-                list(pool.map(kernel, variants))
+                list(pool.map(compiled_here, variants))
             except BaseException:
-                stop()
+                stop(threads)
                 raise
-
-
-@cache
-def _once(line: str) -> None:
-    say(line)

@@ -13,6 +13,7 @@ from wetdoublet.solvers.locate import Locate
 from wetdoublet.solvers.model import choose, load
 from wetdoublet.solvers.numbers import numbers
 from wetdoublet.solvers.settings import STEPS
+from wetdoublet.solvers.taylor.engine import Impacts, answers
 
 WEAK = {
     "particles": {
@@ -158,3 +159,34 @@ def test_extreme_spans_are_bad_input(span: tuple[float, float]) -> None:
     """A boundary is looked for among Stokes numbers that can be told apart: the range is said."""
     with pytest.raises(InputError, match=r"^impact.stokes: .* is too far off; accepted: from 1e-30 to 1e\+30$"):
         boundary("granulation", angle=0.5, stokes=span)
+
+
+CIRCLES = {
+    "particles": {
+        "reduced_radius": 1.61e-4, "reduced_mass": 5.4e-10, "roughness": 1.25e-6, "dry_restitution": 0.938,
+        "youngs_modulus": 3.2e10, "poisson_ratio": 0.0156,
+    },
+    "liquid": {"viscosity": 1.794, "film_thickness": 4.66e-5, "glass_transition_pressure": 1.1e8},
+    "bridge": {"surface_tension": 0.096, "volume": 0.9565, "contact_angle": 0.981, "law": "mikami-log10"},
+    "model": {"arm": "midgap", "tangential": "film"},
+}  # fmt: skip
+
+
+def test_circling_is_decided_by_its_limit() -> None:
+    """A doublet that dips ever less into its film has the outcome of its limit: millions of steps on either side agree.
+
+    The limit depends on the angular momentum and the bridge alone, so angles have one Ce*.
+    """
+    scene = Scene.from_dict(CIRCLES)
+    angles = np.array([0.4465, 0.5])
+    found = boundary(scene, angle=angles, stokes=(0.005, 0.05))
+    assert not found.failed
+    first, second = (line[0] for line in found.changes)
+    assert (first.before, first.after) == ("stick", "stick-rotate-separate")
+    assert first.centrifugal == pytest.approx(second.centrifugal, rel=1e-8)
+    aside = first.stokes * np.array([1 - 3e-5, 1 + 3e-5])
+    speed = aside / scene.stokes_per_speed
+    told = answers(Impacts(scene, speed, np.full(2, 0.4465), {}), 1e-9, budget=3_000_000)
+    if told is not None:  # there is a kernel
+        assert told["status"].tolist() == [0, 0]
+        assert told["outcome"].tolist() == [0, 1]
