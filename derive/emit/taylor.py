@@ -311,6 +311,12 @@ class Header:
             lines += self._value(
                 "rigid_rotation", "static inline vec rigid_orbit(const constants *c, const vec *y)", {"orbit": "return"}
             )
+        if shape.oblique and not shape.strings and shape.partner != "wall" and not shape.reduced:
+            lines += self._value(
+                "rigid_rotation",
+                "static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)",
+                {state.name: f"rigid[{state.name.upper()}]" for state in model.states[2:]},
+            )
         if "arm" in model.slots and not shape.strings:
             lines += self._value(
                 "angular_momentum",

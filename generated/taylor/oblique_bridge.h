@@ -463,6 +463,21 @@ static inline vec rigid_orbit(const constants *c, const vec *y)
     return orbit_2;
 }
 
+/* The state that has this least energy: at rest in the gap, turning as one body. */
+static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec distance_squared = distance*distance;
+    vec inertia_ratio = distance_squared + 6.4;
+    vec distance_squared_by_momentum = distance_squared*momentum;
+    vec orbit_2 = distance_squared_by_momentum/inertia_ratio;
+    vec spin_2 = momentum/inertia_ratio;
+    rigid[ORBIT] = orbit_2;
+    rigid[SPIN] = spin_2;
+}
+
 /* Angular momentum over its start value. */
 static inline vec angular_momentum(const constants *c, const vec *y)
 {

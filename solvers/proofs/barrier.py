@@ -72,9 +72,9 @@ class BarrierProof:
         if model.reduced:  # one slip, which falls without changing sign
             orbit = max(float(y[2]), orbit)
         else:
-            energy = self._kinetic(y)
-            slip = energy * (1 + margin) - model.values("effective_potential", y, self.p)["energy"]
-            excess = float(np.sqrt(max(slip, 0.0) / self._kinetic(self._turning(y, 1.0))))
+            rigid = list(model.values("rigid_rotation", y, self.p).values())
+            deviation = np.array([y[0], 0.0, *(y[2 : len(model.state)] - rigid[2:])])
+            excess = float(np.sqrt(self._kinetic(deviation) / self._kinetic(self._turning(y, 1.0))))
             orbit += excess if self.theorem else 2 * excess
         held, still = (
             model.values("inward_force", self._turning(y, each), self.p)["inward_force"] for each in (orbit, 0.0)

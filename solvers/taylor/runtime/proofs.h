@@ -132,8 +132,12 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
     orbit = vec_larger(y[ORBIT], orbit);
 #else
     there[ORBIT] = splat(1.0);
-    vec slip = stored_energy(c, y)*(1.0 + margin) - potential_energy(c, y);
-    orbit += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(vec_larger(slip, splat(0.0))/stored_energy(c, there));
+    vec rigid[STATES], slip[STATES]; /* the deviation from rigid rotation, whose energy loses no digits in a difference */
+    memcpy(slip, there, sizeof slip);
+    rigid_rotation(c, y, rigid);
+    for (int state = ORBIT; state < MODEL_STATES; state++)
+        slip[state] = y[state] - rigid[state];
+    orbit += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(stored_energy(c, slip)/stored_energy(c, there));
 #endif
     there[ORBIT] = splat(0.0);
     vec still = inward_force(c, there);
