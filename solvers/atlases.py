@@ -352,10 +352,14 @@ def _apart(plane: Plane, changes: list[tuple[np.ndarray, Change]]) -> list[tuple
     located = crossings(plane.labels, places, np.tile([0.0, 1.0], (count, 1)), np.full(count, 1e-4), low, high)
     distance = np.abs(located[:, 1] - places[:, 1]) * plane.decades
     return [
-        (place, f"the line changes here, and collisions do so {far:.1e} beside it (relative, in St)")
-        for (place, _), far in zip(changes, distance, strict=True)
+        (place, f"the line changes here, and collisions {_beside(far)}")
+        for (place, _), far in zip(changes, distance.tolist(), strict=True)
         if not far < _AGREES
     ]
+
+
+def _beside(far: float) -> str:
+    return "beside it do not" if math.isnan(far) else f"do so {far:.1e} beside it (relative, in St)"
 
 
 def _is(change: Change, at: np.ndarray, place: tuple[float, str, str]) -> bool:
