@@ -9,43 +9,43 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .atlases import Atlas, atlas
-    from .bounds import Boundaries, boundary
+    from .boundaries.atlas import Atlas, atlas
+    from .boundaries.trace import Boundaries, boundary
+    from .collision.collide import collide
+    from .collision.result import Collision
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
-    from .many import collide_many
-    from .regimes import regime_map
-    from .result import Collision
-    from .scene import Scene
+    from .many.collide_many import collide_many
+    from .many.regime_map import regime_map
+    from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
-    from .sensitivity.gradients import sensitivities
-    from .sensitivity.many import gradients_many
+    from .sensitivity.gradients_many import gradients_many
     from .sensitivity.result import Sensitivities
+    from .sensitivity.sensitivities import sensitivities
     from .sensitivity.trajectory import trajectory_sensitivities
     from .sensitivity.uncertainty import band
     from .sensitivity.variance import sobol_indices
-    from .simulate import collide
 
 _HOMES = {
-    "Atlas": "atlases",
-    "Boundaries": "bounds",
+    "Atlas": "boundaries.atlas",
+    "Boundaries": "boundaries.trace",
     "BoundarySensitivities": "sensitivity.boundaries",
     "CheckFailed": "errors",
-    "Collision": "result",
+    "Collision": "collision.result",
     "ComputationError": "errors",
     "InputError": "errors",
     "ModelWarning": "errors",
-    "Scene": "scene",
+    "Scene": "scene.scene",
     "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
-    "atlas": "atlases",
+    "atlas": "boundaries.atlas",
     "band": "sensitivity.uncertainty",
-    "boundary": "bounds",
+    "boundary": "boundaries.trace",
     "boundary_sensitivities": "sensitivity.boundaries",
-    "collide": "simulate",
-    "collide_many": "many",
-    "gradients_many": "sensitivity.many",
-    "regime_map": "regimes",
-    "sensitivities": "sensitivity.gradients",
+    "collide": "collision.collide",
+    "collide_many": "many.collide_many",
+    "gradients_many": "sensitivity.gradients_many",
+    "regime_map": "many.regime_map",
+    "sensitivities": "sensitivity.sensitivities",
     "sobol_indices": "sensitivity.variance",
     "trajectory_sensitivities": "sensitivity.trajectory",
 }

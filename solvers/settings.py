@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .errors import InputError, did_you_mean
-from .schema import Field, Range
+from .scene.schema import Field, Range
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from .scene.scene import Scene
 
 ENGINES = ("cvodes", "rosenbrock", "taylor")
 RTOL = 1e-9  # unless something else is asked for
@@ -49,6 +49,6 @@ def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
     """
     if asked not in (None, "taylor") or (asked is None and count <= FEW):
         return asked or "rosenbrock"
-    from .taylor.library import knows
+    from .engines.taylor.build import knows
 
     return "taylor" if knows(scene) else "rosenbrock"

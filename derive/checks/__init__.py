@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from ..laws import LAWS, Law
-from ..quantities import gap
+from ..physics.laws import LAWS, Law
+from ..vocabulary.quantities import gap
 from .admission import Certificate, certificate, certificates
 from .attractions import law_checks
 from .base import Check
@@ -26,7 +26,13 @@ from .groups import (
     number_of_groups,
 )
 from .held import held
-from .laws import film_ends, head_on_closed_form, long_strings_vanish, rigid_rotation_is_free, small_angle_is_linear
+from .laws import (
+    film_ends,
+    head_on_closed_form,
+    long_strings_vanish,
+    rigid_rotation_is_free,
+    small_angle_is_linear,
+)
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
 from .orbital import orbital

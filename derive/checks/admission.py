@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..laws import LAWS, Law
-from ..model import derive
-from ..quantities import gap
-from ..structure import Structure, structures
+from ..equations.model import derive
+from ..physics.laws import LAWS, Law
+from ..physics.structure import Structure, structures
+from ..vocabulary.quantities import gap
 from .base import Check, readable
 from .dissipation import (
     bridge_does_work,

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
-from ..forces import force_laws
-from ..laws import LAWS, attraction, fill, film
-from ..laws.start import initial_rate
-from ..mechanics import F_c
-from ..model import derive
-from ..quantities import DIMENSIONS, centrifugal, contact_angle, gap, omega0, opening, x, x0
-from ..scaling import generalised_centrifugal, group_definitions
-from ..structure import Structure
+from ..equations.model import derive
+from ..physics.forces import force_laws
+from ..physics.laws import LAWS, attraction, fill, film
+from ..physics.laws.start import initial_rate
+from ..physics.mechanics import F_c
+from ..physics.scaling import generalised_centrifugal, group_definitions
+from ..physics.structure import Structure
+from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
+from ..vocabulary.quantities import DIMENSIONS, centrifugal, contact_angle, gap, omega0, opening, x, x0
 from .base import Check, vanishing
 from .closed import opened, slope_along
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..quantities import VOCABULARY
+from ..vocabulary.quantities import VOCABULARY
 
 
 @dataclass(frozen=True)

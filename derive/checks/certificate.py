@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..invariants import conserved_momentum
-from ..laws import LAWS
-from ..model import derive
-from ..quantities import aspect, gap, obliquity, opening, orbit, spin
-from ..structure import structures
+from ..equations.invariants import conserved_momentum
+from ..equations.model import derive
+from ..physics.laws import LAWS
+from ..physics.structure import structures
+from ..vocabulary.quantities import aspect, gap, obliquity, opening, orbit, spin
 from .base import Check, vanishing
 from .closed import slope_along
 

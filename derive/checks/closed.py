@@ -7,9 +7,9 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..laws import slot_call
-from ..laws.base import filled, is_slot_call
-from ..model import Model
+from ..equations.model import Model
+from ..physics.laws import slot_call
+from ..physics.laws.base import filled, is_slot_call
 
 __all__ = ["emitted_rates", "filled", "slope_along"]
 

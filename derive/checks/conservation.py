@@ -7,10 +7,10 @@ from functools import cache
 
 import sympy as sp
 
-from ..laws import Law, strings
-from ..model import derive
-from ..quantities import orbit, spin
-from ..structure import Structure, structures
+from ..equations.model import derive
+from ..physics.laws import Law, strings
+from ..physics.structure import Structure, structures
+from ..vocabulary.quantities import orbit, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled, slope_along
 

@@ -6,25 +6,12 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from ..dimensions import (
-    ENERGY,
-    FORCE,
-    LENGTH,
-    MASS,
-    ONE,
-    PRESSURE,
-    RATE,
-    TIME,
-    Dimension,
-    DimensionError,
-    demand_dimension,
-)
-from ..forces import FILM, SHEAR, force_laws
-from ..laws import LAWS, film, shear, strings
-from ..laws.reversal import elastic_compliance, elastic_length
-from ..laws.rupture import rupture_distance
-from ..laws.start import start_values
-from ..mechanics import (
+from ..physics.forces import FILM, SHEAR, force_laws
+from ..physics.laws import LAWS, film, shear, strings
+from ..physics.laws.reversal import elastic_compliance, elastic_length
+from ..physics.laws.rupture import rupture_distance
+from ..physics.laws.start import start_values
+from ..physics.mechanics import (
     F_c,
     F_n,
     F_t,
@@ -37,8 +24,21 @@ from ..mechanics import (
     sphere_inertia,
     string_forces,
 )
-from ..quantities import DIMENSIONS, beta
-from ..scaling import group_definitions
+from ..physics.scaling import group_definitions
+from ..vocabulary.dimensions import (
+    ENERGY,
+    FORCE,
+    LENGTH,
+    MASS,
+    ONE,
+    PRESSURE,
+    RATE,
+    TIME,
+    Dimension,
+    DimensionError,
+    demand_dimension,
+)
+from ..vocabulary.quantities import DIMENSIONS, beta
 from .base import Check
 
 Equations = dict[str, tuple[sp.Expr, Dimension]]

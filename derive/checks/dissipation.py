@@ -13,16 +13,33 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..forces import SHEAR, force_laws
-from ..intermediates import BRIDGE_FORCE, ORBITAL_RATE
-from ..invariants import Invariant, invariants
-from ..laws import Law
-from ..laws.base import filled
-from ..mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
-from ..model import Model, derive
-from ..quantities import a, aspect, beta, e_dry, gap, m, omega, omega0, opening, orbit, r, spin, v0, x, x0, xi
-from ..scaling import DISTANCE, nondimensional
-from ..structure import Structure, structures
+from ..equations.intermediates import BRIDGE_FORCE, ORBITAL_RATE
+from ..equations.invariants import Invariant, invariants
+from ..equations.model import Model, derive
+from ..physics.forces import SHEAR, force_laws
+from ..physics.laws import Law
+from ..physics.laws.base import filled
+from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
+from ..physics.scaling import DISTANCE, nondimensional
+from ..physics.structure import Structure, structures
+from ..vocabulary.quantities import (
+    a,
+    aspect,
+    beta,
+    e_dry,
+    gap,
+    m,
+    omega,
+    omega0,
+    opening,
+    orbit,
+    r,
+    spin,
+    v0,
+    x,
+    x0,
+    xi,
+)
 from .base import Check, readable, settled, vanishing
 from .closed import emitted_rates
 from .signs import nonnegative

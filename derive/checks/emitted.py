@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..forces import FILM, SHEAR, force_laws
-from ..laws import LAWS
-from ..laws.start import start_values
-from ..mechanics import F_t, equations_of_motion, sphere_inertia
-from ..model import Model, derive
-from ..quantities import (
+from ..equations.model import Model, derive
+from ..physics.forces import FILM, SHEAR, force_laws
+from ..physics.laws import LAWS
+from ..physics.laws.start import start_values
+from ..physics.mechanics import F_t, equations_of_motion, sphere_inertia
+from ..physics.scaling import group_definitions, nondimensional
+from ..physics.structure import Structure, structures
+from ..vocabulary.quantities import (
     E,
     R,
     a,
@@ -36,8 +38,6 @@ from ..quantities import (
     x_b,
     xi,
 )
-from ..scaling import group_definitions, nondimensional
-from ..structure import Structure, structures
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..quantities import (
+from ..physics.scaling import (
+    centrifugal_identity,
+    dimension_matrix,
+    exponents,
+    group_definitions,
+    paper_normalisation,
+    pi_groups,
+)
+from ..vocabulary.quantities import (
     VOCABULARY,
     a,
     aspect,
@@ -24,15 +32,7 @@ from ..quantities import (
     x0,
     xi,
 )
-from ..quantities import t as time
-from ..scaling import (
-    centrifugal_identity,
-    dimension_matrix,
-    exponents,
-    group_definitions,
-    paper_normalisation,
-    pi_groups,
-)
+from ..vocabulary.quantities import t as time
 from .base import Check, readable, vanishing
 
 

@@ -6,10 +6,12 @@ from collections.abc import Iterable
 
 import sympy as sp
 
-from ..held import admits
-from ..laws import LAWS, Law
-from ..model import derive
-from ..quantities import (
+from ..equations.certificates.attraction import admits
+from ..equations.model import derive
+from ..physics.laws import LAWS, Law
+from ..physics.scaling import DISTANCE
+from ..physics.structure import structures
+from ..vocabulary.quantities import (
     aspect,
     beta,
     contact_angle,
@@ -23,8 +25,6 @@ from ..quantities import (
     spin,
     weight,
 )
-from ..scaling import DISTANCE
-from ..structure import structures
 from .base import Check, vanishing
 
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # of a contact angle up to 90 deg

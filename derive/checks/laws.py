@@ -7,16 +7,16 @@ from collections.abc import Iterable
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..forces import force_laws
-from ..intermediates import SHEAR_FORCE
-from ..laws import LAWS, Law
-from ..laws.base import filled
-from ..laws.strings import offset_squared
-from ..mechanics import F_n, F_t, S_n, S_t
-from ..model import derive
-from ..quantities import aspect, gap, l_s, omega, orbit, spin, string_ratio, x, x0, xi
-from ..scaling import DISTANCE
-from ..structure import structures
+from ..equations.intermediates import SHEAR_FORCE
+from ..equations.model import derive
+from ..physics.forces import force_laws
+from ..physics.laws import LAWS, Law
+from ..physics.laws.base import filled
+from ..physics.laws.strings import offset_squared
+from ..physics.mechanics import F_n, F_t, S_n, S_t
+from ..physics.scaling import DISTANCE
+from ..physics.structure import structures
+from ..vocabulary.quantities import aspect, gap, l_s, omega, orbit, spin, string_ratio, x, x0, xi
 from .base import Check, vanishing
 
 

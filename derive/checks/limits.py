@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..laws import LAWS
-from ..model import derive
-from ..quantities import aspect, beta, orbit, spin
-from ..structure import Structure, structures
+from ..equations.model import derive
+from ..physics.laws import LAWS
+from ..physics.structure import Structure, structures
+from ..vocabulary.quantities import aspect, beta, orbit, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 

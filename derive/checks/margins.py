@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..intermediates import CENTRIFUGAL_FORCE, STRING_PULL
-from ..laws import LAWS, slot_call
-from ..model import derive
-from ..quantities import (
+from ..equations.certificates.strings import outward_at, pull_at, rigid_orbit
+from ..equations.intermediates import CENTRIFUGAL_FORCE, STRING_PULL
+from ..equations.model import derive
+from ..equations.rates import rates
+from ..physics.laws import LAWS, slot_call
+from ..physics.structure import Structure
+from ..vocabulary.quantities import (
     aspect,
     beta,
     e_dry,
@@ -20,9 +23,6 @@ from ..quantities import (
     spin,
     stokes,
 )
-from ..rates import rates
-from ..structure import Structure
-from ..tethered import outward_at, pull_at, rigid_orbit
 from .base import Check, readable, vanishing
 
 _TETHERED = Structure(oblique=True, bridge=False, strings=True)

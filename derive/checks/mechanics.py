@@ -7,10 +7,10 @@ from functools import cache
 
 import sympy as sp
 
-from ..forces import force_laws
-from ..laws import LAWS, Law, strings
-from ..mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
-from ..quantities import a, beta, g, l_s, m, omega, r, u, x, xi
+from ..physics.forces import force_laws
+from ..physics.laws import LAWS, Law, strings
+from ..physics.mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
+from ..vocabulary.quantities import a, beta, g, l_s, m, omega, r, u, x, xi
 from .base import Check, vanishing
 from .closed import filled
 

@@ -1,4 +1,4 @@
-"""The proof by the orbit's momentum: what F_t exchanges, and that it never adds to the margin (derive/orbital.py)."""
+"""Orbital-momentum certificate: what F_t exchanges, and that it never adds to the margin."""
 
 from __future__ import annotations
 
@@ -6,12 +6,19 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..laws import LAWS
-from ..model import derive
-from ..orbital import exchanged, lag, midgap, midgap_within, rigid_share, surface
-from ..quantities import aspect, gap, obliquity, orbit, spin
-from ..scaling import DISTANCE
-from ..structure import Structure
+from ..equations.certificates.orbital_momentum import (
+    exchanged,
+    lag,
+    midgap,
+    midgap_within,
+    rigid_share,
+    surface,
+)
+from ..equations.model import derive
+from ..physics.laws import LAWS
+from ..physics.scaling import DISTANCE
+from ..physics.structure import Structure
+from ..vocabulary.quantities import aspect, gap, obliquity, orbit, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..laws import LAWS
-from ..model import Model, derive
-from ..partners import bodies, rolling, wall
-from ..quantities import (
+from ..equations.model import Model, derive
+from ..physics.laws import LAWS
+from ..physics.partners import bodies, rolling, wall
+from ..physics.structure import Partner, Structure
+from ..vocabulary.quantities import (
     a,
     decay,
     gap,
@@ -25,7 +26,6 @@ from ..quantities import (
     spin,
     xi,
 )
-from ..structure import Partner, Structure
 from .base import Check, vanishing
 from .closed import emitted_rates, filled, opened, opened_rates
 

@@ -6,12 +6,27 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..laws.start import initial_rate, start_values
-from ..mechanics import doublet_inertia, equations_of_motion
-from ..model import derive
-from ..quantities import a, aspect, gap, m, obliquity, omega, opening, r, theta0, u, v0, x, x0, xi
-from ..scaling import nondimensional
-from ..structure import structures
+from ..equations.model import derive
+from ..physics.laws.start import initial_rate, start_values
+from ..physics.mechanics import doublet_inertia, equations_of_motion
+from ..physics.scaling import nondimensional
+from ..physics.structure import structures
+from ..vocabulary.quantities import (
+    a,
+    aspect,
+    gap,
+    m,
+    obliquity,
+    omega,
+    opening,
+    r,
+    theta0,
+    u,
+    v0,
+    x,
+    x0,
+    xi,
+)
 from .base import Check, vanishing
 from .conservation import energy_balance
 

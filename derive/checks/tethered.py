@@ -1,4 +1,4 @@
-"""The stick proof on strings: each of its steps, on the emitted equations (derive/tethered.py says how they join).
+"""Certificate on strings: each of its steps, on the emitted equations (equations/certificates/strings.py joins them).
 
 That the emitted margins are these bounds where they are worst is for `margins`.
 """
@@ -9,16 +9,27 @@ from functools import cache
 
 import sympy as sp
 
-from ..forces import SHEAR
-from ..intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE
-from ..laws import LAWS
-from ..laws.strings import offset_squared
-from ..model import Model, derive
-from ..quantities import aspect, beta, gap, glass_number, opening, orbit, spin, stokes, string_ratio, weight
-from ..rates import rates
-from ..scaling import DISTANCE
-from ..structure import Structure
-from ..tethered import outward_at, pull_at, rigid_orbit
+from ..equations.certificates.strings import outward_at, pull_at, rigid_orbit
+from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE
+from ..equations.model import Model, derive
+from ..equations.rates import rates
+from ..physics.forces import SHEAR
+from ..physics.laws import LAWS
+from ..physics.laws.strings import offset_squared
+from ..physics.scaling import DISTANCE
+from ..physics.structure import Structure
+from ..vocabulary.quantities import (
+    aspect,
+    beta,
+    gap,
+    glass_number,
+    opening,
+    orbit,
+    spin,
+    stokes,
+    string_ratio,
+    weight,
+)
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 from .margins import margins

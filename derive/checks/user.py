@@ -11,15 +11,15 @@ from pathlib import Path
 
 import sympy as sp
 
-from ..custom import UserModel
-from ..dimensions import DimensionError
-from ..laws import LAWS
-from ..laws.base import Law, LawFunction
-from ..modelfile import read
-from ..quantities import contact_angle, volume
-from ..scaling import ScalingError
-from ..words import torque
+from ..physics.laws import LAWS
+from ..physics.laws.base import Law, LawFunction
+from ..physics.scaling import ScalingError
+from ..user_model.modelfile import read
+from ..user_model.structures import UserModel
+from ..vocabulary.dimensions import DimensionError
+from ..vocabulary.quantities import contact_angle, volume
 from .base import Check
+from .words import torque
 
 # Values at which laws are tried, by argument; anything else is a group, tried over four decades.
 _TRIED: Mapping[str, tuple[float, ...]] = {

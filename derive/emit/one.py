@@ -7,17 +7,24 @@ from pathlib import Path
 
 import sympy as sp
 
-from ..custom import UserModel
-from ..laws import LAWS
-from ..laws.base import Law
-from ..model import derive
-from ..modelfile import read
-from ..quantities import opening
-from ..structure import Structure, known
-from .modules import law_kernel, law_module, law_slopes, structure_kernel, structure_module, structure_tangent
-from .printer import EmissionError
-from .taylor import Beside
-from .taylor_slopes import UNUSED
+from ..equations.model import derive
+from ..physics.laws import LAWS
+from ..physics.laws.base import Law
+from ..physics.structure import Structure, known
+from ..user_model.modelfile import read
+from ..user_model.structures import UserModel
+from ..vocabulary.quantities import opening
+from .casadi.modules import (
+    law_kernel,
+    law_module,
+    law_slopes,
+    structure_kernel,
+    structure_module,
+    structure_tangent,
+)
+from .casadi.printer import EmissionError
+from .taylor.header import Beside
+from .taylor.law_slopes import UNUSED
 from .user import own_names
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
-from .printer import Printer
+from .casadi.printer import Printer
 
 WIDTH = 110
 INDENT = "    "

@@ -10,12 +10,20 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..custom import UserModel
-from ..model import derive
-from ..quantities import VOCABULARY
-from ..structure import structures
-from ..words import conserved, in_words
-from .modules import Own, digest, groups_module, law_digest, law_module, model_digest, structure_module
+from ..checks.words import conserved, in_words
+from ..equations.model import derive
+from ..physics.structure import structures
+from ..user_model.structures import UserModel
+from ..vocabulary.quantities import VOCABULARY
+from .casadi.modules import (
+    Own,
+    digest,
+    groups_module,
+    law_digest,
+    law_module,
+    model_digest,
+    structure_module,
+)
 from .write import sha256
 
 FORMAT = 1

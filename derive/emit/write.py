@@ -10,11 +10,11 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
-from ..laws import LAWS
-from ..model import derive
-from ..structure import committed, structures
-from .assemble import ASSEMBLE
-from .modules import (
+from ..equations.model import derive
+from ..physics.laws import LAWS
+from ..physics.structure import committed, structures
+from .casadi.assemble import ASSEMBLE
+from .casadi.modules import (
     _PROVENANCE,
     law_digest,
     law_kernel,

@@ -410,7 +410,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #define BY_ORBIT LIBRARY_LAWS
 enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
- * arm), over m v0^2 (derive/orbital.py). */
+ * arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py). */
 static inline void orbital(const constants *c, const vec *y, vec *found)
 {
     (void)c; (void)y;
@@ -489,7 +489,7 @@ static inline vec angular_momentum(const constants *c, const vec *y)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define HELD (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py). */
+/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
 static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
 {
     vec momentum = y[ORBIT] + 6.4*y[SPIN];

@@ -360,7 +360,7 @@ static inline vec rigid_orbit(const constants *c, const vec *y)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define HELD (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0 (derive/held.py). */
+/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
 static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
 {
     vec largest_orbit = vec_larger(y[ORBIT], c->spun_up);

@@ -386,7 +386,7 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 
 #if defined(FILM_STOPPING) && defined(GLASS_REACH)
 #define TETHERED MIDGAP_ARM
-/* The strings outweigh the rotation for good where outward < pull (derive/tethered.py). */
+/* The strings outweigh the rotation for good where outward < pull (equations/certificates/strings.py). */
 static inline void tethered_inward(const constants *c, const vec *y, vec *outward, vec *pull)
 {
     vec momentum = y[ORBIT] + 6.4*y[SPIN];

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from statistics import median
 from typing import Any
 
-from ..compilers import compiler
-from .markdown import table
+from ..formatting.markdown import table
+from ..host.compiler import compiler
 
 Record = dict[str, Any]
 

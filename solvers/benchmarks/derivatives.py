@@ -9,17 +9,17 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from ..integrators import tolerance
-from ..locate import locate
-from ..model import choose, load
-from ..numbers import numbers
-from ..scene import Scene
+from ..collision.collide import collide
+from ..engines.casadi.integrators import tolerance
+from ..engines.casadi.locate import locate
+from ..formatting.markdown import ms, table
+from ..model.dimensionless import numbers
+from ..model.model import choose, load
+from ..scene.scene import Scene
 from ..sensitivity.derivatives import evaluate
-from ..sensitivity.flight import Course, course_of, flight
-from ..sensitivity.gradients import sensitivities
 from ..sensitivity.parameters import known
-from ..simulate import collide
-from .markdown import ms, table
+from ..sensitivity.sensitivities import sensitivities
+from ..sensitivity.trajectory_expression import Course, course_of, flight
 
 COUNT = 12  # parameters
 RTOL = 1e-10

@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ..compilers import compiler
-from ..locate import LOOSEST
-from ..many import OUTCOMES, collide_many
-from ..model import choose, load
-from ..scene import Scene
+from ..collision.collide import collide
+from ..engines.casadi.locate import LOOSEST
+from ..host.compiler import compiler
+from ..many.collide_many import OUTCOMES, collide_many
+from ..model.model import choose, load
+from ..scene.scene import Scene
 from ..settings import ENGINES
-from ..simulate import collide
-from .answers import Answer, Bulk, Collide, answer, dimensionless
-from .peers import fly
-from .tasks import Impact
+from ..verify.stress.answers import Answer, Bulk, Collide, answer, dimensionless
+from ..verify.stress.impacts import Impact
+from ..verify.stress.scipy_engine import fly
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
 
 def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """The Taylor kernel without what `collide_many` adds: checks, what the kernel hands over, labels."""
-    from ..taylor.engine import Impacts, answers
+    from ..engines.taylor.call import Impacts, answers
 
     stokes, angle = _columns(impacts)
     given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})

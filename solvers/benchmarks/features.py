@@ -11,18 +11,18 @@ from typing import Any
 
 import numpy as np
 
-from .. import locate as locating
-from ..compilers import compiler
-from ..many import OUTCOMES, collide_many
-from ..model import Model
-from ..phases import Phase
-from ..proofs import NoProof, Proof
-from ..scene import Scene
+from ..certificates import NoProof, Proof
+from ..collision.collide import collide
+from ..engines.casadi import locate as locating
+from ..engines.taylor import call as engine
+from ..host.compiler import compiler
+from ..many.collide_many import OUTCOMES, collide_many
+from ..model.model import Model
+from ..model.phases import Phase
+from ..scene.scene import Scene
 from ..settings import RTOL
-from ..simulate import collide
-from ..taylor import engine
+from ..verify.stress.impacts import Impact, Task
 from .reference import Reference
-from .tasks import Impact, Task
 
 FEATURES = ("certificate", "ledger", "trajectory", "rotation")
 TOGETHER = FEATURES[:3]

@@ -10,13 +10,13 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import ComputationError
-from ..many import collide_many
-from ..model import choose, load
-from ..numbers import Numbers
-from ..scene import Scene
-from ..sensitivity.gradients import sensitivities
+from ..many.collide_many import collide_many
+from ..model.dimensionless import Numbers
+from ..model.model import choose, load
+from ..scene.scene import Scene
 from ..sensitivity.parameters import Kind, kind_of, known, references, way
-from .tasks import Impact, Task
+from ..sensitivity.sensitivities import sensitivities
+from ..verify.stress.impacts import Impact, Task
 
 COUNT = 12  # parameters
 SEPARATING = 25  # collisions
@@ -55,7 +55,7 @@ class Gradients:
     @cached_property
     def numbers(self) -> list[Numbers]:
         """The collisions without dimensions."""
-        from .answers import dimensionless
+        from ..verify.stress.answers import dimensionless
 
         return [dimensionless(self.scene, each) for each in self.impacts]
 

@@ -12,17 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from ..compilers import compiler
-from ..many import collide_many
-from ..sensitivity.kernel import along
-from ..sensitivity.many import gradients_many
-from ..taylor.engine import Impacts
+from ..engines.taylor.call import Impacts
+from ..formatting.markdown import table, us
+from ..host.compiler import compiler
+from ..many.collide_many import collide_many
+from ..sensitivity.by_kernel import along
+from ..sensitivity.gradients_many import gradients_many
+from ..verify.stress.impacts import TASKS, Task
 from .gradient_task import COUNT, Gradients
-from .markdown import table, us
 from .peer_diffrax_gradient import MISSING as NO_DIFFRAX
 from .peer_diffrax_gradient import TOLERANCES as DIFFRAX
 from .peer_diffrax_gradient import of_task as diffrax_forward
-from .tasks import TASKS, Task
 from .work import OFTEN, REPEATS, SETS, Tell
 
 Record = dict[str, Any]

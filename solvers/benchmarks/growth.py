@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from ..cores import usable_cores
+from ..host.cores import usable_cores
 from ..settings import ENGINES
 from .engines import in_bulk
 

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..bounds import boundary
-from ..compilers import compiler
-from ..many import OUTCOMES, collide_many
-from ..scene import Scene
-from ..simulate import collide
-from .markdown import ms, table
+from ..boundaries.trace import boundary
+from ..collision.collide import collide
+from ..formatting.markdown import ms, table
+from ..host.compiler import compiler
+from ..many.collide_many import OUTCOMES, collide_many
+from ..scene.scene import Scene
 
 Record = dict[str, Any]
 

@@ -10,15 +10,16 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from .. import compiled, integrators
+from ..engines.casadi import integrators
+from ..engines.casadi.locate import locate
 from ..errors import ComputationError
-from ..locate import locate
-from ..model import choose, load
-from ..scene import Scene
-from .answers import Answer, Bulk, dimensionless
+from ..formatting.markdown import ms, table
+from ..host import compiled
+from ..model.model import choose, load
+from ..scene.scene import Scene
+from ..verify.stress.answers import Answer, Bulk, dimensionless
+from ..verify.stress.impacts import Impact
 from .engines import HEYOKA, Engine, engines
-from .markdown import ms, table
-from .tasks import Impact
 
 Record = dict[str, Any]
 

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..compilers import compiler
-from ..many import collide_many
-from ..scene import Scene
-from ..sensitivity.gradients import sensitivities
-from ..sensitivity.many import gradients_many
+from ..collision.collide import collide
+from ..host.compiler import compiler
+from ..many.collide_many import collide_many
+from ..scene.scene import Scene
+from ..sensitivity.gradients_many import gradients_many
+from ..sensitivity.sensitivities import sensitivities
 from ..settings import ENGINES, RTOL
-from ..simulate import collide
 from .engines import in_bulk
 
 Record = dict[str, Any]

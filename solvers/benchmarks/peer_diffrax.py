@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from ..engines.casadi.locate import Locate
 from ..errors import ComputationError
-from ..locate import Locate
-from ..model import choose, load
-from ..scene import Scene
-from .answers import Answer, Bulk, dimensionless
+from ..model.model import choose, load
+from ..scene.scene import Scene
+from ..verify.stress.answers import Answer, Bulk, dimensionless
+from ..verify.stress.impacts import Impact
 from .peer_heyoka import starts
-from .tasks import Impact
 from .translated import translated
 
 _HORIZON, _STEPS, _PHASES = 1e10, 20_000, 12

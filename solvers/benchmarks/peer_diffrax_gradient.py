@@ -12,10 +12,10 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from ..locate import Locate
-from ..model import choose, load
-from ..numbers import Numbers
-from ..scene import Scene
+from ..engines.casadi.locate import Locate
+from ..model.dimensionless import Numbers
+from ..model.model import choose, load
+from ..scene.scene import Scene
 from .gradient_task import Gradients
 from .peer_diffrax import SEPARATED, flight
 from .peer_heyoka import starts

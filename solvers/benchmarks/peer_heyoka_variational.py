@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
+from ..engines.casadi.locate import CRITERIA, Locate
 from ..errors import ComputationError
-from ..locate import CRITERIA, Locate
-from ..model import Choice, choose, load
-from ..numbers import Numbers
-from ..scene import Scene
+from ..model.dimensionless import Numbers
+from ..model.model import Choice, choose, load
+from ..scene.scene import Scene
 from .peer_heyoka import BATCH, Batch, Lane, Start, as_expression, elementary
 from .translated import translated
 

@@ -14,11 +14,11 @@ import casadi
 import numpy as np
 from casadi import Function
 
-from ..integrators import Stop
-from ..locate import Path
-from ..model import Model
-from .bound import Equations
-from .peers import Flight
+from ..engines.casadi.integrators import Stop
+from ..engines.casadi.locate import Path
+from ..model.model import Model
+from ..verify.stress.numpy_equations import Equations
+from ..verify.stress.scipy_engine import Flight
 
 _WORDS = {
     "ADD": "{0} + {1}", "SUB": "{0} - {1}", "MUL": "{0} * {1}", "DIV": "{0} / {1}", "NEG": "-{0}", "EXP": "exp({0})",

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from ..files import save
+from ..host.files import save
 from .features import FEATURES
 from .plots_more import gradient_curves, near_curves
 

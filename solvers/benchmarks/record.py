@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from .. import files
+from ..host import files
 from .plots import draw
 from .run import Record
 from .tables import report

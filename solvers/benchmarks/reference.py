@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 
+from ..collision.collide import collide
+from ..engines.casadi.locate import locate
 from ..errors import ComputationError
-from ..locate import locate
-from ..model import choose, load
-from ..scene import Scene
-from ..simulate import collide
-from .answers import Answer, answer, dimensionless
-from .peers import fly
-from .tasks import Impact
+from ..model.model import choose, load
+from ..scene.scene import Scene
+from ..verify.stress.answers import Answer, answer, dimensionless
+from ..verify.stress.impacts import Impact
+from ..verify.stress.scipy_engine import fly
 
 RTOL = 1e-13
 _CVODES_RTOLS = (1e-13, 1e-12, 1e-11)  # the tightest that it completes

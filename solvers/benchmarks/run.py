@@ -8,9 +8,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
+from ..host.environment import environment, one_core
+from ..verify.stress.impacts import SEED, TASKS, Task
 from .cold import cold_start, first_use
 from .engines import Engine, engines
-from .environment import environment, one_core
 from .features import HORIZON, Cost, costs
 from .gradient_work import gradient_work
 from .growth import growth
@@ -19,7 +20,6 @@ from .near import near
 from .needs import gradients, structures
 from .reference import Reference, references
 from .sharp import sharp
-from .tasks import SEED, TASKS, Task
 from .work import FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work
 
 Record = dict[str, Any]

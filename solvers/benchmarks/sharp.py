@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ..locate import CRITERIA, Locate
-from ..model import choose, load
-from ..numbers import Numbers
-from ..scene import Scene
+from ..engines.casadi.locate import CRITERIA, Locate
+from ..formatting.markdown import table
+from ..model.dimensionless import Numbers
+from ..model.model import choose, load
+from ..scene.scene import Scene
+from ..verify.stress.impacts import TASKS
 from .engines import KERNEL, engines
 from .gradient_task import Gradients
-from .markdown import table
 from .peer_heyoka import HORIZON, starts, system
-from .tasks import TASKS
 
 Record = dict[str, Any]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ..formatting.markdown import ms, table, us
 from .cold import cold_table, first_table
 from .features import FEATURES, TOGETHER
 from .gradient_work import gradient_work_text
 from .lines import line_table
-from .markdown import ms, table, us
 from .near import near_text
 from .sharp import sharp_text
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from ..formatting.markdown import table, us
 from .engines import HEYOKA
-from .markdown import table, us
 from .near import GENERATED
 
 Record = dict[str, Any]

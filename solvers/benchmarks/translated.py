@@ -7,7 +7,7 @@ from importlib.util import find_spec, module_from_spec
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from ..model import Choice
+from ..model.model import Choice
 
 _GENERATED = f"{__package__.rpartition('.')[0].rpartition('.')[0]}.generated"
 _FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")

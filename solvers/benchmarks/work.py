@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ComputationError
-from ..scene import Scene
-from .answers import Answer, Bulk
+from ..scene.scene import Scene
+from ..verify.stress.answers import Answer, Bulk
+from ..verify.stress.impacts import Impact, Task
 from .engines import Engine
 from .reference import Reference
-from .tasks import Impact, Task
 
 TOLERANCES = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
 FINE = tuple(

@@ -75,8 +75,8 @@ def _stress(count: int, folder: Path) -> None:
 
     An interrupt ends it with a report of what is judged by then.
     """
-    from ..benchmarks.stress import stress
-    from ..benchmarks.stress_report import write
+    from ..verify.stress.report import write
+    from ..verify.stress.run import stress
 
     with bar("scenes") as tell:
         found = stress(count, tell=tell)

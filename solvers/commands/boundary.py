@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..custom import fields
 from ..errors import CheckFailed, InputError
-from ..ranges import parse_range
-from ..schema import FIELDS
+from ..scene.ranges import parse_range
+from ..scene.schema import FIELDS
+from ..scene.user_model import fields
 from ..settings import RTOL, check_rtol
 from . import options
 from .bar import bar
 
 if TYPE_CHECKING:
-    from ..bounds import Boundaries
-    from ..scene import Scene
+    from ..boundaries.trace import Boundaries
+    from ..scene.scene import Scene
     from ..sensitivity.boundaries import BoundarySensitivities
 
 _MOST = 100_000  # lines: half an hour
@@ -64,7 +64,7 @@ def command(
       wetdoublet boundary granulation --angle 0:85 --plot atlas.png
       wetdoublet boundary granulation --over particles.roughness="0.1 um:6 um" --set impact.angle="60 deg"
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..bounds import STOKES, boundary
+    from ..boundaries.trace import STOKES, boundary
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     picture = options.check_file(plot, "--plot", options.PICTURES)
@@ -94,8 +94,8 @@ def command(
             )
     options.put(json.dumps(shown.to_dict(), indent=2, allow_nan=False) if as_json else str(shown), file)
     if picture is not None:
-        from ..boundary_plot import draw
-        from ..files import save
+        from ..boundaries.plot import draw
+        from ..host.files import save
 
         save(draw(scene, found), picture, dpi=150)
     if found.failed:
@@ -117,7 +117,7 @@ def _plane(
         if angle is not None:
             raise InputError("--angle", angle, "--set impact.angle=ANGLE for a plane of another entry",
                              "is given together with --over")  # fmt: skip
-        from ..requests import check_varies
+        from ..many.batch import check_varies
 
         check_varies(name, ends, "--over", asked.package)
         if name in asked.entries:
@@ -156,7 +156,7 @@ def _show_atlas(
     picture: Path | None,
     file: Path | None,
 ) -> None:
-    from ..atlases import atlas
+    from ..boundaries.atlas import atlas
 
     with bar("lines") as tell:
         found = atlas(scene, over=over, span=across, stokes=span, rtol=rtol, progress=tell)

@@ -44,7 +44,7 @@ def command(
     scene = options.Asked.check(source, changes, stokes, speed, angle, model=model).scene()
     scene.need_impact()
 
-    from ..simulate import collide
+    from ..collision.collide import collide
 
     result = collide(scene, rtol=tolerance, engine=chosen, trajectory=picture is not None)
     if as_json:

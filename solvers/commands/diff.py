@@ -48,10 +48,10 @@ def command(
     assert one is not None
     assert other is not None
 
-    from ..differences import differences
+    from ..export.differences import differences
 
     found = differences(one, other, probe, options.entries(changes))
 
-    from ..show_differences import as_latex, as_markdown, as_text
+    from ..export.text import as_latex, as_markdown, as_text
 
     options.put((as_latex if latex else as_markdown if markdown else as_text)(found), file)

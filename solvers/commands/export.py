@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import click
 
 from ..errors import InputError, did_you_mean
-from ..files import write_all_in
+from ..host.files import write_all_in
 from . import options
 
 KINDS = ("c", "latex")
@@ -50,10 +50,10 @@ def command(
         raise InputError("--out", None, "a folder to write into")
 
     if kind == "latex":
-        from ..equations import texts
+        from ..export.equations import texts
     elif kind == "c":
-        from ..ccode import texts
+        from ..export.c import texts
     else:
-        from ..fmu import texts
+        from ..export.fmu import texts
     for file in write_all_in(folder, texts(scene)):
         click.echo(str(file))

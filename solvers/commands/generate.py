@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from ..errors import CheckFailed, InputError
-from ..files import write_all_in
+from ..host.files import write_all_in
 from . import options
 
 OWN = Path(__file__).resolve().parents[2] / "generated"  # found, not imported: it may be stale or broken
@@ -38,7 +38,7 @@ def command(model: str | None, out: str | None, check: bool, template: bool) -> 
         for option, given in (("MODEL.py", model), ("--out", out), ("--check", check or None)):
             if given is not None:
                 raise InputError(option, given, "--template alone: it prints a model file", "is given with --template")
-        from ...derive.template import TEMPLATE
+        from ...derive.user_model.template import TEMPLATE
 
         click.echo(TEMPLATE.rstrip("\n"))
         return
@@ -67,7 +67,7 @@ def _model(source: str, out: str | None, check: bool) -> None:
     if folder.resolve() == OWN:
         raise InputError("--out", out, "a folder of its own for a model", "is the package's own folder")
 
-    from ..derived import derived_package
+    from ..scene.user_model_derived import derived_package
 
     made = derived_package(Path(source), folder)
     click.echo(made.report)

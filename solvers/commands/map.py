@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..custom import fields
 from ..errors import InputError
-from ..ranges import check_cells, parse_range
-from ..schema import FIELDS, Field
+from ..scene.ranges import check_cells, parse_range
+from ..scene.schema import FIELDS, Field
+from ..scene.user_model import fields
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
 
 if TYPE_CHECKING:
     import xarray
 
-    from ..scene import Scene
+    from ..scene.scene import Scene
 
 
 @click.command("map", short_help="Outcome and restitution over a grid.")
@@ -81,7 +81,7 @@ def command(
     if "angle" not in axes:
         raise InputError("--angle", None, "LO:HI:N in degrees")
 
-    from ..requests import checked_vary
+    from ..many.batch import checked_vary
 
     checked_vary(scene, varied, "--vary")
     data = _computed(scene, axes, varied, tolerance, chosen, file)
@@ -111,7 +111,7 @@ def _reader(entry: Field, label: str) -> options.Reader:
 
 def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float]]:
     """Axes of --vary by dotted name."""
-    from ..requests import check_varies
+    from ..many.batch import check_varies
 
     found: dict[str, list[float]] = {}
     for text in vary:
@@ -138,8 +138,8 @@ def _computed(
     file: Path | None,
 ) -> xarray.Dataset:
     """Compute the map and write it; an interrupt leaves what is done and says how to go on."""
-    from ..journal import Journal
-    from ..regimes import regime_map, write
+    from ..many.journal import Journal
+    from ..many.regime_map import regime_map, write
     from .bar import bar
 
     journal = None if file is None else Journal(file.with_name(file.name + ".partial"))
@@ -188,11 +188,11 @@ def _computed(
 
 
 def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None:
-    from ..show_map import failures, table
+    from ..many.text_map import failures, table
 
     if picture is not None:
-        from ..draw_map import draw_map
-        from ..files import save
+        from ..host.files import save
+        from ..many.plot_map import draw_map
 
         save(draw_map(data), picture, dpi=150)
     if file is None and picture is None:

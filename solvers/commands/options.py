@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .. import files, outputs, units
-from ..custom import Package, fields, unknown
 from ..errors import InputError, shown
-from ..packages import open_package
-from ..ranges import parse_range
-from ..schema import FIELDS, unknown_entry
+from ..host import files, outputs
+from ..scene import units
+from ..scene.ranges import parse_range
+from ..scene.schema import FIELDS, unknown_entry
+from ..scene.user_model import Package, fields, unknown
+from ..scene.user_model_source import open_package
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from ..scene.scene import Scene
 
 Command = Callable[..., Any]
 Reader = Callable[[str], float]
@@ -103,8 +104,8 @@ class Asked:
 
     def scene(self) -> Scene:
         """Read the scene and change it as asked; InputError for whatever is wrong with it."""
-        from ..scene import Scene
-        from ..scenefile import PRESETS
+        from ..scene.scene import Scene
+        from ..scene.scenefile import PRESETS
 
         if self.source is None:
             raise InputError("SCENE", None, "a scene file (TOML) or a preset: " + ", ".join(PRESETS))

@@ -34,7 +34,7 @@ def command(
 
 def _listing() -> str:
     """One line a preset: its name, and what it is."""
-    from ..scenefile import PRESETS, description
+    from ..scene.scenefile import PRESETS, description
 
     width = max(map(len, PRESETS))
     return "\n".join(f"{name:<{width}}  {description(name)}" for name in PRESETS)

@@ -62,9 +62,9 @@ def command(
     Example:
       wetdoublet sensitivity granulation --of restitution,contact_time --plot tornado.png
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..sensitivity.gradients import check_method, sensitivities
     from ..sensitivity.parameters import check_hold, check_wrt
-    from ..sensitivity.quantities import check_of
+    from ..sensitivity.results import check_of
+    from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, spoken
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")

@@ -60,7 +60,7 @@ def command(
     if file is not None:
         options.put(report.to_markdown().rstrip("\n"), file)
     if picture is not None and report.budget is not None:
-        from ..verify.draw import draw_budget
+        from ..verify.plot import draw_budget
 
         draw_budget(report.budget, picture)
     if not report.ok:

@@ -12,20 +12,20 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from .. import boundary
-from ..cores import usable_cores
+from ..boundaries.line import ready
+from ..boundaries.look import Look
+from ..engines.taylor.build import knows
 from ..errors import ComputationError
-from ..look import Look
-from ..probe import ready
-from ..scene import Scene
+from ..host.cores import usable_cores
+from ..host.workers import lasting_workers
+from ..scene.scene import Scene
 from ..settings import RTOL
-from ..taylor.library import knows
-from ..workers import lasting_workers
 from .parts import number
 from .printed import CURVES
 
 if TYPE_CHECKING:
-    from ..bounds import Boundaries
-    from ..changes import Change
+    from ..boundaries.changes import Change
+    from ..boundaries.trace import Boundaries
 
 Line = tuple["Change", ...]
 Span = tuple[float, float]  # of St

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..scene import Scene
+from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
 from .desk import Desk, Line, outcomes
 from .fig4a import centrifugal, near_printed

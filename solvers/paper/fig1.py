@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from ..frames import sampled
-from ..result import Collision
-from ..simulate import collide
-from ..strip import draw_strip, strip_size
+from ..collision.collide import collide
+from ..collision.plot.frames import sampled
+from ..collision.plot.strip import draw_strip, strip_size
+from ..collision.result import Collision
 from .desk import Desk, Job, Line
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot

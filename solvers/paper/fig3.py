@@ -6,7 +6,7 @@ import math
 from functools import partial
 from pathlib import Path
 
-from ..scene import Scene
+from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shared_out, shown
 from .parts import Comparison, Part, Picture, Table, number

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import ComputationError
-from ..numbers import numbers
-from ..scene import Scene
+from ..model.dimensionless import numbers
+from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, outcomes, shown
 from .parts import Comparison, Part, Picture, Table, degrees, number

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..many import collide_many
-from ..scene import Scene
+from ..many.collide_many import collide_many
+from ..scene.scene import Scene
 from .desk import Desk, Line, outcomes
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import CURVES, PRINTED

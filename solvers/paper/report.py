@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 from pathlib import Path
 
-from .. import files
-from ..scene import Scene
+from ..host import files
+from ..scene.scene import Scene
 from .parts import Comparison, Part, Table
 from .printed import CITATION, NOT_COMPARED, PRINTED
 

@@ -11,7 +11,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..files import save
+from ..host.files import save
 
 COLUMN = 8.8  # cm
 DPI = 300

@@ -7,15 +7,15 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import files
-from ..scene import Scene
+from ..host import files
+from ..scene.scene import Scene
 from .desk import Desk
 from .parts import Part, Picture
 from .style import GREY, INK, sheet
 from .variants import BRIDGED, TETHERED, described
 
 if TYPE_CHECKING:
-    from ...derive.emit.theory import Equation
+    from ...derive.emit.document.theory import Equation
 
 _WIDTH = 17.5  # cm: the table spans both columns
 _TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm: lines with and without a fraction, headings
@@ -28,7 +28,7 @@ def make(desk: Desk, folder: Path) -> Part:
     bridged, tethered = Scene.load(BRIDGED), Scene.load(TETHERED)
     assert bridged.bridge is not None
     assert tethered.pendulum is not None
-    from ...derive.emit.theory import theory  # imports sympy
+    from ...derive.emit.document.theory import theory  # imports sympy
 
     model = bridged.model
     lines = theory(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..errors import ComputationError
-from ..scene import Scene
+from ..scene.scene import Scene
 from .desk import Desk, change_at
 
 _ENTRY = "liquid.glass_transition_pressure"

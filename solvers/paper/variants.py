@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..scene import Scene
+from ..scene.scene import Scene
 
 BRIDGED, DRY, TETHERED = "granulation", "granulation-dry-bridge", "pendulum"
 AS_PRINTED = "preset"

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import check_function
-from ..bounds import STOKES, Boundaries, boundary
-from ..changes import Change
+from ..boundaries.changes import Change
+from ..boundaries.trace import STOKES, Boundaries, boundary
 from ..errors import ComputationError, InputError
-from ..scene import Scene
+from ..host.arguments import check_function
+from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
-from .implicit import slope
+from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, references, way
 from .result import Row
 

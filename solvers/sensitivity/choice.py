@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from ..scene import Scene
+from ..engines.taylor.build import at_hand
+from ..engines.taylor.call import order_for
+from ..engines.taylor.tangent import variant_of
+from ..scene.scene import Scene
 from ..settings import FEW
-from ..taylor.along import variant_of
-from ..taylor.engine import order_for
-from ..taylor.library import at_hand
-from . import kernel
+from . import by_kernel as kernel
 
 
 def chosen(scene: Scene, of: Sequence[str], oblique: Collection[bool], rtol: float, count: int = 1) -> str:

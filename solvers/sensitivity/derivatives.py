@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from casadi import DM, MX, Function, densify, jtimes
 
-from ..caches import own_cache
-from ..integrators import IntegrationFailed, quiet
-from ..interrupts import check
-from ..said import listening
-from .flight import Flight
+from ..engines.casadi.integrators import IntegrationFailed, quiet
+from ..host.captured_stderr import listening
+from ..host.interrupts import check
+from ..host.thread_caches import own_cache
+from .trajectory_expression import Flight
 
 # Largest landing step over its phase. The error of a first derivative is of its square, times how much the flight
 # amplifies, which near a saddle is one over the distance; that of a second derivative is of the step itself.

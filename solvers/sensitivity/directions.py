@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, settled
-from .flight import Course, Flight
+from .trajectory_expression import Course, Flight
 
 Active = list[bool]
 

@@ -14,12 +14,12 @@ import numpy as np
 from casadi import SX, Function, densify, hessian, jacobian, substitute, vertcat
 
 from ...generated import scaling
-from ..arguments import check_names
-from ..caches import own_cache
 from ..errors import InputError, did_you_mean
-from ..numbers import Formula, formulas
-from ..scene import Scene
-from ..schema import FIELDS
+from ..host.arguments import check_names
+from ..host.thread_caches import own_cache
+from ..model.dimensionless import Formula, formulas
+from ..scene.scene import Scene
+from ..scene.schema import FIELDS
 
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
 HOLDS = ("speed", "stokes")

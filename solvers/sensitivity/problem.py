@@ -7,19 +7,19 @@ from typing import Literal
 
 import numpy as np
 
+from ..engines.casadi.integrators import IntegrationFailed, tolerance
+from ..engines.casadi.locate import Locate, Path
 from ..errors import ComputationError
-from ..integrators import IntegrationFailed, tolerance
-from ..locate import Locate, Path
-from ..model import choose, load
-from ..numbers import Numbers, numbers
-from ..scene import Scene
-from . import nearness
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import choose, load
+from ..scene.scene import Scene
+from . import boundary_distance as nearness
 from .derivatives import LANDED_WELL, settled
 from .directions import bent, differentiated, landed
-from .flight import course_of, flight, influential
 from .parameters import SCALES, Kind, Way, kind_of, references, way
-from .quantities import QUANTITIES
 from .result import Near
+from .results import QUANTITIES
+from .trajectory_expression import course_of, flight, influential
 
 _LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
 NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .quantities import QUANTITIES
+from .results import QUANTITIES
 
 if TYPE_CHECKING:
     import xarray
 
-    from ..scene import Scene
+    from ..scene.scene import Scene
 
 Row = Mapping[str, float | None]
 _SHOWN = 5  # quantities side by side
@@ -170,8 +170,8 @@ class Sensitivities:
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
-        from ..files import save
-        from ..outputs import PICTURES, check_file
+        from ..host.files import save
+        from ..host.outputs import PICTURES, check_file
         from .tornado import draw
 
         file = None if path is None else check_file(path, "path", PICTURES)

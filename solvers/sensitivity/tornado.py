@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from .quantities import QUANTITIES
+from .results import QUANTITIES
 
 if TYPE_CHECKING:
     from .result import Sensitivities

@@ -14,19 +14,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 
-from ..caches import own_cache
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
+from ..engines.casadi.locate import Path
 from ..errors import ComputationError, InputError
-from ..integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
-from ..locate import Path
-from ..model import choose
-from ..phases import Flow, expressions
-from ..scene import Scene
+from ..host.thread_caches import own_cache
+from ..model.model import choose
+from ..model.phases import Flow, expressions
+from ..scene.scene import Scene
 from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
 from .directions import inverse, landed, spanning
-from .flight import Course, course_of, ending, flown, influential, symbols
 from .parameters import check_hold, check_wrt, way
 from .problem import Problem
+from .trajectory_expression import Course, course_of, ending, flown, influential, symbols
 
 if TYPE_CHECKING:
     import xarray

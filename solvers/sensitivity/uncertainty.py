@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..arguments import check_mapping, check_name, check_whole
 from ..errors import ComputationError, InputError
-from ..many import OUTCOMES, collide_many
-from ..requests import QUANTITIES as MANY
-from ..requests import checked_numbers
-from ..scene import Scene
-from ..schema import FIELDS, Field
-from .many import gradients_many
+from ..host.arguments import check_mapping, check_name, check_whole
+from ..many.batch import QUANTITIES as MANY
+from ..many.batch import checked_numbers
+from ..many.collide_many import OUTCOMES, collide_many
+from ..scene.scene import Scene
+from ..scene.schema import FIELDS, Field
+from .gradients_many import gradients_many
 from .parameters import check_wrt
 from .result import Sensitivities
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..arguments import check_mapping, check_name, check_whole
 from ..errors import ComputationError, InputError
-from ..many import FAILED, collide_many
-from ..requests import QUANTITIES as MANY
-from ..scene import Scene
+from ..host.arguments import check_mapping, check_name, check_whole
+from ..many.batch import QUANTITIES as MANY
+from ..many.collide_many import FAILED, collide_many
+from ..scene.scene import Scene
 from ..settings import check_rtol
 from .parameters import check_wrt
 from .uncertainty import check_samples

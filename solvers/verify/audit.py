@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..engines.casadi.integrators import Locator, Stop
+from ..engines.casadi.locate import Locate, Path
 from ..errors import ComputationError, WetDoubletError
-from ..integrators import Locator, Stop
-from ..locate import Locate, Path
-from ..model import choose, load
-from ..numbers import Numbers, numbers
-from ..phases import Phase
-from ..scene import Scene
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import choose, load
+from ..model.phases import Phase
+from ..scene.scene import Scene
 from .report import Finding
 from .sample import own_stokes, place
 

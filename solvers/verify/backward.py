@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from casadi import SX, Function, integrator, jacobian, reshape, vertcat
 
-from ..caches import own_cache
-from ..chain import Piece
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet
+from ..engines.casadi.replay import Piece
 from ..errors import WetDoubletError
-from ..integrators import IntegrationFailed, Tolerance, plain, quiet
-from ..phases import Flow, expressions
+from ..host.thread_caches import own_cache
+from ..model.phases import Flow, expressions
 from .follow import Followed, follow
 from .report import Finding, bounded
 from .sample import PLUGINS, REFERENCE, RTOL, Sample, place

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..collision.collide import collide
+from ..collision.result import Collision
 from ..errors import WetDoubletError
-from ..result import Collision
-from ..scene import Scene
-from ..simulate import collide
+from ..scene.scene import Scene
 
 if TYPE_CHECKING:
     import xarray

@@ -11,13 +11,13 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ..collision.collide import collide
+from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
 from ..errors import ComputationError
-from ..integrators import IntegrationFailed, plain, tolerance
-from ..model import choose, load
-from ..numbers import Numbers, numbers
-from ..phases import Flow, Region
-from ..scene import Scene
-from ..simulate import collide
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import choose, load
+from ..model.phases import Flow, Region
+from ..scene.scene import Scene
 from .report import Finding, bounded
 from .sample import PLUGINS, RTOL, own_stokes, place
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..collision.collide import collide
+from ..collision.result import Collision
 from ..errors import WetDoubletError
-from ..result import Collision
-from ..simulate import collide
 from .report import Finding, bounded
 from .sample import REFERENCE, RTOL, Sample, where
 

@@ -11,9 +11,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..many import FAILED, collide_many
-from ..scene import Scene
-from ..taylor.library import knows
+from ..engines.taylor.build import knows
+from ..many.collide_many import FAILED, collide_many
+from ..scene.scene import Scene
 
 _FINER = 16  # steps of the scan to one of the grid where a collision takes microseconds
 _PARTS = 32  # that a bracket is cut into at a time

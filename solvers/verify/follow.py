@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..chain import Flown, Stopped, fly
+from ..engines.casadi.integrators import Tolerance, tolerance
+from ..engines.casadi.locate import Path, locate
+from ..engines.casadi.replay import Flown, Stopped, fly
 from ..errors import ComputationError
-from ..integrators import Tolerance, tolerance
-from ..locate import Path, locate
-from ..model import Model, choose, load
-from ..numbers import Numbers, numbers
-from ..phases import Flow, Region
-from ..scene import Scene
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import Model, choose, load
+from ..model.phases import Flow, Region
+from ..scene.scene import Scene
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..emitted import DERIVING
-from ..model import choose
+from ..host.emitted import DERIVING
+from ..model.model import choose
 from .report import Finding
 
 if TYPE_CHECKING:
     from ...derive.checks import Check
-    from ..custom import Package
-    from ..scene import Scene
+    from ..scene.scene import Scene
+    from ..scene.user_model import Package
 
 
 def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
@@ -22,7 +22,7 @@ def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
     A user's laws have checks of their own, after these.
     """
     from ...derive.checks import symbolic_checks
-    from ...derive.laws import LAWS
+    from ...derive.physics.laws import LAWS
 
     chosen = choose(scene, oblique=True, full=True).laws if scene is not None else ()
     laws = {slot: LAWS[slot][name] for slot, name in chosen if name in LAWS[slot]}

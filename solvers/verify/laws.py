@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from ..errors import WetDoubletError
-from ..scene import Scene
+from ..scene.scene import Scene
 from .audit import stick_audit
 from .backward import backward
 from .closed import closed_forms

@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..collision.collide import collide
+from ..collision.result import Collision
 from ..errors import WetDoubletError
-from ..result import Collision
 from ..settings import ENGINES
-from ..simulate import collide
 from .report import Finding
 from .sample import REFERENCE, Sample, place
 

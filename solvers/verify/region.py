@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray
 
-from ..scene import Scene
+from ..scene.scene import Scene
 from .budget import LOSSES, TERMS, restitution_budget
 from .conserved import RESIDUAL
 from .edges import Above, above_one

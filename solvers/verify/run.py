@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from ..scene import Scene
-from ..scenefile import PRESETS
+from ..scene.scene import Scene
+from ..scene.scenefile import PRESETS
 from .identities import symbolic
 from .laws import numeric
 from .region import grid

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
+from ..collision.collide import collide
+from ..collision.result import Collision
 from ..errors import InputError, WetDoubletError
-from ..result import Collision
-from ..scene import Scene
+from ..scene.scene import Scene
 from ..settings import ENGINES
-from ..simulate import collide
 
 RTOL = 1e-10
 ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))

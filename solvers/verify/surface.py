@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 from casadi import SX, Function, integrator, vertcat
 
-from ..caches import own_cache
+from ..engines.casadi.integrators import quiet
 from ..errors import WetDoubletError
-from ..integrators import quiet
-from ..phases import Flow, expressions
+from ..host.thread_caches import own_cache
+from ..model.phases import Flow, expressions
 from .follow import Followed, follow
 from .report import Finding, bounded
 from .sample import REFERENCE, RTOL, Sample, place

@@ -18,11 +18,11 @@ from pathlib import Path
 
 import numpy as np
 from wetdoublet.solvers import InputError, Scene
-from wetdoublet.solvers.arcs import CHORD, Arc
-from wetdoublet.solvers.atlases import Atlas, atlas
-from wetdoublet.solvers.plane import ANGLE, check_plane
-from wetdoublet.solvers.regions import apart
-from wetdoublet.solvers.schema import BRIDGE_LAWS, FILM_LAWS
+from wetdoublet.solvers.boundaries.arcs import CHORD, Arc
+from wetdoublet.solvers.boundaries.atlas import Atlas, atlas
+from wetdoublet.solvers.boundaries.plane import ANGLE, check_plane
+from wetdoublet.solvers.boundaries.regions import apart
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS, FILM_LAWS
 
 SCALED = (
     "particles.reduced_radius", "particles.reduced_mass", "particles.roughness", "particles.youngs_modulus",

@@ -17,12 +17,13 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from wetdoublet.solvers import compiled, integrators
-from wetdoublet.solvers.benchmarks.answers import dimensionless
-from wetdoublet.solvers.benchmarks.environment import environment
-from wetdoublet.solvers.benchmarks.tasks import TASKS, Task
-from wetdoublet.solvers.locate import locate
-from wetdoublet.solvers.model import choose, load
+from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.host import compiled
+from wetdoublet.solvers.host.environment import environment
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.verify.stress.answers import dimensionless
+from wetdoublet.solvers.verify.stress.impacts import TASKS, Task
 
 LEVELS = ("-O1", "-O2", "-O3")
 RTOL, ROUNDS, REPEATS = 1e-8, 3, 5

@@ -14,15 +14,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.benchmarks.answers import dimensionless
-from wetdoublet.solvers.benchmarks.environment import environment
 from wetdoublet.solvers.benchmarks.reference import reference
-from wetdoublet.solvers.benchmarks.tasks import TASKS, Impact, Task
-from wetdoublet.solvers.chain import Stopped, fly
-from wetdoublet.solvers.integrators import Tolerance
-from wetdoublet.solvers.locate import locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.phases import Flow, Region
+from wetdoublet.solvers.engines.casadi.integrators import Tolerance
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.engines.casadi.replay import Stopped, fly
+from wetdoublet.solvers.host.environment import environment
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.phases import Flow, Region
+from wetdoublet.solvers.verify.stress.answers import dimensionless
+from wetdoublet.solvers.verify.stress.impacts import TASKS, Impact, Task
 
 RTOLS = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 COUNT = 60  # impacts drawn a task, by the seed of the benchmark

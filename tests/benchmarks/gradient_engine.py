@@ -25,7 +25,7 @@ import numpy as np
 from kernel import table
 from kinds import scenes as kinds
 from wetdoublet.solvers import Scene, gradients_many, sensitivities
-from wetdoublet.solvers.benchmarks.environment import environment
+from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.settings import FEW
 
 ROOT = Path(__file__).resolve().parents[2]

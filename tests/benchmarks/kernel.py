@@ -3,7 +3,7 @@
     python tests/benchmarks/kernel.py            measures, prints, writes docs/performance/kernel.json and the page
     python tests/benchmarks/kernel.py --print    only prints
 
-Both tasks of solvers/benchmarks/tasks.py, each set repeated 20 times in one call; CPU time over the collisions that are
+Both tasks of verify/stress/impacts.py, each set repeated 20 times in one call; CPU time over the collisions that are
 not decided at first touch, the best of five runs; error against Rosenbrock at 1e-12.
 """
 
@@ -18,9 +18,10 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene, collide_many
-from wetdoublet.solvers.benchmarks.environment import environment
-from wetdoublet.solvers.benchmarks.tasks import Task
-from wetdoublet.solvers.taylor import engine, library
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.host.environment import environment
+from wetdoublet.solvers.verify.stress.impacts import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel.json"

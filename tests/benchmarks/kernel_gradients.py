@@ -22,12 +22,13 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import gradients_many
-from wetdoublet.solvers.benchmarks.environment import environment
 from wetdoublet.solvers.benchmarks.gradient_task import Gradients
-from wetdoublet.solvers.benchmarks.tasks import Task
-from wetdoublet.solvers.sensitivity.kernel import along
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.host.environment import environment
+from wetdoublet.solvers.sensitivity.by_kernel import along
 from wetdoublet.solvers.sensitivity.parameters import known
-from wetdoublet.solvers.taylor import engine, library
+from wetdoublet.solvers.verify.stress.impacts import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel_gradients.json"

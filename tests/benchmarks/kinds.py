@@ -21,12 +21,13 @@ from typing import Any
 
 import numpy as np
 from kernel import table
-from wetdoublet.derive.template import TEMPLATE
-from wetdoublet.solvers import Scene, many
-from wetdoublet.solvers.benchmarks.environment import environment
-from wetdoublet.solvers.benchmarks.tasks import Task
-from wetdoublet.solvers.requests import Request, requested
-from wetdoublet.solvers.taylor.many import collided
+from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.host.environment import environment
+from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.batch import Request, requested
+from wetdoublet.solvers.many.by_kernel import collided
+from wetdoublet.solvers.verify.stress.impacts import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kinds.json"

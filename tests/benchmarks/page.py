@@ -15,8 +15,8 @@ from typing import Any
 
 from wetdoublet.solvers.benchmarks import tables
 from wetdoublet.solvers.benchmarks.cold import cold_table
-from wetdoublet.solvers.benchmarks.markdown import ms, table
 from wetdoublet.solvers.benchmarks.targets import headline, target_table
+from wetdoublet.solvers.formatting.markdown import ms, table
 
 Record = dict[str, Any]
 

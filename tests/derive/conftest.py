@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 from wetdoublet.derive.checks import Check, symbolic_checks
-from wetdoublet.derive.model import Model, derive
-from wetdoublet.derive.structure import structures
+from wetdoublet.derive.equations.model import Model, derive
+from wetdoublet.derive.physics.structure import structures
 
 _ROOT = derive.__module__.rsplit(".", 1)[0]
 # What is remembered of forces and models; mechanics, laws and scaling are functions of their arguments alone.

@@ -7,15 +7,15 @@ import math
 import numpy as np
 import pytest
 import sympy as sp
-from wetdoublet.derive import quantities as q
 from wetdoublet.derive.checks import symbolic_checks
 from wetdoublet.derive.checks.admission import certificate
 from wetdoublet.derive.checks.dissipation import shear_range
 from wetdoublet.derive.checks.restitution import ceiling
 from wetdoublet.derive.checks.signs import nonnegative
-from wetdoublet.derive.invariants import NoInvariantError, conserved_momentum, invariants
-from wetdoublet.derive.laws import LAWS
-from wetdoublet.derive.structure import Structure
+from wetdoublet.derive.equations.invariants import NoInvariantError, conserved_momentum, invariants
+from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.physics.structure import Structure
+from wetdoublet.derive.vocabulary import quantities as q
 
 MIDGAP, SURFACE = ({"arm": LAWS["arm"][name]} for name in ("midgap", "surface"))
 DEFAULT = {"film": "finite", "shear": "immersed", "bridge": "mikami", "strings": "exact"}

@@ -8,25 +8,40 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from wetdoublet.derive import forces, observables
-from wetdoublet.derive import quantities as q
 from wetdoublet.derive.checks import Check
 from wetdoublet.derive.checks.admission import certificate
 from wetdoublet.derive.checks.certificate import least_energy, least_energy_is_a_minimum
 from wetdoublet.derive.checks.conservation import energy
 from wetdoublet.derive.checks.dimensions import dimension_checks, si_equations
-from wetdoublet.derive.checks.dissipation import arms, bridge_does_work, film_dissipates, reversal_dissipates
-from wetdoublet.derive.checks.groups import centrifugal_number, groups_are_the_papers, groups_span_the_nullspace
-from wetdoublet.derive.checks.laws import film_ends, head_on_closed_form, rigid_rotation_is_free, small_angle_is_linear
+from wetdoublet.derive.checks.dissipation import (
+    arms,
+    bridge_does_work,
+    film_dissipates,
+    reversal_dissipates,
+)
+from wetdoublet.derive.checks.groups import (
+    centrifugal_number,
+    groups_are_the_papers,
+    groups_span_the_nullspace,
+)
+from wetdoublet.derive.checks.laws import (
+    film_ends,
+    head_on_closed_form,
+    rigid_rotation_is_free,
+    small_angle_is_linear,
+)
 from wetdoublet.derive.checks.limits import reduced_is_full
 from wetdoublet.derive.checks.mechanics import inertia_is_rigid_rotation, strings_are_conservative
 from wetdoublet.derive.checks.restitution import ceiling_is_the_published
-from wetdoublet.derive.events import reversal, reversal_loss
-from wetdoublet.derive.intermediates import CENTRIFUGAL_FORCE, intermediates
-from wetdoublet.derive.laws import LAWS, Law
-from wetdoublet.derive.mechanics import F_c, F_n, F_t, S_t, doublet_inertia
-from wetdoublet.derive.scaling import group_definitions
-from wetdoublet.derive.structure import Structure
+from wetdoublet.derive.equations import observables
+from wetdoublet.derive.equations.events import reversal, reversal_loss
+from wetdoublet.derive.equations.intermediates import CENTRIFUGAL_FORCE, intermediates
+from wetdoublet.derive.physics import forces
+from wetdoublet.derive.physics.laws import LAWS, Law
+from wetdoublet.derive.physics.mechanics import F_c, F_n, F_t, S_t, doublet_inertia
+from wetdoublet.derive.physics.scaling import group_definitions
+from wetdoublet.derive.physics.structure import Structure
+from wetdoublet.derive.vocabulary import quantities as q
 
 OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 Mutate = Callable[[Any, Any], None]

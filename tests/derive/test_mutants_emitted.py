@@ -7,8 +7,6 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from wetdoublet.derive import events, observables, rates, tethered
-from wetdoublet.derive import quantities as q
 from wetdoublet.derive.checks.emitted import (
     events_are_the_definitions,
     inward_is_minus_the_acceleration,
@@ -19,10 +17,13 @@ from wetdoublet.derive.checks.emitted import (
 )
 from wetdoublet.derive.checks.margins import margins, margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
-from wetdoublet.derive.events import reversal_loss
-from wetdoublet.derive.laws import slot_call
-from wetdoublet.derive.mechanics import F_t
-from wetdoublet.derive.structure import Structure
+from wetdoublet.derive.equations import events, observables, rates
+from wetdoublet.derive.equations.certificates import strings as tethered
+from wetdoublet.derive.equations.events import reversal_loss
+from wetdoublet.derive.physics.laws import slot_call
+from wetdoublet.derive.physics.mechanics import F_t
+from wetdoublet.derive.physics.structure import Structure
+from wetdoublet.derive.vocabulary import quantities as q
 
 from .test_mutants import Healthy, Mutate, altered_force, caught
 

@@ -10,8 +10,8 @@ import pytest
 import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from wetdoublet.derive.emit.printer import EmissionError, Printer
-from wetdoublet.derive.laws import slot_call
+from wetdoublet.derive.emit.casadi.printer import EmissionError, Printer
+from wetdoublet.derive.physics.laws import slot_call
 
 x, y, z = sp.symbols("x y z", real=True)
 p, q = sp.symbols("p q", positive=True)

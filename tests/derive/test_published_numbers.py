@@ -10,7 +10,7 @@ from itertools import product
 from types import ModuleType
 
 import pytest
-from wetdoublet.derive.structure import Structure, structures
+from wetdoublet.derive.physics.structure import Structure, structures
 from wetdoublet.generated import scaling
 from wetdoublet.generated.assemble import Laws
 
@@ -97,7 +97,7 @@ def test_every_bridge_law_is_retyped():
 
 
 def _law_modules(slot: str) -> list[ModuleType]:
-    from wetdoublet.derive.laws import LAWS
+    from wetdoublet.derive.physics.laws import LAWS
 
     modules = [emitted(f"laws.{law.module}") for law in LAWS[slot].values()]
     for module in modules:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 import sympy as sp
-from wetdoublet.derive import quantities as q
-from wetdoublet.derive import scaling
-from wetdoublet.derive.forces import FILM, SHEAR, force_laws
-from wetdoublet.derive.laws import LAWS, fill, film, glass, shear, strings
-from wetdoublet.derive.laws.reversal import elastic_compliance, elastic_length
-from wetdoublet.derive.laws.rupture import rupture_distance
-from wetdoublet.derive.laws.start import start_values
-from wetdoublet.derive.mechanics import (
+from wetdoublet.derive.equations.model import Model
+from wetdoublet.derive.physics import scaling
+from wetdoublet.derive.physics.forces import FILM, SHEAR, force_laws
+from wetdoublet.derive.physics.laws import LAWS, fill, film, glass, shear, strings
+from wetdoublet.derive.physics.laws.reversal import elastic_compliance, elastic_length
+from wetdoublet.derive.physics.laws.rupture import rupture_distance
+from wetdoublet.derive.physics.laws.start import start_values
+from wetdoublet.derive.physics.mechanics import (
     F_c,
     F_n,
     F_t,
@@ -24,7 +24,7 @@ from wetdoublet.derive.mechanics import (
     sphere_inertia,
     string_forces,
 )
-from wetdoublet.derive.model import Model
+from wetdoublet.derive.vocabulary import quantities as q
 
 a, m, x, u, omega, xi = q.a, q.m, q.x, q.u, q.omega, q.xi
 mu, x0, v0, sigma, beta, g, length = q.mu, q.x0, q.v0, q.sigma, q.beta, q.g, q.l_s

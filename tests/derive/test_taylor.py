@@ -6,14 +6,14 @@ import re
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.emit.printer import EmissionError
-from wetdoublet.derive.emit.taylor import structure_header
-from wetdoublet.derive.emit.taylor_laws import law_header, moves
-from wetdoublet.derive.emit.taylor_program import Program, cheapest
-from wetdoublet.derive.emit.taylor_work import antiderivative
-from wetdoublet.derive.laws import LAWS
-from wetdoublet.derive.model import derive
-from wetdoublet.derive.structure import Structure
+from wetdoublet.derive.emit.casadi.printer import EmissionError
+from wetdoublet.derive.emit.taylor.antiderivative import antiderivative
+from wetdoublet.derive.emit.taylor.header import structure_header
+from wetdoublet.derive.emit.taylor.law_header import law_header, moves
+from wetdoublet.derive.emit.taylor.program import Program, cheapest
+from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.physics.structure import Structure
 
 x, y = sp.symbols("x y", positive=True)
 c = sp.Symbol("c", positive=True)

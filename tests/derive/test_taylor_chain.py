@@ -7,15 +7,15 @@ import random
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.emit.printer import EmissionError
-from wetdoublet.derive.emit.taylor import Beside
-from wetdoublet.derive.emit.taylor_chain import Chain
-from wetdoublet.derive.emit.taylor_tangent import tangent_header
-from wetdoublet.derive.forces import FILM, SHEAR
-from wetdoublet.derive.laws import LAWS
-from wetdoublet.derive.laws.base import Law, fill
-from wetdoublet.derive.model import derive
-from wetdoublet.derive.structure import structures
+from wetdoublet.derive.emit.casadi.printer import EmissionError
+from wetdoublet.derive.emit.taylor.chain_rule import Chain
+from wetdoublet.derive.emit.taylor.header import Beside
+from wetdoublet.derive.emit.taylor.tangent import tangent_header
+from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.physics.forces import FILM, SHEAR
+from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.physics.laws.base import Law, fill
+from wetdoublet.derive.physics.structure import structures
 
 DRAW = random.Random(3)
 CHOSEN = {

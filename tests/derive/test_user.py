@@ -6,19 +6,19 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.bounds import Bounds, BoundsError
 from wetdoublet.derive.checks.user import checks_of, model_checks
-from wetdoublet.derive.compare import same
-from wetdoublet.derive.dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, TIME
-from wetdoublet.derive.emit.document import document
-from wetdoublet.derive.laws import LAWS, fill
-from wetdoublet.derive.model import derive
-from wetdoublet.derive.modelfile import read
-from wetdoublet.derive.structure import Structure, structures
-from wetdoublet.derive.template import TEMPLATE
-from wetdoublet.derive.unitnames import UnitError, dimension_of_unit
+from wetdoublet.derive.checks.words import conserved, in_words
+from wetdoublet.derive.emit.compare import same
+from wetdoublet.derive.emit.document.document import document
+from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.physics.laws import LAWS, fill
+from wetdoublet.derive.physics.structure import Structure, structures
 from wetdoublet.derive.user import ModelFileError
-from wetdoublet.derive.words import conserved, in_words
+from wetdoublet.derive.user_model.modelfile import read
+from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.derive.vocabulary.allowed_values import Bounds, BoundsError
+from wetdoublet.derive.vocabulary.dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, TIME
+from wetdoublet.derive.vocabulary.unitnames import UnitError, dimension_of_unit
 
 HEAD = "from wetdoublet.derive.user import *\n"
 

@@ -10,7 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wetdoublet.derive.checks.conservation import energy_balance, momentum_rate
 from wetdoublet.derive.checks.dimensions import dimension_checks, si_equations
-from wetdoublet.derive.dimensions import (
+from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.physics.mechanics import equations_of_motion
+from wetdoublet.derive.physics.structure import Structure
+from wetdoublet.derive.vocabulary.dimensions import (
     FORCE,
     LENGTH,
     MASS,
@@ -22,11 +26,7 @@ from wetdoublet.derive.dimensions import (
     demand_dimension,
     dimension_of,
 )
-from wetdoublet.derive.laws import LAWS
-from wetdoublet.derive.mechanics import equations_of_motion
-from wetdoublet.derive.model import derive
-from wetdoublet.derive.quantities import DIMENSIONS, a, m, mu, u, v0, x, x0
-from wetdoublet.derive.structure import Structure
+from wetdoublet.derive.vocabulary.quantities import DIMENSIONS, a, m, mu, u, v0, x, x0
 
 ANY = sp.Symbol("unheard_of")
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.derive.emit.write import GENERATED, check, emitted
-from wetdoublet.solvers.files import write_all_in
+from wetdoublet.solvers.host.files import write_all_in
 
 DERIVE = GENERATED.parent / "derive"
 # as committed, which is as emitted by the first test: nothing is derived to collect these tests

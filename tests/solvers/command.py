@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from click.testing import CliRunner, Result
-from wetdoublet.solvers.cli import cli
+from wetdoublet.solvers.commands.cli import cli
 
 
 def run(*arguments: object) -> Result:

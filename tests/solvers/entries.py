@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.scene import Scene
+from wetdoublet.solvers.scene.scene import Scene
 
 BASE = {  # granulation, as a file has it
     "particles.reduced_radius": "50 um",

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from wetdoublet.solvers import InputError, Scene
-from wetdoublet.solvers.scenefile import PRESETS, read_text
+from wetdoublet.solvers.scene.scenefile import PRESETS, read_text
 
 SECONDS, MEGABYTES = 3.0, 100.0  # the most that a file may take
 _ROOT = Path(__file__).resolve().parents[2]

@@ -22,12 +22,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.cores import usable_cores
-from wetdoublet.solvers.numbers import si_values
-from wetdoublet.solvers.taylor.along import carried
-from wetdoublet.solvers.taylor.engine import Impacts, answers
-from wetdoublet.solvers.taylor.record import Purpose, recorded
+from wetdoublet.solvers.engines.taylor.call import Impacts, answers
+from wetdoublet.solvers.engines.taylor.record import Purpose, recorded
+from wetdoublet.solvers.engines.taylor.tangent import carried
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.host.cores import usable_cores
+from wetdoublet.solvers.model.dimensionless import si_values
 
 # Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
 FLAGS = (

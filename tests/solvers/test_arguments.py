@@ -17,8 +17,8 @@ from wetdoublet.solvers import (
     regime_map,
     sensitivities,
 )
-from wetdoublet.solvers.requests import checked_numbers
-from wetdoublet.solvers.units import quantity
+from wetdoublet.solvers.many.batch import checked_numbers
+from wetdoublet.solvers.scene.units import quantity
 
 
 @pytest.fixture(scope="module")

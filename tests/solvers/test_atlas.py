@@ -10,11 +10,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, boundary_sensitivities, collide_many
-from wetdoublet.solvers.boundary_plot import draw
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.probe import approach
+from wetdoublet.solvers import (
+    Atlas,
+    InputError,
+    Scene,
+    atlas,
+    boundary,
+    boundary_sensitivities,
+    collide_many,
+)
+from wetdoublet.solvers.boundaries.line import approach
+from wetdoublet.solvers.boundaries.plot import draw
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 
 from .command import run
 

@@ -7,7 +7,7 @@ import math
 
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide
-from wetdoublet.solvers.cli import main
+from wetdoublet.solvers.commands.cli import main
 
 from .newton import Bodies, flown
 

@@ -10,25 +10,25 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide, collide_many
-from wetdoublet.solvers import locate as locating
 from wetdoublet.solvers.benchmarks import features, lines, needs
 from wetdoublet.solvers.benchmarks import growth as growing
 from wetdoublet.solvers.benchmarks import reference as references
 from wetdoublet.solvers.benchmarks import run as running
 from wetdoublet.solvers.benchmarks import work as working
-from wetdoublet.solvers.benchmarks.answers import Answer, answer
 from wetdoublet.solvers.benchmarks.cold import COMMANDS
 from wetdoublet.solvers.benchmarks.engines import Engine, engines
 from wetdoublet.solvers.benchmarks.features import HORIZON, certificate
-from wetdoublet.solvers.benchmarks.markdown import table
 from wetdoublet.solvers.benchmarks.record import write
 from wetdoublet.solvers.benchmarks.reference import Reference, reference
 from wetdoublet.solvers.benchmarks.tables import equal_error, failures, report
-from wetdoublet.solvers.benchmarks.tasks import TASKS, Impact, Task
 from wetdoublet.solvers.benchmarks.work import work
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.engines.casadi import locate as locating
+from wetdoublet.solvers.formatting.markdown import table
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.verify.stress.answers import Answer, answer
+from wetdoublet.solvers.verify.stress.impacts import TASKS, Impact, Task
 
 OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor", "taylor, kernel alone")
 TINY = (Task("granulation", 3, (0.02, 0.5), 85.0), Task("pendulum", 2, (1.0, 3.0), 80.0))
@@ -57,7 +57,7 @@ def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
 def test_peers_solve_the_same_problem(reference: dict[str, Any], method: str, rtol: float, within: float) -> None:
     """Scipy's methods reach the reference's outcome, restitution and first criterion."""
     pytest.importorskip("scipy")
-    from wetdoublet.solvers.benchmarks.peers import fly
+    from wetdoublet.solvers.verify.stress.scipy_engine import fly
 
     path = fly(*_numbers(reference), rtol, method)
     expected = reference["results"]
@@ -86,7 +86,7 @@ def test_reference_values_equal_the_independent_ones(reference: dict[str, Any]) 
 def test_a_hidden_graze_is_found_by_the_peers() -> None:
     """A glass criterion that is met and left within one step is met: its minimum is looked for between the ends."""
     pytest.importorskip("scipy")
-    from wetdoublet.solvers.benchmarks.peers import fly
+    from wetdoublet.solvers.verify.stress.scipy_engine import fly
 
     scene = Scene.load("granulation")
     angle = np.radians(60.0)

@@ -11,7 +11,7 @@ from wetdoublet.solvers.benchmarks import cold, gradient_work, near, plots_more,
 from wetdoublet.solvers.benchmarks.engines import HEYOKA, Answer
 from wetdoublet.solvers.benchmarks.gradient_task import Gradients
 from wetdoublet.solvers.benchmarks.gradient_work import Method
-from wetdoublet.solvers.benchmarks.tasks import Impact
+from wetdoublet.solvers.verify.stress.impacts import Impact
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide
-from wetdoublet.solvers.bounded import NotRead, read
+from wetdoublet.solvers.host.bounded import NotRead, read
 
 from .command import PATIENCE, run
 from .mutations import files, judged

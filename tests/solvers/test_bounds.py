@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Boundaries, InputError, Scene, boundary, collide, collide_many
-from wetdoublet.solvers.bounds import trace
+from wetdoublet.solvers.boundaries.trace import trace
 
 from .command import run
 

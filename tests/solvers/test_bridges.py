@@ -9,7 +9,7 @@ import sys
 
 import pytest
 from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide, collide_many
-from wetdoublet.solvers.schema import BRIDGE_LAWS
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
 # an independent prototype's Ce* at 45 deg with the surface arm, granulation
 CRITICAL = {

@@ -12,9 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import cache, collide_many, emitted
-from wetdoublet.solvers.compilers import compiler, library
-from wetdoublet.solvers.taylor.library import kernel
+from wetdoublet.solvers import collide_many
+from wetdoublet.solvers.engines.taylor.build import kernel
+from wetdoublet.solvers.host import emitted
+from wetdoublet.solvers.host import user_cache as cache
+from wetdoublet.solvers.host.compiler import compiler, library
 
 from .disks import fill, small_disk
 
@@ -131,7 +133,7 @@ def test_a_damaged_derivation_is_derived_again(shelf: Path, capfd: pytest.Captur
     assert "was damaged: it is made again" in capfd.readouterr().err
 
 
-_INCH = 'from wetdoublet.solvers.units import quantity; print(quantity("1 inch", "m", "x", "a length"))'
+_INCH = 'from wetdoublet.solvers.scene.units import quantity; print(quantity("1 inch", "m", "x", "a length"))'
 
 
 def test_a_damaged_unit_is_read_again(shelf: Path, tmp_path: Path):

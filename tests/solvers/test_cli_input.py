@@ -9,8 +9,8 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
-from wetdoublet.solvers.ranges import parse_range
-from wetdoublet.solvers.scene import Scene
+from wetdoublet.solvers.scene.ranges import parse_range
+from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.settings import check_engine, check_rtol
 
 from .command import run
@@ -42,7 +42,7 @@ def collision(module):
             to_dict=lambda: {"outcome": "stick"}, plot=asked.setdefault("plots", []).append
         )
 
-    module("wetdoublet.solvers.simulate", collide=collide)
+    module("wetdoublet.solvers.collision.collide", collide=collide)
     return asked
 
 
@@ -275,7 +275,7 @@ def test_version_and_module():
 
 def test_a_reader_that_leaves():
     """A broken pipe is quiet."""
-    code = "import os; os.close(0); from wetdoublet.solvers.cli import main; main(['scenes', 'granulation'])"
+    code = "import os; os.close(0); from wetdoublet.solvers.commands.cli import main; main(['scenes', 'granulation'])"
     read, write = os.pipe()
     os.close(read)
     done = subprocess.run([sys.executable, "-c", code], check=False, stdout=write, stderr=subprocess.PIPE, text=True)
@@ -326,7 +326,7 @@ def test_a_warning_is_said_once(module):
             warnings.warn(text, ModelWarning, stacklevel=2)
         return SimpleNamespace(to_dict=dict)
 
-    module("wetdoublet.solvers.simulate", collide=collide)
+    module("wetdoublet.solvers.collision.collide", collide=collide)
     for _ in range(2):  # each command anew
         said = run("collide", "granulation", "--json").stderr
         assert said == "warning: a law is stretched\nwarning: another one\n"

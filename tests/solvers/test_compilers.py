@@ -14,9 +14,9 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide_many
-from wetdoublet.solvers.compilers import CannotCompile, compiler, library
-from wetdoublet.solvers.integrators import locator
-from wetdoublet.solvers.taylor.library import kernel
+from wetdoublet.solvers.engines.casadi.integrators import locator
+from wetdoublet.solvers.engines.taylor.build import kernel
+from wetdoublet.solvers.host.compiler import CannotCompile, compiler, library
 
 REAL = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang") or ""
 pytestmark = pytest.mark.skipif(os.name != "posix" or compiler() is None or not REAL, reason="no compiler, or no sh")

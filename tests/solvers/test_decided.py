@@ -8,12 +8,20 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide, collide_many, regime_map
-from wetdoublet.solvers.locate import Locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers import (
+    ComputationError,
+    InputError,
+    Scene,
+    boundary,
+    collide,
+    collide_many,
+    regime_map,
+)
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.engines.taylor.call import Impacts, answers
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.settings import STEPS
-from wetdoublet.solvers.taylor.engine import Impacts, answers
 
 WEAK = {
     "particles": {

@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 import sympy as sp
 from matplotlib.mathtext import MathTextParser
-from wetdoublet.derive.compare import compare, equations, plain, same, typeset
+from wetdoublet.derive.emit.compare import compare, equations, plain, same, typeset
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import InputError, Scene, differences
-from wetdoublet.solvers.ccode import texts as c_texts
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers.export import differences
+from wetdoublet.solvers.export.c import texts as c_texts
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 
 from .command import run
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.locate import CRITERIA
-from wetdoublet.solvers.result import Energy
-from wetdoublet.solvers.schema import FIELDS, TABLES
+from wetdoublet.solvers.collision.result import Energy
+from wetdoublet.solvers.engines.casadi.locate import CRITERIA
+from wetdoublet.solvers.scene.schema import FIELDS, TABLES
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES, RESULTS = ((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("scenes.md", "results.md"))

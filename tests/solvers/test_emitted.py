@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, emitted
+from wetdoublet.solvers import InputError, Scene, collide
 from wetdoublet.solvers.errors import CheckFailed
+from wetdoublet.solvers.host import emitted
 
 from .command import run
 from .yielding import LAW

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from wetdoublet.solvers import files
+from wetdoublet.solvers.host import files
 
 from .command import run
 from .disks import fill, small_disk

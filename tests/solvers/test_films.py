@@ -7,8 +7,8 @@ import math
 import pytest
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.phases import Region
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.phases import Region
 
 from .newton import Bodies, flown
 

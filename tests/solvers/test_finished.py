@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from wetdoublet.solvers import Scene, collide, simulate
-from wetdoublet.solvers.chain import Stopped
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.collision import collide as simulate
+from wetdoublet.solvers.engines.casadi.replay import Stopped
 
 IMPACTS = {"granulation": (0.06, "60 deg"), "pendulum": (1.5, "45 deg")}
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import InputError, Scene, many, regime_map
-from wetdoublet.solvers.journal import Journal
+from wetdoublet.solvers import InputError, Scene, regime_map
+from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.journal import Journal
 
 from .command import finished, run
 

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from loky import process_executor
-from wetdoublet.solvers import Scene, collide, collide_many, gradients_many, many
-from wetdoublet.solvers.compilers import compiler
+from wetdoublet.solvers import Scene, collide, collide_many, gradients_many
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.remarks import hush
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.host.remarks import hush
+from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.model.dimensionless import numbers
 
 PRESETS = {"granulation": (0.005, 0.5), "pendulum": (0.1, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
 EVERYTHING = tuple(many.QUANTITIES)

@@ -7,11 +7,12 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import Scene, collide_many, many, regime_map
-from wetdoublet.solvers.draw_map import draw_map
+from wetdoublet.solvers import Scene, collide_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.regimes import write
-from wetdoublet.solvers.show_map import failures, table
+from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.plot_map import draw_map
+from wetdoublet.solvers.many.regime_map import write
+from wetdoublet.solvers.many.text_map import failures, table
 
 from .command import run
 

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 from matplotlib.image import imread
 from matplotlib.mathtext import MathTextParser
-from wetdoublet.solvers.cli import cli
+from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
 from wetdoublet.solvers.paper.desk import Desk, Detail, Job, outcomes

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 from wetdoublet.solvers import InputError, Scene, boundary, collide, collide_many
-from wetdoublet.solvers.cli import main
-from wetdoublet.solvers.locate import locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.commands.cli import main
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 
 from .newton import Bodies, flown
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.look import Look
-from wetdoublet.solvers.probe import Line
+from wetdoublet.solvers.boundaries.line import Line
+from wetdoublet.solvers.boundaries.look import Look
+from wetdoublet.solvers.host.compiler import compiler
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
-from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.proofs import BarrierProof, NoProof, energy_proof
-from wetdoublet.solvers.proofs.attracted import AttractedProof
+from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers.certificates import BarrierProof, NoProof, energy_proof
+from wetdoublet.solvers.certificates.film_and_attraction import AttractedProof
+from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.settings import STEPS
 
 from .independent import Spheres

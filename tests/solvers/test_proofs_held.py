@@ -6,11 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.locate import Locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.proofs import HeldProof, NoProof
+from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers.certificates import HeldProof, NoProof
+from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 
 _HELD_LAWS = ("mikami", "willett-simple", "lambert", "soulie", "constant")
 

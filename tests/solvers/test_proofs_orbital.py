@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many, locate
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.locate import Locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.proofs import NoProof, OrbitalProof
-from wetdoublet.solvers.schema import BRIDGE_LAWS
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many
+from wetdoublet.solvers.certificates import NoProof, OrbitalProof
+from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 from wetdoublet.solvers.settings import STEPS
 
 

@@ -12,11 +12,13 @@ import numpy as np
 import pytest
 from casadi import SX
 from wetdoublet.generated import oblique_strings
-from wetdoublet.solvers import ComputationError, Scene, locate
-from wetdoublet.solvers.locate import Locate, Path
-from wetdoublet.solvers.model import Model, choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.proofs import NoProof, tethered
+from wetdoublet.solvers import ComputationError, Scene
+from wetdoublet.solvers.certificates import NoProof
+from wetdoublet.solvers.certificates import strings as tethered
+from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.engines.casadi.locate import Locate, Path
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import Model, choose, load
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from wetdoublet.solvers import ComputationError, Scene, collide, locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.proofs import NoProof
+from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers.certificates import NoProof
+from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
 
 from .independent import Spheres, flown
 

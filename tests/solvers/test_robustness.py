@@ -14,9 +14,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide, integrators, simulate
-from wetdoublet.solvers.chain import Flown
-from wetdoublet.solvers.simulate import _compute
+from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide
+from wetdoublet.solvers.collision import collide as simulate
+from wetdoublet.solvers.collision.collide import _compute
+from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.replay import Flown
 
 # the command, made to collide the same spheres for ever, and to say when it has begun
 LONG = """

@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wetdoublet.solvers import collide
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.scene import Scene
-from wetdoublet.solvers.scenefile import PRESETS
-from wetdoublet.solvers.schema import BRIDGE_LAWS
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
 from .entries import BASE, BRIDGE, refused, tables
 
@@ -58,7 +58,7 @@ def test_reference_speeds_and_lengths(case):
 def test_a_preset_does_not_wait_for_pint():
     """Reading a preset imports what its emitted formulas need (casadi), not pint, sympy, click or xarray."""
     code = (
-        "import sys; from wetdoublet.solvers.scene import Scene; Scene.load('granulation').with_impact(angle='75 deg');"
+        "import sys; from wetdoublet.solvers import Scene; Scene.load('granulation').with_impact(angle='75 deg');"
         "print(sorted({'pint', 'sympy', 'click', 'xarray', 'matplotlib'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

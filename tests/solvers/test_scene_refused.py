@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.scene import Scene
-from wetdoublet.solvers.schema import FIELDS
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.scene.schema import FIELDS
 
 from .entries import BASE, BRIDGE, refused, tables
 

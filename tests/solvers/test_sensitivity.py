@@ -9,7 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, Sensitivities, collide, sensitivities, trajectory_sensitivities
+from wetdoublet.solvers import (
+    InputError,
+    Scene,
+    Sensitivities,
+    collide,
+    sensitivities,
+    trajectory_sensitivities,
+)
 from wetdoublet.solvers.sensitivity.parameters import known
 
 from ..conftest import DATA

@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities
+from wetdoublet.solvers.certificates import FilmProof
 from wetdoublet.solvers.paper.factors import DOUBLED
-from wetdoublet.solvers.proofs import FilmProof
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving
 
 from .command import run

@@ -9,11 +9,11 @@ from dataclasses import replace
 
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, boundary, sensitivities
-from wetdoublet.solvers.changes import Change
-from wetdoublet.solvers.locate import Locate
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.sensitivity.nearness import checked, limit
+from wetdoublet.solvers.boundaries.changes import Change
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.sensitivity.boundary_distance import checked, limit
 
 from .command import run
 

@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from casadi import Function, jtimes, vertcat
-from wetdoublet.solvers import InputError, Scene, collide, integrators, sensitivities
-from wetdoublet.solvers.integrators import IntegrationFailed, Tolerance, tolerance
-from wetdoublet.solvers.model import SX, choose, load
-from wetdoublet.solvers.numbers import numbers
-from wetdoublet.solvers.phases import Flow, Region, event_table, expressions
-from wetdoublet.solvers.sensitivity import derivatives, flight
+from wetdoublet.solvers import InputError, Scene, collide, sensitivities
+from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import SX, choose, load
+from wetdoublet.solvers.model.phases import Flow, Region, event_table, expressions
+from wetdoublet.solvers.sensitivity import derivatives
+from wetdoublet.solvers.sensitivity import trajectory_expression as flight
 from wetdoublet.solvers.sensitivity.derivatives import evaluate
 from wetdoublet.solvers.sensitivity.problem import Problem
 

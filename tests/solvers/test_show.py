@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.result import Event
-from wetdoublet.solvers.show import name_of, prefix, quantity, table
+from wetdoublet.solvers.collision.result import Event
+from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
 
 SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: flies to its cut-off
 IMPACTS = {

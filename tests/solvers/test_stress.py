@@ -9,17 +9,18 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, boundary, collide, collide_many, simulate
-from wetdoublet.solvers.benchmarks import stress as stress_test
-from wetdoublet.solvers.benchmarks import stress_check as checking
-from wetdoublet.solvers.benchmarks.stress_check import FAST, RTOL, Found, judge
-from wetdoublet.solvers.benchmarks.stress_flights import Flights
-from wetdoublet.solvers.benchmarks.stress_sample import DISTANCES, SEED, Case, sample
-from wetdoublet.solvers.chain import Stopped
-from wetdoublet.solvers.cli import main
+from wetdoublet.solvers import Scene, boundary, collide, collide_many
+from wetdoublet.solvers.collision import collide as simulate
+from wetdoublet.solvers.commands.cli import main
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.engines.casadi.replay import Stopped
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.locate import locate
-from wetdoublet.solvers.numbers import numbers
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.verify.stress import judge as checking
+from wetdoublet.solvers.verify.stress import run as stress_test
+from wetdoublet.solvers.verify.stress.flights import Flights
+from wetdoublet.solvers.verify.stress.judge import FAST, RTOL, Found, judge
+from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, Case, sample
 
 pytest.importorskip("scipy")
 

@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, many
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.taylor import engine, library
-from wetdoublet.solvers.taylor.record import recorded
+from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.record import recorded
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many import collide_many as many
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 EVERYTHING = tuple(many.QUANTITIES)
@@ -130,7 +132,7 @@ def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.Monkey
     impossible = recorded(_one("granulation", 0.02, 1.3), True, 1e-9, ledger=True, budget=5)
     assert impossible is not None
     assert impossible.answers["status"].tolist() == [2]
-    monkeypatch.setattr("wetdoublet.solvers.taylor.one.recorded", lambda *given: impossible)
+    monkeypatch.setattr("wetdoublet.solvers.collision.by_kernel.recorded", lambda *given: impossible)
     found = collide("granulation", stokes=0.02, angle=1.3, engine="taylor")
     assert found.engine == "rosenbrock"
     assert found.energy is not None

@@ -7,10 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, many, sensitivities
-from wetdoublet.solvers.compilers import compiler
+from wetdoublet.solvers import Scene, collide, collide_many, sensitivities
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor import headers
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.sensitivity.result import Sensitivities
-from wetdoublet.solvers.taylor import engine, headers, library
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 EVERYTHING = tuple(many.QUANTITIES)

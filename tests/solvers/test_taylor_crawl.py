@@ -1,4 +1,4 @@
-"""Flights that creep for long (solvers/taylor/runtime/crawl.h): beside a saddle, and in a film that opens slowly."""
+"""Flights that creep for long (runtime/crawl.h): beside a saddle, and in a film that opens slowly."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_many
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.taylor import engine
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.host.compiler import compiler
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 BOUNDARIES = json.loads((Path(__file__).parents[1] / "data" / "boundaries.json").read_text())

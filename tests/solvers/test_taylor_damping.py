@@ -1,4 +1,4 @@
-"""The damped sum of creeping flights (solvers/taylor/runtime/damped.h): its table, and what comes of it."""
+"""The damped sum of creeping flights (solvers/engines/taylor/runtime/damped.h): its table, and what comes of it."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.taylor import engine, library
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.host.compiler import compiler
 
 HEADER = (library._RUNTIME / "damped.h").read_text()
 ROWS = {

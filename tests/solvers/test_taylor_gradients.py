@@ -14,16 +14,16 @@ from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
-from wetdoublet.solvers.cli import cli
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.numbers import si_values
-from wetdoublet.solvers.sensitivity import many
+from wetdoublet.solvers.commands.cli import cli
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor.call import Impacts
+from wetdoublet.solvers.engines.taylor.tangent import carried
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.dimensionless import si_values
+from wetdoublet.solvers.sensitivity import gradients_many as many
+from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
 from wetdoublet.solvers.sensitivity.choice import chosen
-from wetdoublet.solvers.sensitivity.kernel import KNOWN
-from wetdoublet.solvers.sensitivity.many import STICK
-from wetdoublet.solvers.taylor import library
-from wetdoublet.solvers.taylor.along import carried
-from wetdoublet.solvers.taylor.engine import Impacts
+from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
 from .sensitive import CASES
 from .test_sensitivity import REFERENCE, compared

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Collision, Scene, collide
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.model import choose
-from wetdoublet.solvers.taylor import engine, headers, layout, library, record
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor import headers, layout, record
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.model import choose
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.taylor import library
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.host.compiler import compiler
 
 RUNTIME = Path(library.__file__).with_name("runtime")
 ORDER = 12

@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 from casadi import SX
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.caches import once, own_cache
-from wetdoublet.solvers.model import Model, choose, load
-from wetdoublet.solvers.said import listening
+from wetdoublet.solvers.host.captured_stderr import listening
+from wetdoublet.solvers.host.thread_caches import once, own_cache
+from wetdoublet.solvers.model.model import Model, choose, load
 
 SCRIPT = Path(__file__).with_name("threads.py")
 

@@ -3,8 +3,9 @@
 from importlib.metadata import version
 
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide, trajectory
-from wetdoublet.solvers.integrators import IntegrationFailed
+from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers.engines.casadi import trajectory
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed
 
 
 def test_attributes_suffice_to_repeat_the_flight():

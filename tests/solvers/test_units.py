@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.units import COMMON, DIMENSIONS, quantity
+from wetdoublet.solvers.scene.units import COMMON, DIMENSIONS, quantity
 
 
 def read(text: str, si: str = "m") -> float:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.derive.checks.user import model_checks
-from wetdoublet.derive.template import TEMPLATE
+from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
 from wetdoublet.solvers.verify import symbolic
 from wetdoublet.solvers.verify.conserved import conserved
@@ -124,7 +124,7 @@ def test_a_scene_pickles_and_compares_with_its_model(mine: Path):
 
 def test_a_map_is_drawn_without_the_models_folder(mine: Path, tmp_path: Path):
     """What a map keeps of the model describes its scene, and holds no code."""
-    from wetdoublet.solvers.regimes import scene_of
+    from wetdoublet.solvers.many.regime_map import scene_of
 
     data = regime_map(with_model(mine, custom__yield_stress="7 Pa"), stokes=[0.01], angle=[0.1], of=["restitution"])
     scene = scene_of(data)

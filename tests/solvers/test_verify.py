@@ -23,7 +23,7 @@ from wetdoublet.solvers.verify import (
     sample,
     surface,
 )
-from wetdoublet.solvers.verify.draw import draw_budget
+from wetdoublet.solvers.verify.plot import draw_budget
 
 from .command import run
 
@@ -111,9 +111,9 @@ def test_the_picture_shows_the_terms(tmp_path) -> None:
 
 def test_amplification_of_a_relaxing_spin() -> None:
     """Gap held: the slip falls as exp(-k t), so backward the variational matrix grows by about exp(k t)."""
-    from wetdoublet.solvers.model import choose, load
-    from wetdoublet.solvers.numbers import numbers
-    from wetdoublet.solvers.phases import Flow, Region
+    from wetdoublet.solvers.model.dimensionless import numbers
+    from wetdoublet.solvers.model.model import choose, load
+    from wetdoublet.solvers.model.phases import Flow, Region
 
     scene = Scene.load("granulation-dry-bridge")
     n = numbers(scene, scene.speed_of(0.03), math.radians(60))

@@ -10,9 +10,20 @@ from typing import Any
 import numpy as np
 import pytest
 from casadi import SX, integrator, vertcat
-from wetdoublet.solvers import Collision, ComputationError, Scene, collide, locate
-from wetdoublet.solvers.phases import OPENING, expressions
-from wetdoublet.solvers.verify import audit, backward, budget, closed, conserved, order, region, sample, surface
+from wetdoublet.solvers import Collision, ComputationError, Scene, collide
+from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.model.phases import OPENING, expressions
+from wetdoublet.solvers.verify import (
+    audit,
+    backward,
+    budget,
+    closed,
+    conserved,
+    order,
+    region,
+    sample,
+    surface,
+)
 from wetdoublet.solvers.verify.report import Finding
 
 SCENE = Scene.load("granulation")
@@ -163,8 +174,8 @@ def test_a_certificate_that_proves_too_much_is_caught(monkeypatch) -> None:
 
 def test_a_flight_without_proof_is_the_same_flight() -> None:
     """What separates is not changed by flying without a certificate."""
-    from wetdoublet.solvers.model import choose, load
-    from wetdoublet.solvers.numbers import numbers
+    from wetdoublet.solvers.model.dimensionless import numbers
+    from wetdoublet.solvers.model.model import choose, load
 
     n = numbers(SCENE, SCENE.speed_of(0.05), math.radians(70))
     model = load(choose(SCENE, oblique=True))

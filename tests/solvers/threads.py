@@ -29,11 +29,20 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from wetdoublet import solvers
-from wetdoublet.solvers import Scene, atlas, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
-from wetdoublet.solvers.compilers import compiler
-from wetdoublet.solvers.integrators import IntegrationFailed, Tolerance, plain
-from wetdoublet.solvers.model import choose, load
-from wetdoublet.solvers.phases import Flow, Region
+from wetdoublet.solvers import (
+    Scene,
+    atlas,
+    boundary,
+    collide,
+    collide_many,
+    gradients_many,
+    regime_map,
+    sensitivities,
+)
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.phases import Flow, Region
 from wetdoublet.solvers.verify.backward import backward
 from wetdoublet.solvers.verify.budget import restitution_budget
 from wetdoublet.solvers.verify.conserved import conserved
@@ -60,13 +69,13 @@ def _traced(**options: Any) -> Any:
 
 
 def _drawn_boundary() -> bytes:
-    from wetdoublet.solvers import boundary_plot
+    from wetdoublet.solvers.boundaries import plot as boundary_plot
 
     return _png(boundary_plot.draw(Scene.load(GRANULATION), boundary(GRANULATION, angle=0.9, rtol=1e-8)))
 
 
 def _drawn_map() -> bytes:
-    from wetdoublet.solvers.draw_map import draw_map
+    from wetdoublet.solvers.many.plot_map import draw_map
 
     return _png(draw_map(_mapped()))
 

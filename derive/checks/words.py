@@ -1,0 +1,59 @@
+"""What a user's model conserves, and which groups govern it, in words."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ..equations.invariants import invariants
+from ..equations.model import derive
+from ..physics.laws import LAWS
+from ..physics.laws.base import Law
+from ..physics.structure import Structure
+from ..user_model.structures import UserModel
+from .closed import filled
+from .conservation import momentum_rate
+
+_ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"
+_FULL = Structure(True, True, False)  # oblique, with a bridge, nothing that exerts a torque
+
+
+def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
+    """dL/dt without strings, scaled, along the equations with the model's own laws; others left open but the arm."""
+    own = {slot: model.default(slot) for slot in model.slots}
+    arm = law or own.get("arm") or LAWS["arm"]["midgap"]
+    rate = momentum_rate(_FULL, {"arm": arm})
+    return sp.simplify(filled(rate, {}))
+
+
+@cache
+def conserved(model: UserModel) -> tuple[str, ...]:
+    """What stays the same along a flight without strings and without solids, whatever the other laws are."""
+    arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
+    found = invariants(model.extended(derive(_FULL)), {"arm": arm})
+    return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in found)
+
+
+def in_words(model: UserModel) -> tuple[str, ...]:
+    """Sentences: what is conserved, where the energy goes, which groups govern an oblique flight with a bridge."""
+    if conserved(model):
+        lines = [f"Conserved without strings, for every law in the other slots: {'; '.join(conserved(model))}."]
+    else:
+        lines = [f"Angular momentum is not conserved: d/dt of L over its scale is {torque(model)}."]
+    takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
+    lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
+    groups = model.extended(derive(_FULL)).groups
+    own = {group.symbol: group for group in model.groups}
+    known = ", ".join(symbol.name for symbol in groups if symbol not in own)
+    lines.append(f"An oblique flight with a bridge is governed by the library's groups {known}.")
+    for group in model.groups:
+        if group.symbol == group.quantity.symbol:
+            lines.append(f"New group: {group.symbol.name}, a plain number ({group.quantity.meaning}).")
+        else:
+            lines.append(
+                f"New group: {group.symbol.name} = {group.definition} ({group.quantity.meaning}, made dimensionless)."
+            )
+    if not model.groups:
+        lines.append("No new group.")
+    return tuple(lines)

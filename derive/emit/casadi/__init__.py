@@ -1,0 +1,1 @@
+"""The equations as Python modules of CasADi expressions."""

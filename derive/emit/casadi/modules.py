@@ -1,0 +1,237 @@
+"""The text of each emitted module: a law, a structure, the scaling."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
+
+import sympy as sp
+
+from ...equations.model import Model
+from ...physics.forces import FILM, SHEAR
+from ...physics.laws.base import Law
+from ...physics.scaling import group_definitions, scale_definitions
+from ...vocabulary.quantities import VOCABULARY
+from ..taylor.header import Beside, structure_header
+from ..taylor.law_header import law_header
+from ..taylor.law_slopes import slopes_header
+from ..taylor.tangent import tangent_header
+from ..text import INDENT, assignment, docstring, module, needed, operations
+from .printer import Printer
+
+_PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
+
+
+def digest(*parts: object) -> str:
+    """SHA-256 over the mathematics (srepr, not source text) that a module comes from."""
+    text = "\n".join(sp.srepr(part) if isinstance(part, sp.Basic) else str(part) for part in parts)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _header(source: str) -> str:
+    return f"{_PROVENANCE}\nEquations sha256 {source}"
+
+
+def law_digest(law: Law) -> str:
+    """Digest of a law's mathematics."""
+    parts: list[object] = [law.slot, law.name]
+    for function in law.functions:
+        parts += [function.name, *function.arguments, function.result]
+        parts += [part for pair in function.definitions for part in pair]
+    return digest(*parts)
+
+
+def law_module(law: Law) -> str:
+    """A law: its functions of dimensionless arguments."""
+    printer = Printer()
+    body: list[str] = []
+    for function in law.functions:
+        kept, _ = needed([function.result], function.definitions)
+        arguments = ", ".join(f"{argument.name}: Any" for argument in function.arguments)
+        body += ["", f"def {function.name}({arguments}) -> Any:"]
+        count = operations([function.result, *(expression for _, expression in kept)])
+        body += docstring(f"{function.doc}\n\nTotal operations: {count}", INDENT)
+        for symbol, expression in kept:
+            body += assignment(symbol.name, expression, printer)
+        lines = assignment("result", function.result, printer)
+        body += (
+            [f"{INDENT}return {printer(function.result)}", ""]
+            if len(lines) == 1
+            else [*lines, f"{INDENT}return result", ""]
+        )
+    doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
+    body = [*_validity(law), *_falls(law), *body]
+    return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def _falls(law: Law) -> list[str]:
+    """Whether its force never grows with the gap, said where it is so."""
+    return ["", "FALLS = True", ""] if any(each.falls for each in law.functions) else []
+
+
+def _validity(law: Law) -> list[str]:
+    """Where a law holds: quantity to (least, largest), None for no bound known."""
+    known = law.validity
+    if known is None:
+        return []
+    lines = ["", "VALIDITY: dict[str, tuple[float | None, float | None]] = {"]
+    for quantity in ("volume", "contact_angle", "separation"):
+        bounds = ", ".join("None" if bound is None else repr(float(bound)) for bound in getattr(known, quantity))
+        lines.append(f'{INDENT}"{quantity}": ({bounds}),')
+    return [*lines, "}", f'VALIDITY_SOURCE = "{known.source}"', ""]
+
+
+def _casadi(printer: Printer) -> list[str]:
+    return [f"from casadi import {', '.join(sorted(printer.imports))}"] if printer.imports else []
+
+
+def model_digest(model: Model) -> str:
+    """Digest of a structure's mathematics."""
+    parts: list[object] = [model.structure.name, *model.states, *model.groups, *model.slots]
+    parts += [part for pair in model.definitions for part in pair]
+    for function in model.functions:
+        parts += [function.name, *(part for pair in function.outputs for part in pair)]
+    return digest(*parts)
+
+
+Own = Mapping[str, tuple[str, str]]
+"""Unit and meaning, by name, of groups that are not the vocabulary's."""
+
+
+def _described(name: str, own: Own) -> str:
+    unit, meaning = own[name] if name in own else (VOCABULARY[name].unit, VOCABULARY[name].meaning)
+    return f"- {name} [{unit}]: {meaning}"
+
+
+def _describe(model: Model, own: Own) -> str:
+    shape = model.structure
+    what = {"": "Oblique" if shape.oblique else "Head-on", "pair": "Oblique unequal", "wall": "Oblique sphere-wall"}
+    words = {"a liquid bridge": shape.bridge, "pendulum strings": shape.strings, "another attraction": shape.attraction}
+    extras = [word for word, there in words.items() if there]
+    title = f"{what[shape.partner]} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
+    if shape.spread:
+        title += ", a film whose rim follows the bridge's volume"
+    if shape.reduced:
+        title += ", spin eliminated through the conserved angular momentum"
+    lines = [f"{title}.", "", "Time in x0/v0. States (per unit):"]
+    lines += [_described(s.name, own) for s in model.states]
+    lines += ["", "Groups:"]
+    lines += [_described(s.name, own) for s in model.groups]
+    lines += ["", f"Law slots: {', '.join(model.slots)}."]
+    return "\n".join(lines)
+
+
+def structure_module(model: Model, own: Own | None = None) -> str:
+    """A structure: states, groups, slots, and its functions of named values; `own` are a user's groups."""
+    printer = Printer()
+    body: list[str] = ["", "Values = Mapping[str, Any]", ""]
+    for constant, names in (
+        ("STATES", [s.name for s in model.states]),
+        ("GROUPS", [s.name for s in model.groups]),
+        ("SLOTS", list(model.slots)),
+        ("FUNCTIONS", [f.name for f in model.functions]),
+        ("REGIONAL", [f.name for f in model.functions if f.regional]),
+    ):
+        body += _name_tuple(constant, names)
+    body += [f'DIGEST = "{model_digest(model)}"', ""]
+    for function in model.functions:
+        body += _function(model, function.name, printer)
+    imports = ["from collections.abc import Mapping", "from typing import Any", ""]
+    doc = _describe(model, own or {})
+    return module(_header(model_digest(model)), doc, [*imports, *_casadi(printer)], body)
+
+
+def _tuple(names: Sequence[str]) -> str:
+    listed = ", ".join(f'"{name}"' for name in names)
+    return f"({listed},)" if len(names) == 1 else f"({listed})"
+
+
+def _name_tuple(constant: str, names: list[str]) -> list[str]:
+    line = f"{constant} = {_tuple(names)}"
+    if len(line) <= 100:
+        return [line]
+    return [f"{constant} = (", *(f'{INDENT}"{name}",' for name in names), ")"]
+
+
+def _function(model: Model, name: str, printer: Printer) -> list[str]:
+    function = model[name]
+    kept, used = needed([expression for _, expression in function.outputs], model.definitions)
+    region = [flag.name for flag in (FILM, SHEAR)] if function.regional else []
+    flags = "".join(f", {flag}: int = 1" for flag in region)
+    lines = ["", f"def {name}(state: Values, groups: Values, laws: Any{flags}) -> dict[str, Any]:"]
+    count = operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
+    doc = function.doc
+    if region:
+        doc += "\n\nRegion: film is 1 inside the film, shear 1 inside the tangential edge, else 0."
+    lines += docstring(f"{doc}\n\nTotal operations: {count}", INDENT)
+    defined = {symbol for symbol, _ in kept}
+    lines += [f'{INDENT}{s.name} = state["{s.name}"]' for s in model.states if s in used and s not in defined]
+    lines += [f'{INDENT}{s.name} = groups["{s.name}"]' for s in model.groups if s in used]
+    for symbol, expression in kept:
+        lines += assignment(symbol.name, expression, printer)
+    lines.append(f"{INDENT}return {{")
+    lines += [f'{INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]
+    return [*lines, f"{INDENT}}}", ""]
+
+
+def law_kernel(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header of a law, for the Taylor kernel; `groups` are a user's."""
+    return law_header(law, law_digest(law), _PROVENANCE, groups)
+
+
+def structure_kernel(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
+    """The C header of a structure, for the Taylor kernel; `own` and `beside` are a user's."""
+    return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
+
+
+def law_slopes(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header with the slopes of a law, for the kernel's derivatives; `groups` are a user's."""
+    return slopes_header(law, law_digest(law), _PROVENANCE, groups)
+
+
+def structure_tangent(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
+    """The C header of a structure's tangent, for the kernel's derivatives; `own` and `beside` are a user's."""
+    return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
+
+
+def scaling_digest() -> str:
+    """Digest of the groups and scales."""
+    return digest(*(part for pair in _scaling().items() for part in pair))
+
+
+def _scaling() -> dict[sp.Symbol, sp.Expr]:
+    return group_definitions() | scale_definitions()
+
+
+def scaling_module() -> str:
+    """The groups as functions of SI quantities, one a function, and which quantities each takes."""
+    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
+    return groups_module(_scaling(), known, scaling_digest(), _GROUPS_DOC)
+
+
+_GROUPS_DOC = (
+    "Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.\n\n"
+    "A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
+)
+
+
+def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: str, doc: str) -> str:
+    """Groups as functions of quantities, of which `known` has unit and meaning by name, in order."""
+    printer = Printer()
+    body: list[str] = ["", "ARGUMENTS: dict[str, tuple[str, ...]] = {"]
+    arguments = {
+        group.name: tuple(name for name in known if name in {s.name for s in expression.free_symbols})
+        for group, expression in definitions.items()
+    }
+    for name, wanted in arguments.items():
+        body.append(f'{INDENT}"{name}": {_tuple(wanted)},')
+    body += ["}", ""]
+    for group, expression in definitions.items():
+        names = arguments[group.name]
+        body += ["", f"def {group.name}({', '.join(f'{name}: Any' for name in names)}) -> Any:"]
+        units = "\n".join(f"- {name} [{known[name][0]}]: {known[name][1]}" for name in names)
+        unit, meaning = known[group.name]
+        body += docstring(f"{meaning} [{unit}].\n\n{units}", INDENT)
+        body += [f"{INDENT}return {printer(expression)}", ""]
+    return module(_header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)

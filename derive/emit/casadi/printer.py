@@ -1,0 +1,247 @@
+"""A strict sympy-to-CasADi source printer: a whitelist of nodes, anything else is an error that names it.
+
+It walks the tree itself. sympy's own printers fall back on the node's name, which leaks functions that CasADi does
+not have (`erf`) or that mean something else (`and`).
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...physics.laws.base import is_slot_call
+
+_ADD, _MUL, _UNARY, _POW, _ATOM = range(5)  # binding strength
+
+_FUNCTIONS: dict[type, str] = {
+    sp.exp: "exp",
+    sp.log: "log",
+    sp.sin: "sin",
+    sp.cos: "cos",
+    sp.tan: "tan",
+    sp.asin: "asin",
+    sp.acos: "acos",
+    sp.atan: "atan",
+    sp.sinh: "sinh",
+    sp.cosh: "cosh",
+    sp.tanh: "tanh",
+    sp.Abs: "fabs",
+}
+_RELATIONS: dict[type, str] = {
+    sp.StrictLessThan: "<",
+    sp.LessThan: "<=",
+    sp.StrictGreaterThan: ">",
+    sp.GreaterThan: ">=",
+}
+
+
+class EmissionError(ValueError):
+    """An expression has a node for which there is no CasADi source; the message names it."""
+
+
+class Printer:
+    """Prints expressions as Python source and records the CasADi names they use in `imports`."""
+
+    def __init__(self) -> None:
+        self.imports: set[str] = set()
+        self._stand_ins: dict[sp.Dummy, str] = {}
+
+    def __call__(self, expression: sp.Expr) -> str:
+        return self._print(sp.sympify(expression))[0]
+
+    def _print(self, node: sp.Basic) -> tuple[str, int]:
+        if node in self._stand_ins:
+            return self._stand_ins[node], _ATOM
+        if isinstance(node, sp.Symbol):
+            if not node.name.isidentifier():
+                raise EmissionError(f"symbol {node.name!r} is not a Python name")
+            return node.name, _ATOM
+        if isinstance(node, sp.Integer):
+            return str(int(node)), _ATOM if node >= 0 else _UNARY
+        if isinstance(node, sp.Rational):
+            return self._rational(node)
+        if isinstance(node, sp.Float):
+            return self._float(node)
+        if node is sp.pi:
+            return self._name("pi"), _ATOM
+        if isinstance(node, sp.Add):
+            return self._sum(node), _ADD
+        if isinstance(node, sp.Mul):
+            return self._product(node)
+        if isinstance(node, sp.Pow):
+            return self._power(node)
+        if isinstance(node, (sp.Min, sp.Max)):
+            return self._extremum(node), _ATOM
+        if isinstance(node, sp.Piecewise):
+            return self._piecewise(node), _ATOM
+        if isinstance(node, AppliedUndef) and is_slot_call(node):
+            return f"laws.{node.func.__name__}({self._arguments(node.args)})", _ATOM
+        if type(node) in _FUNCTIONS:
+            return f"{self._name(_FUNCTIONS[type(node)])}({self._arguments(node.args)})", _ATOM
+        if type(node) in _RELATIONS:
+            return f"{self._above(node.args[0], _ADD)} {_RELATIONS[type(node)]} {self._above(node.args[1], _ADD)}", _ADD
+        raise EmissionError(f"no CasADi source for {type(node).__name__}: {node}")
+
+    def _name(self, name: str) -> str:
+        self.imports.add(name)
+        return name
+
+    def _arguments(self, arguments: tuple[sp.Basic, ...]) -> str:
+        return ", ".join(self._print(argument)[0] for argument in arguments)
+
+    def _above(self, node: sp.Basic, strength: int) -> str:
+        text, own = self._print(node)
+        return text if own > strength else f"({text})"
+
+    @staticmethod
+    def _float(node: sp.Float) -> tuple[str, int]:
+        value = float(node)
+        if sp.Float(value, 50) != sp.Float(node, 50):
+            raise EmissionError(f"number {node} does not round-trip through a double")
+        return repr(value), _ATOM if value >= 0 else _UNARY
+
+    @staticmethod
+    def _rational(node: sp.Rational) -> tuple[str, int]:
+        """A finite decimal as a decimal literal, any other as p/q: both are the double nearest the rational."""
+        decimal = _decimal(node)
+        if decimal is not None:
+            return decimal, _ATOM if node >= 0 else _UNARY
+        return f"{int(node.p)}/{int(node.q)}", _MUL
+
+    def _sum(self, node: sp.Add) -> str:
+        text = ""
+        for term in _positive_first(node.as_ordered_terms()):
+            negative = term.could_extract_minus_sign()
+            body = self._above(-term if negative else term, _ADD)
+            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
+        return text
+
+    def _product(self, node: sp.Mul) -> tuple[str, int]:
+        if node.could_extract_minus_sign():
+            body = -node
+            return "-" + self._above(body, _ADD), _UNARY
+        over: list[str] = []
+        under: list[str] = []
+        for factor in node.as_ordered_factors():
+            if isinstance(factor, sp.Rational) and not isinstance(factor, sp.Integer):
+                decimal = _decimal(factor) if not _is_binary(factor.q) else None
+                if decimal is not None:
+                    over.append(decimal)
+                else:
+                    over += [str(int(factor.p))] if factor.p != 1 else []
+                    under.append(str(int(factor.q)))
+            elif isinstance(factor, sp.Pow) and factor.exp.is_number and factor.exp.is_negative:
+                under.append(self._above(sp.Pow(factor.base, -factor.exp), _UNARY))
+            else:
+                over.append(self._above(factor, _UNARY))
+        top = "*".join(over) or "1"
+        if not under:
+            return top, _MUL
+        return f"{top}/{under[0]}" if len(under) == 1 else f"{top}/({'*'.join(under)})", _MUL
+
+    def _power(self, node: sp.Pow) -> tuple[str, int]:
+        if node.exp == sp.Rational(1, 2):
+            return f"{self._name('sqrt')}({self._print(node.base)[0]})", _ATOM
+        if node.exp.is_number and node.exp.is_negative:
+            return f"1/{self._above(sp.Pow(node.base, -node.exp), _UNARY)}", _MUL
+        exponent, strength = self._print(node.exp)
+        exponent = exponent if strength >= _ATOM else f"({exponent})"
+        return f"{self._above(node.base, _POW)}**{exponent}", _POW
+
+    def _extremum(self, node: sp.Expr) -> str:
+        name = self._name("fmin" if isinstance(node, sp.Min) else "fmax")
+        first, *rest = sorted(node.args, key=sp.default_sort_key)
+        text = self._print(first)[0]
+        for other in rest:
+            text = f"{name}({text}, {self._print(other)[0]})"
+        return text
+
+    def _piecewise(self, node: sp.Piecewise) -> str:
+        """Nested if_else, each branch seeing its variable held inside the branch's own range.
+
+        A branch not taken is evaluated all the same; held so, neither its value nor a derivative of any order can be
+        NaN. (Clamping to the bound would not do: sqrt(1 - x) has no derivative at 1.)
+        """
+        if node.args[-1][1] != sp.true:
+            raise EmissionError(f"Piecewise without a final otherwise: {node}")
+        names = set()
+        for _, condition in node.args[:-1]:
+            known = type(condition) in _RELATIONS and isinstance(condition.lhs, sp.Symbol)
+            if not known or condition.rhs.has(condition.lhs):
+                raise EmissionError(
+                    f"Piecewise condition {condition} is not of the form symbol < bound, "
+                    "so its branches cannot be guarded"
+                )
+            names.add(condition.lhs.name)
+        if len(names) > 1:
+            both = ", ".join(sorted(names))
+            raise EmissionError(f"Piecewise conditions on {both} together cannot be guarded: {node}")
+        choose = self._name("if_else")
+        text = ""
+        facts: list[tuple[sp.Basic, bool]] = []  # conditions that hold or fail where a branch is taken
+        for value, condition in node.args:
+            last = condition == sp.true
+            own = facts if last else [*facts, (condition, True)]
+            branch = self._guarded(node, value, own)
+            text += branch if last else f"{choose}({self._print(condition)[0]}, {branch}, "
+            facts = [*facts, (condition, False)]
+        return text + ")" * (len(node.args) - 1)
+
+    def _guarded(self, node: sp.Piecewise, value: sp.Expr, facts: list[tuple[sp.Basic, bool]]) -> str:
+        """A branch as a function of its variable, which outside the branch's range is held at a point inside it."""
+        variable = facts[0][0].lhs
+        if variable not in value.free_symbols:
+            return self._print(value)[0]
+        point = _inside(variable, facts)
+        for probe in (value.subs(variable, point), value.diff(variable).subs(variable, point)):
+            if probe.is_number and not (probe.is_finite and probe.is_real):
+                raise EmissionError(
+                    f"branch {value} of {node} is not regular at {variable} = {point}, so it cannot be guarded"
+                )
+        guard, held = self._print(variable)[0], self._print(point)[0]
+        for condition, holds in facts:
+            test = self._print(condition)[0]
+            guard = f"if_else({test}, {guard}, {held})" if holds else f"if_else({test}, {held}, {guard})"
+        stand_in = sp.Dummy(variable.name, **variable.assumptions0)
+        self._stand_ins[stand_in] = guard
+        return self._print(value.subs(variable, stand_in))[0]
+
+
+def _inside(variable: sp.Symbol, facts: list[tuple[sp.Basic, bool]]) -> sp.Expr:
+    """A point inside the range that the conditions leave, away from its ends."""
+    above = [c.rhs for c, holds in facts if (type(c) in (sp.StrictGreaterThan, sp.GreaterThan)) == holds]
+    below = [c.rhs for c, holds in facts if (type(c) in (sp.StrictLessThan, sp.LessThan)) == holds]
+    low = above[0] if len(above) == 1 else sp.Max(*above) if above else None
+    high = below[0] if len(below) == 1 else sp.Min(*below) if below else None
+    if low is None:
+        assert high is not None
+        return high / 2 if variable.is_positive else high - 1
+    return low + 1 if high is None else (low + high) / 2
+
+
+def _is_binary(number: int) -> bool:
+    return number & (number - 1) == 0
+
+
+def _decimal(value: sp.Rational) -> str | None:
+    """The finite decimal of at most 15 places that equals `value`, or None."""
+    numerator, denominator = int(value.p), int(value.q)
+    places = 0
+    while (denominator % 10 and (denominator % 2 == 0 or denominator % 5 == 0)) or denominator % 10 == 0:
+        if places == 15:
+            return None
+        numerator, places = numerator * 10, places + 1
+        shared = sp.igcd(numerator, denominator)
+        numerator, denominator = numerator // shared, denominator // shared
+    if denominator != 1:
+        return None
+    sign, digits = ("-" if numerator < 0 else ""), str(abs(numerator)).rjust(places + 1, "0")
+    return f"{sign}{digits[:-places]}.{digits[-places:]}" if places else f"{sign}{digits}"
+
+
+def _positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
+    """The order given, started with a positive term where there is one."""
+    for position, term in enumerate(terms):
+        if not term.could_extract_minus_sign():
+            return [term, *terms[:position], *terms[position + 1 :]]
+    return terms

@@ -1,0 +1,144 @@
+"""Two models as mathematics: which equation differs, and in which term."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from random import Random
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from .document.latex import NAMES
+from .read import Read, functions
+
+Equations = dict[str, sp.Expr]
+"""Name of an equation -> its right side."""
+_SAME, _POINTS = 1e-11, 4
+
+
+@dataclass(frozen=True)
+class Change:
+    """A term of an equation that is changed, added (`before` is None) or removed (`after` is None)."""
+
+    equation: str
+    before: sp.Expr | None
+    after: sp.Expr | None
+
+    @property
+    def kind(self) -> str:
+        return "added" if self.before is None else "removed" if self.after is None else "changed"
+
+
+def equations(modules: Mapping[str, str]) -> Equations:
+    """Every equation of emitted modules.
+
+    Arguments:
+        modules: room -> text of the module; a law's equations are named after its room (its slot).
+
+    Raises:
+        ReadError: a text that was not emitted.
+    """
+    found: Equations = {}
+    for room, text in modules.items():
+        for function in functions(text):
+            found |= _named(room, function)
+    return found
+
+
+def _named(room: str, function: Read) -> Equations:
+    prefix = f"{room}: " if room else ""
+    named = {f"{prefix}{name}": value for name, value in function.definitions}
+    for name, value in function.outputs:
+        if function.name == "right_hand_side":
+            named[f"{prefix}d {name}/dt"] = value
+        else:
+            named[f"{prefix}{name}" if name == function.name else f"{prefix}{function.name}, {name}"] = value
+    return named
+
+
+def compare(before: Equations, after: Equations) -> tuple[Change, ...]:
+    """The terms in which two models differ, equation by equation."""
+    found: list[Change] = []
+    for name in dict.fromkeys([*before, *after]):
+        if name not in after:
+            found.append(Change(name, before[name], None))
+        elif name not in before:
+            found.append(Change(name, None, after[name]))
+        elif not same(before[name], after[name]):
+            found += _terms(name, before[name], after[name])
+    return tuple(found)
+
+
+def same(one: sp.Expr, other: sp.Expr) -> bool:
+    """Whether two expressions are equal: as written, or in value at points drawn (a simplification may never end)."""
+    if one == other:
+        return True
+    calls = {node: sp.Symbol(f"call {node}", positive=True) for e in (one, other) for node in e.atoms(AppliedUndef)}
+    pair = [expression.xreplace(calls) for expression in (one, other)]
+    free = sorted(set().union(*(e.free_symbols for e in pair)), key=str)
+    compiled = sp.lambdify(free, pair, modules=["math"], dummify=True)
+    draw, compared = Random(1), 0
+    for _ in range(5 * _POINTS):
+        try:
+            left, right = (float(value) for value in compiled(*(draw.uniform(0.05, 0.95) for _ in free)))
+        except (ArithmeticError, ValueError, TypeError):
+            continue
+        if not abs(left - right) <= _SAME * max(abs(left), abs(right)):
+            return False
+        compared += math.isfinite(left)
+        if compared >= _POINTS:
+            return True
+    return compared > 0
+
+
+def _terms(name: str, before: sp.Expr, after: sp.Expr) -> Iterable[Change]:
+    old, new = list(sp.Add.make_args(before)), list(sp.Add.make_args(after))
+    for term in list(old):
+        match = next((other for other in new if same(term, other)), None)
+        if match is not None:
+            old.remove(term)
+            new.remove(match)
+    for likeness in (_factors, _symbols):
+        for term in list(old):
+            match = next((other for other in new if likeness(term) == likeness(other)), None)
+            if match is not None:
+                old.remove(term)
+                new.remove(match)
+                yield Change(name, term, match)
+    if len(old) == len(new) == 1:
+        yield Change(name, old[0], new[0])
+        return
+    yield from (Change(name, term, None) for term in old)
+    yield from (Change(name, None, term) for term in new)
+
+
+def _factors(term: sp.Expr) -> sp.Expr:
+    """A term without its number: terms that differ in it alone are one term, changed."""
+    return term.as_coeff_Mul()[1]
+
+
+def _symbols(term: sp.Expr) -> frozenset[str]:
+    return frozenset([*map(str, term.free_symbols), *(node.func.__name__ for node in term.atoms(AppliedUndef))])
+
+
+def plain(expression: sp.Expr) -> str:
+    """An expression as text, decimals as decimals."""
+    return str(sp.sstr(_decimal(expression), full_prec=False))
+
+
+def typeset(expression: sp.Expr) -> str:
+    """An expression in LaTeX, in the vocabulary's symbols where it has them."""
+    shown = _decimal(expression)
+    names = {symbol: NAMES.get(symbol.name, _upright(symbol.name)) for symbol in shown.free_symbols}
+    return str(sp.latex(shown, symbol_names=names))
+
+
+def _decimal(expression: sp.Expr) -> sp.Expr:
+    fitted = {n: sp.Float(str(float(n))) for n in expression.atoms(sp.Rational) if n.q > 2 and n.q % 5 == 0}
+    return expression.xreplace(fitted)
+
+
+def _upright(name: str) -> str:
+    return r"\mathrm{" + name.replace("_", r"\ ") + "}"

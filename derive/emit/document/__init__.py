@@ -1,0 +1,1 @@
+"""The equations in print: LaTeX and Markdown."""

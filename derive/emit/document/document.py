@@ -1,0 +1,153 @@
+"""A model's equations as a document, LaTeX or compact Markdown: Table 1 of whatever the model is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
+
+from ...physics.laws import LAWS, Law
+from ...physics.mechanics import F_c, S_n, S_t
+from ...user_model.declarations import latex_names
+from ...user_model.structures import UserModel
+from .latex import latex, naming
+from .theory import Equation, theory
+
+_ABSENT = {"bridge": ("Capillary bridge", (F_c,)), "strings": ("Pendulum strings", (S_n, S_t))}
+_DOLLAR = "$"
+_RELATIONS = {"<": "<", ">": ">", "<=": r"\leq", ">=": r"\geq"}
+
+
+@dataclass(frozen=True)
+class Document:
+    """Equations by group, each rendered; `laws` and `quantities` are rows of text."""
+
+    title: str
+    lines: tuple[tuple[str, str, str, str, str], ...]  # group, left, relation, right, note
+    laws: tuple[tuple[str, ...], ...]
+    quantities: tuple[tuple[str, ...], ...]
+
+    def tex(self) -> str:
+        """A LaTeX document that compiles on its own."""
+        body: list[str] = []
+        for group, members in groupby(self.lines, key=lambda line: line[0]):
+            rows = []
+            for _, left, relation, right, note in members:
+                said = rf" && \text{{{_tex(note)}}}" if note else ""
+                rows.append(rf"  {left} &{relation} {right}{said}")
+            body += [rf"\section*{{{_tex(group)}}}", r"\begin{align*}", " \\\\\n".join(rows), r"\end{align*}"]
+        body += [r"\section*{Laws}", *_tabular("lll", ("slot", "law", "source"), self.laws)]
+        if self.quantities:
+            heads = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
+            body += [r"\section*{Quantities of the model}", *_tabular("llllll", heads, self.quantities)]
+        head = [
+            "% Emitted by wetdoublet from its derivation.",
+            r"\documentclass[a4paper,10pt]{article}",
+            r"\usepackage{amsmath}",
+            r"\usepackage[margin=2cm]{geometry}",
+            r"\usepackage{tabularx}",
+            r"\allowdisplaybreaks",
+            rf"\title{{{_tex(self.title)}}}",
+            r"\date{}",
+            r"\begin{document}",
+            r"\maketitle",
+        ]
+        return "\n".join([*head, *body, r"\end{document}", ""])
+
+    def markdown(self) -> str:
+        """A page of Markdown, formulas between dollars."""
+        body = [f"# {self.title}", ""]
+        for group, members in groupby(self.lines, key=lambda line: line[0]):
+            body += [f"## {group}", "", "| | |", "|---|---|"]
+            for _, left, relation, right, note in members:
+                formula = f"{left} {relation} {right}".replace("|", r"\vert ")
+                body.append(f"| ${formula}$ | {_cell(note)} |")
+            body.append("")
+        body += ["## Laws", "", *_table(("slot", "law", "source"), self.laws), ""]
+        if self.quantities:
+            heads = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
+            body += ["## Quantities of the model", "", *_table(heads, self.quantities), ""]
+        return "\n".join(body)
+
+
+def document(title: str, laws: Mapping[str, str], own: UserModel | None, absent: Iterable[str] = ()) -> Document:
+    """The document of a choice of laws.
+
+    Arguments:
+        laws: slot -> name of its law, of the library or of `own`.
+        own: the user's model, if there is one.
+        absent: slots that the scene lacks (`bridge`, `strings`): their terms are left out.
+    """
+    found: dict[str, Law] = {slot: law_of(slot, name, own) for slot, name in laws.items()}
+    with naming(_names(own)):
+        lines = [line for line in _without(theory(found), tuple(absent)) if line.expression != 0]
+        lines += [
+            Equation("Groups", latex(group.symbol), group.definition, group.quantity.meaning)
+            for group in (own.groups if own else ())
+            if group.symbol != group.quantity.symbol
+        ]
+        rendered = tuple((e.group, e.left, e.relation, latex(e.expression), e.note) for e in lines)
+    rows = tuple((slot, f"{law.name}: {law.meaning}", law.source) for slot, law in found.items() if slot not in absent)
+    return Document(title, rendered, rows, _quantities(own))
+
+
+def law_of(slot: str, name: str, own: UserModel | None) -> Law:
+    """A law by slot and name, of a user's model (in SI) or of the library."""
+    for law in own.si if own else ():
+        if (law.slot, law.name) == (slot, name):
+            return law
+    return LAWS[slot][name]
+
+
+def _names(own: UserModel | None) -> dict[str, str]:
+    if own is None:
+        return {}
+    groups = {g.symbol.name: rf"\Pi_{{{g.quantity.latex}}}" for g in own.groups if g.symbol != g.quantity.symbol}
+    return latex_names(own.declarations, groups)
+
+
+def _without(lines: Sequence[Equation], absent: Sequence[str]) -> list[Equation]:
+    headings = {_ABSENT[slot][0] for slot in absent if slot in _ABSENT}
+    nothing = {force: 0 for slot in absent if slot in _ABSENT for force in _ABSENT[slot][1]}
+    kept = [line for line in lines if line.group not in headings]
+    return [replace(line, expression=line.expression.subs(nothing)) if nothing else line for line in kept]
+
+
+def _quantities(own: UserModel | None) -> tuple[tuple[str, ...], ...]:
+    if own is None:
+        return ()
+    return tuple(
+        (one.name, f"${one.latex}$", one.unit, str(one.default or "-"), one.bounds.text, one.meaning)
+        for one in own.declarations.quantities.values()
+    )
+
+
+def _tabular(columns: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    shape = columns[:-1] + "X"
+    lines = [rf"\noindent\begin{{tabularx}}{{\linewidth}}{{{shape}}}", " & ".join(heads) + r" \\ \hline"]
+    if len(columns) == 3:
+        lines[0] = r"\noindent\begin{tabularx}{\linewidth}{lXX}"
+    lines += [" & ".join(_tex(cell) for cell in row) + r" \\" for row in rows]
+    return [*lines, r"\end{tabularx}"]
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    lines = [f"| {' | '.join(heads)} |", "|" + "---|" * len(heads)]
+    return lines + [f"| {' | '.join(_cell(cell) for cell in row)} |" for row in rows]
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", r"\|")
+
+
+def _tex(text: str) -> str:
+    """Text for LaTeX; what stands between dollars is LaTeX already."""
+    parts = text.split(_DOLLAR)
+    for place in range(0, len(parts), 2):
+        for sign, instead in (("\\", r"\textbackslash{}"), ("&", r"\&"), ("%", r"\%"), ("#", r"\#"), ("_", r"\_")):
+            parts[place] = parts[place].replace(sign, instead)
+        for sign in "^~":
+            parts[place] = parts[place].replace(sign, rf"\{sign}{{}}")
+        parts[place] = re.sub(r"[<>]=?", lambda found: rf"\ensuremath{{{_RELATIONS[found[0]]}}}", parts[place])
+    return _DOLLAR.join(parts)

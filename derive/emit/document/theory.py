@@ -1,0 +1,223 @@
+"""The theory of the paper's Table 1 as lines to be typeset: SI equations of the derivation with the laws filled in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...equations.events import reversal
+from ...physics.forces import FILM, SHEAR, force_laws
+from ...physics.laws import LAWS, Law, fill
+from ...physics.laws.base import is_slot_call
+from ...physics.laws.reversal import elastic_compliance, elastic_length
+from ...physics.laws.rupture import rupture_distance
+from ...physics.laws.start import initial_rate, start_values
+from ...physics.laws.strings import r as string_distance
+from ...physics.laws.strings import swing_squared
+from ...physics.mechanics import (
+    F_c,
+    F_n,
+    F_t,
+    F_w,
+    S_n,
+    S_t,
+    arm,
+    doublet_inertia,
+    equations_of_motion,
+    sphere_inertia,
+)
+from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions
+from ...vocabulary.quantities import (
+    a,
+    beta,
+    capillary,
+    centrifugal,
+    gap,
+    m,
+    omega,
+    omega0,
+    opening,
+    p_gt,
+    r,
+    stokes,
+    u,
+    v0,
+    x,
+    x0,
+    x_b,
+    xi,
+)
+from .latex import latex
+
+DEFAULTS: Mapping[str, str] = {
+    "film": "finite",
+    "shear": "immersed",
+    "arm": "midgap",
+    "glass": "literal",
+    "bridge": "mikami",
+    "strings": "exact",
+}
+"""The law of each slot where no other is asked for."""
+
+_SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # d of the strings, theta_e of the spheres
+_RIM = sp.Symbol("rim", positive=True)  # H of a film of constant volume, in SI
+_TWO_FIFTHS = sp.Rational(2, 5)
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One line, `left relation right`, under a heading; `expression` is the right side as it was derived."""
+
+    group: str
+    left: str
+    expression: sp.Expr
+    note: str = ""
+    relation: str = "="
+
+    @property
+    def latex(self) -> str:
+        return f"{self.left} {self.relation} {latex(self.expression)}"
+
+
+def theory(choice: Mapping[str, str | Law] | None = None) -> tuple[Equation, ...]:
+    """Every line of the theory, with the laws of `choice` (slot to name, or a law in SI) where not the default."""
+    chosen = {**DEFAULTS, **(choice or {})}
+    laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
+    parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _flight(laws))
+    return (*(line for part in parts for line in part), *_groups())
+
+
+def _rate(symbol: sp.Symbol) -> str:
+    return rf"\frac{{d {latex(symbol)}}}{{dt}}"
+
+
+def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    group, motion = "Motion", equations_of_motion()
+    opened = motion.separation_acceleration if "attraction" in laws else motion.separation_acceleration.subs(F_w, 0)
+    radial = sp.collect(sp.expand(m * opened), omega**2, evaluate=False)
+    balance = sum((sp.factor(part) * power if power != 1 else part for power, part in radial.items()), sp.Integer(0))
+    lever = sp.expand(fill(force_laws()[arm], laws))
+    turning = sp.simplify(sphere_inertia() * motion.spin_acceleration).subs(arm, lever)
+    yield Equation(group, _rate(x), u, "gap; the paper's $v_n$ is $-u$")
+    yield Equation(group, _rate(beta), omega, "angle of the line of centres")
+    yield Equation(group, f"{latex(m)} {_rate(u)}", balance, "along the line of centres")
+    momentum = rf"\frac{{d}}{{dt}} \left[ {latex(motion.orbital_momentum)} \right]"
+    yield Equation(group, momentum, motion.orbital_momentum_rate, "across the line of centres")
+    yield Equation(
+        group, f"{latex(sphere_inertia())} {_rate(xi)}", turning, f"spin of each sphere ({laws['arm'].name} arm)"
+    )
+    yield Equation(group, f"I({latex(x)})", _square_completed(doublet_inertia()), "inertia in rigid rotation")
+
+
+def _square_completed(inertia: sp.Expr) -> sp.Expr:
+    """I(x) as the paper prints it, m a^2 [(4 + x/a)^2 + ...]."""
+    scaled = sp.expand(inertia / (m * a**2))
+    square = (4 + x / a) ** 2
+    return sp.Mul(m * a**2, square + sp.expand(scaled - square), evaluate=False)
+
+
+def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    inside = {FILM: 1, SHEAR: 1}
+    # the film's rim as a factor 1 - x/x0, and not x0 - x
+    law = laws["film"]
+    resistance, rim = law["resistance"], _rim(law)
+    whole = force_laws(spread=rim is not None)[F_n].subs(inside)
+    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    arguments = dict(zip(resistance.arguments, call.args, strict=True))
+    named = resistance.result.subs({**arguments, _RIM: _RIM / x0}, simultaneous=True)
+    end = x0 if rim is None else _RIM
+    normal = sp.factor(sp.simplify(whole.xreplace({call: named})))
+    normal = normal.subs((x - end) ** 2, (end - x) ** 2).subs(end - x, end * (1 - x / end))
+    shear = fill(force_laws()[F_t].subs(inside), laws)
+    for call in shear.atoms(sp.log):
+        shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x), and not -ln(x/x0)
+    edge = sp.simplify(x0 * laws["shear"]["edge"](x0 / a))
+    yield Equation("Lubrication", latex(F_n), normal, _where(law))
+    if rim is not None:
+        squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * x0**2)
+        yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
+    yield Equation("Lubrication", latex(F_t), shear, _inside(edge))
+
+
+def _where(law: Law) -> str:
+    """Where a film acts, and which way."""
+    functions = {function.name for function in law.functions}
+    if _rim(law) is not None:
+        return "at any gap, the same on the way in and out"
+    return _inside(x0) + ("; 0 on the way out" if "suction" in functions else "; the same on the way in and out")
+
+
+def _rim(law: Law) -> sp.Expr | None:
+    """Where the rim is over x0, if the law has it elsewhere than there."""
+    definitions = law["resistance"].definitions
+    return definitions[0][1] if definitions else None
+
+
+def _attraction(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    if "attraction" not in laws:
+        return
+    law = laws["attraction"]
+    yield Equation("Attraction", latex(F_w), sp.simplify(fill(force_laws()[F_w], laws)), law.source)
+
+
+def _inside(edge: sp.Expr) -> str:
+    return f"${latex(x)} < {latex(edge)}$, else 0"
+
+
+def _bridge(law: Law) -> Iterator[Equation]:
+    group, force = "Capillary bridge", law["force"]
+    whole = force_laws()[F_c]
+    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    arguments = dict(zip(force.arguments, call.args, strict=True))
+
+    def put(expression: sp.Expr) -> sp.Expr:
+        """At the gap over the radius, fitted coefficients as the decimals they were printed as."""
+        fitted = {n: sp.Float(str(float(n))) for n in expression.atoms(sp.Rational) if n.q not in (1, 2)}
+        return expression.xreplace(fitted).subs(arguments, simultaneous=True)
+
+    yield Equation(group, latex(F_c), whole.xreplace({call: put(force.result)}), law.source)
+    for symbol, value in force.definitions:
+        yield Equation(group, latex(symbol), put(value))
+
+
+def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    group, named = "Pendulum strings", False
+    for force in (S_n, S_t):
+        whole = force_laws()[force]
+        call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+        swung = call.func(call.args[0], (_SWING / a) ** 2)
+        closed = sp.simplify(fill(whole.xreplace({call: swung}), laws))
+        named |= _SWING in closed.free_symbols
+        yield Equation(group, latex(force), closed, f"{laws['strings'].name} strings")
+    if named:
+        swing = swing_squared().subs(string_distance - 4 * a, x).subs(string_distance, r)
+        yield Equation(group, f"{latex(_SWING)}^2", swing, "swing of either sphere")
+
+
+def _flight(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    group, start = "Start, reversal, rupture", start_values()
+    # the criterion is scaled with v0: put the gap and the velocity back
+    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -opening)))
+    pressure = sp.factor(pressure.subs({gap: x / x0, opening: u / v0}, simultaneous=True))
+    length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
+    cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
+    yield Equation(group, f"{latex(x)}(0)", start[x], "first touch")
+    yield Equation(group, f"{latex(u)}(0)", start[u], "no spin, no angle turned yet")
+    yield Equation(group, latex(omega0), initial_rate())
+    yield Equation(group, latex(p_gt), pressure, "(i) glass transition", r"\leq")
+    yield Equation(group, latex(x), sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False), "(ii) elastic length", r"\leq")
+    yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
+    yield Equation(group, latex(x), x_b, "(iii) roughness", r"\leq")
+    yield Equation(group, latex(u), reversal((opening,))[opening].subs(opening, u), "if any of these is met", r"\to")
+    yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(x0)}$ without a bridge)")
+
+
+def _groups() -> Iterator[Equation]:
+    definitions = group_definitions()
+    yield Equation("Groups", latex(stokes), definitions[stokes])
+    yield Equation("Groups", latex(capillary), definitions[capillary])
+    rotating = sp.simplify(definitions[centrifugal] / initial_rate() ** 2) * omega0**2
+    yield Equation("Groups", latex(centrifugal), rotating)

@@ -1,0 +1,1 @@
+"""The equations as C headers of Taylor recurrences."""

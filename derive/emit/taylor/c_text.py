@@ -1,0 +1,339 @@
+"""C text of series programs: constants prepared once, a recurrence a line, and plain values at order zero."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from collections.abc import Set as AbstractSet
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...physics.laws.base import is_slot_call
+from ..casadi.printer import EmissionError
+from .program import Operation, Program
+
+_FUNCTIONS = {sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan"}
+_EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
+_ADD, _MUL, _ATOM = range(3)
+
+
+class Text:
+    """Prints an expression over lanes; `names` says what symbols are called.
+
+    Arguments:
+        calls: of slot functions whose still arguments have been prepared, the call up to the argument that moves, and
+            which of its arguments that is.
+    """
+
+    def __init__(self, names: Callable[[sp.Symbol], str], calls: Mapping[str, tuple[str, int]] | None = None) -> None:
+        self._names, self._calls = names, calls or {}
+
+    def __call__(self, expression: sp.Expr) -> str:
+        return self._print(sp.sympify(expression))[0]
+
+    def vector(self, expression: sp.Expr) -> str:
+        """The expression as a vector even where it is a number."""
+        text = self(expression)
+        return f"splat({text})" if not expression.free_symbols else text
+
+    def _print(self, node: sp.Basic) -> tuple[str, int]:
+        if isinstance(node, sp.Symbol):
+            return self._names(node), _ATOM
+        if node.is_number and not node.free_symbols and not node.has(AppliedUndef):
+            return number(node), _ATOM
+        if isinstance(node, sp.Add):
+            return self._sum(node), _ADD
+        if isinstance(node, sp.Mul):
+            return self._product(node), _MUL
+        if isinstance(node, sp.Pow):
+            return self._power(node)
+        if type(node) in _EXTREMES:
+            first, *others = (self.vector(argument) for argument in node.args)
+            for other in others:
+                first = f"{_EXTREMES[type(node)]}({first}, {other})"
+            return first, _ATOM
+        if isinstance(node, AppliedUndef) and is_slot_call(node):
+            if node.func.__name__ in self._calls:
+                call, position = self._calls[node.func.__name__]
+                return f"{call}{self.vector(node.args[position])})", _ATOM
+            arguments = ", ".join(self.vector(argument) for argument in node.args)
+            return f"{node.func.__name__.replace('.', '_')}({arguments})", _ATOM
+        if type(node) in _FUNCTIONS:
+            return f"{_FUNCTIONS[type(node)]}({self(node.args[0])})", _ATOM
+        raise EmissionError(f"no lane-wise C for {type(node).__name__}: {node}")
+
+    def _at_least(self, node: sp.Basic, strength: int) -> str:
+        text, own = self._print(node)
+        return text if own >= strength else f"({text})"
+
+    def _sum(self, node: sp.Add) -> str:
+        text = ""
+        terms = node.as_ordered_terms()
+        terms.sort(key=lambda term: term.could_extract_minus_sign())
+        for term in terms:
+            negative = term.could_extract_minus_sign()
+            body = self._at_least(-term if negative else term, _MUL)
+            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
+        return text
+
+    def _product(self, node: sp.Mul) -> str:
+        over: list[str] = []
+        under: list[str] = []
+        sign = ""
+        for factor in _roots_together(node):
+            if factor == -1:
+                sign = "-"
+            elif isinstance(factor, sp.Pow) and factor.exp.is_number and factor.exp.is_negative:
+                under.append(self._at_least(sp.Pow(factor.base, -factor.exp), _ATOM))
+            else:
+                over.append(self._at_least(factor, _ATOM))
+        top = sign + ("*".join(over) or "1.0")
+        if not under:
+            return top
+        return f"{top}/{under[0]}" if len(under) == 1 else f"{top}/({'*'.join(under)})"
+
+    def _power(self, node: sp.Pow) -> tuple[str, int]:
+        base, exponent = node.args
+        if exponent == sp.Rational(1, 2):
+            return f"vec_sqrt({self(base)})", _ATOM
+        if isinstance(base, sp.UnevaluatedExpr):
+            base = base.args[0]
+        if exponent.is_number and exponent.is_negative and exponent.is_Integer:
+            return f"1.0/{self._at_least(sp.Pow(base, -exponent), _ATOM)}", _MUL
+        if exponent.is_Integer and 2 <= exponent <= 4:
+            return "(" + "*".join([self._at_least(base, _ATOM)] * int(exponent)) + ")", _ATOM
+        return f"vec_exp({self._at_least(exponent, _ATOM)}*vec_log({self(base)}))", _ATOM
+
+
+def _roots_together(node: sp.Mul) -> list[sp.Expr]:
+    """Factors of a product, those of the same broken power under one logarithm, numbers in front."""
+    factors: list[sp.Expr] = []
+    below: dict[sp.Expr, list[sp.Expr]] = {}
+    for factor in node.as_ordered_factors():
+        broken = isinstance(factor, sp.Pow) and factor.exp.is_Rational and not factor.exp.is_Integer
+        if not broken or factor.base.is_number or abs(factor.exp) == sp.Rational(1, 2):
+            factors.append(factor)
+        else:
+            power = abs(factor.exp)
+            below.setdefault(power, []).append(factor.base if factor.exp > 0 else 1 / factor.base)
+    roots = [sp.Pow(sp.UnevaluatedExpr(sp.Mul(*bases)), power, evaluate=False) for power, bases in below.items()]
+    return factors + roots
+
+
+def number(value: sp.Expr) -> str:
+    """The double nearest a number, as a C literal."""
+    text = repr(float(value.evalf(30)))
+    return f"({text})" if text.startswith("-") else text
+
+
+class Constants:
+    """What is computed once a collision: given values, named ones, and factors hoisted out of the recurrences."""
+
+    def __init__(self, given: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
+        self._given = dict(given)
+        self._flags = flags
+        self._place = place
+        self.prepared: dict[str, sp.Expr] = {}
+        self._hoisted: dict[sp.Expr, str] = {}
+        self._defined: dict[sp.Symbol, str] = {}
+        self.text = Text(self.name)
+
+    def beside(self, place: str) -> Constants:
+        """Constants that are kept at another place in C and know these."""
+        more = Constants(self._given | self._defined, self._flags, place)
+        more._hoisted = dict(self._hoisted)
+        return more
+
+    def name(self, symbol: sp.Symbol) -> str:
+        """C name of a constant symbol."""
+        if symbol in self._flags:
+            return symbol.name
+        found = self._given.get(symbol) or self._defined.get(symbol)
+        if found is None:
+            raise EmissionError(f"{symbol} is neither given nor defined")
+        return found
+
+    def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
+        """Keep a named constant."""
+        if symbol not in self._defined:
+            self.prepared[symbol.name] = expression
+            self._defined[symbol] = f"{self._place}{symbol.name}"
+
+    def factor(self, expression: sp.Expr, hint: str) -> str:
+        """Text of a constant: a literal, a name, or a value hoisted under `hint`; flags of the region in front."""
+        flags = [flag for flag in self._flags if flag in expression.free_symbols]
+        rest = expression
+        for flag in flags:
+            rest = sp.cancel(rest / flag)
+        text = self._plain(rest, hint)
+        return "*".join([*(flag.name for flag in flags), *([text] if text != "1.0" else [])]) or text
+
+    def _plain(self, rest: sp.Expr, hint: str) -> str:
+        if rest.is_number and not rest.free_symbols:
+            return number(rest)
+        if isinstance(rest, sp.Symbol):
+            return self.name(rest)
+        if rest not in self._hoisted:
+            name, count = hint, 1
+            while name in self.prepared:
+                count += 1
+                name = f"{hint}_{count}"
+            self.prepared[name] = rest
+            self._hoisted[rest] = f"{self._place}{name}"
+        return self._hoisted[rest]
+
+
+class Recurrences:
+    """C lines of a program: `s->name[k]` for its own series, `c->name` for constants.
+
+    Arguments:
+        where: C text of a series that the program does not make itself.
+        local: whether a series of its own is a variable of the function and no field of `s`.
+        passing: series that only sums are made of: PASSING(k) is where their coefficient k lies.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        constants: Constants,
+        where: Callable[[str], str],
+        local: Callable[[str], bool] = lambda name: False,
+        passing: AbstractSet[str] = frozenset(),
+    ) -> None:
+        self.program, self.constants, self._where, self._local = program, constants, where, local
+        self._passing = passing
+        self._own = {operation.name for operation in program.operations}
+        self._calls = {operation.name for operation in program.operations if operation.kind == "call"}
+        for symbol, expression in program.named.items():
+            constants.define(symbol, expression)
+        self.factors = {operation.name: self._factors(operation) for operation in program.operations}
+
+    def _factors(self, operation: Operation) -> list[str]:
+        hints = [f"{operation.name}_factor"]
+        if operation.kind == "linear":
+            hints = [f"{operation.name}_per_{series}" for series in operation.series] + [f"{operation.name}_offset"]
+        return [self.constants.factor(factor, hint) for factor, hint in zip(operation.factors, hints, strict=False)]
+
+    def array(self, name: str) -> str:
+        """C text of a series' array."""
+        if name in self._calls:
+            return f"s->{name}.result"
+        return f"{self._place(name)}{name}" if name in self._own else self._where(name)
+
+    def coefficient(self, name: str) -> str:
+        """C text of coefficient k of a series."""
+        return f"{self.array(name)}[{'PASSING(k)' if name in self._passing else 'k'}]"
+
+    def _place(self, name: str) -> str:
+        return "" if self._local(name) else "s->"
+
+    def fields(self, local: bool = False) -> list[str]:
+        """Declarations of the arrays; of those that are local, or of the others."""
+        lines = []
+        for operation in self.program.operations:
+            if self._local(operation.name) != local:
+                continue
+            if operation.kind == "call":
+                assert operation.call is not None
+                lines.append(f"{operation.call[0]}_{operation.call[1]}_series {operation.name};")
+                continue
+            arrays = [operation.name]
+            if operation.kind in ("exp", "sine"):
+                arrays.append(f"slope_of_{operation.series[0]}")
+            if operation.kind == "log":
+                arrays.append(f"slope_of_{operation.name}")
+            size = "PASSING(ORDER) + 1" if operation.name in self._passing else "TERMS"
+            lines.append("vec " + ", ".join(f"{name}[{size}]" for name in arrays) + ";")
+            if operation.kind in ("quotient", "sqrt", "log", "power"):
+                lines.append(f"vec over_{operation.name};")
+        return list(dict.fromkeys(lines))
+
+    def lines(self) -> list[str]:
+        """One line a series for coefficient k."""
+        return [self._line(operation) for operation in self.program.operations]
+
+    def _line(self, operation: Operation) -> str:
+        name, kind = operation.name, operation.kind
+        series = [self.array(part) for part in operation.series]
+        factors = self.factors[name]
+        place = self._place(name)
+        whole = f"{place}{name}"
+        target = f"{whole}[{'PASSING(k)' if name in self._passing else 'k'}]"
+        if kind == "linear":
+            terms = _terms(factors[:-1], [self.coefficient(part) for part in operation.series])
+            offset = factors[-1]
+            if offset == "0.0":
+                return f"{target} = {terms};"
+            return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
+        if kind == "product":
+            older, newer = (self.array(part) for part in sorted(operation.series, key=self._age))
+            return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
+        if kind == "square":
+            return f"{target} = square({series[0]}, k);"
+        if kind == "reciprocal":
+            return f"{target} = reciprocal({series[0]}, {whole}, k);"
+        if kind == "quotient":
+            return f"{target} = quotient({series[0]}, {series[1]}, {whole}, &{place}over_{name}, k);"
+        if kind == "sqrt":
+            return f"{target} = root({series[0]}, {whole}, &{place}over_{name}, k);"
+        if kind == "power":
+            return f"{target} = power({series[0]}, {whole}, {factors[0]}, &{place}over_{name}, k);"
+        if kind == "exp":
+            return f"{target} = exponential({series[0]}, {place}slope_of_{operation.series[0]}, {whole}, k);"
+        if kind == "log":
+            return f"{target} = logarithm({series[0]}, {whole}, {place}slope_of_{name}, &{place}over_{name}, k);"
+        if kind == "sine":
+            inner = operation.series[0]
+            cosine = self.array(f"cosine_of_{inner}")
+            return f"circular({series[0]}, {place}slope_of_{inner}, {whole}, {cosine}, k);"
+        if kind == "cosine":
+            return f"/* {name} comes with its sine */"
+        assert operation.call is not None
+        slot, function, arguments = operation.call
+        passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
+        return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
+
+    def _age(self, name: str) -> int:
+        """Place of a series in the program; what is given comes first."""
+        return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
+
+    def values(self) -> list[str]:
+        """Local variables with the values at order zero; `where` of the series that are given must be such."""
+        return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations]
+
+    def _value(self, operation: Operation) -> str:
+        kind, factors = operation.kind, self.factors[operation.name]
+        series = [part if part in self._own else self._where(part) for part in operation.series]
+        if kind == "linear":
+            terms = _terms(factors[:-1], series)
+            return terms if factors[-1] == "0.0" else f"{terms} + {factors[-1]}"
+        if kind == "product":
+            return f"{_times(factors[0])}{series[0]}*{series[1]}"
+        if kind == "square":
+            return f"{series[0]}*{series[0]}"
+        if kind == "reciprocal":
+            return f"1.0/{series[0]}"
+        if kind == "quotient":
+            return f"{series[0]}/{series[1]}"
+        if kind == "power":
+            return f"vec_exp({factors[0]}*vec_log({series[0]}))"
+        if kind == "call":
+            assert operation.call is not None
+            slot, function, _ = operation.call
+            return f"{slot}_{function}_value(&c->{operation.name}, {', '.join(series)})"
+        function = {"sqrt": "sqrt", "exp": "exp", "log": "log", "sine": "sin", "cosine": "cos"}[kind]
+        return f"vec_{function}({series[0]})"
+
+
+def _times(factor: str) -> str:
+    return {"1.0": "", "(-1.0)": "-"}.get(factor, f"{factor}*")
+
+
+def _terms(factors: list[str], series: list[str]) -> str:
+    text = ""
+    for factor, part in sorted(zip(factors, series, strict=True), key=lambda pair: pair[0].startswith("(-")):
+        negative = factor.startswith("(-")
+        bare = factor[2:-1] if negative else factor
+        body = part if bare == "1.0" else f"{bare}*{part}"
+        text += (" - " if negative else " + ") + body if text else ("-" if negative else "") + body
+    return text

@@ -1,0 +1,103 @@
+"""The stick proofs by margins in C, as values over lanes: on strings, and by what attracts, where the laws permit."""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...equations.model import Model
+from ...physics.laws.base import is_slot_call
+from ...physics.slots import places
+from ..text import needed
+from .c_text import Constants, Text
+from .law_header import moves
+from .layout import comment, function
+
+# On strings two functions, the cheap and telling margin first.
+PARTS = {
+    "tethered_inward": (
+        ("outward", "pull"),
+        "The strings outweigh the rotation for good where outward < pull (equations/certificates/strings.py).",
+    ),
+    "tethered_stops": (
+        ("film", "recoil"),
+        "Then the film stops the motion and every rebound where film < 0 and recoil < 0.",
+    ),
+}
+
+
+def tethered_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The functions of PARTS, in the region of laws that have what the proof asks.
+
+    Arguments:
+        constants: of the structure; what does not move is added to them.
+        prepared: by slot and function, the law's constants in those of the structure.
+    """
+    outputs = dict(model["tethered"].outputs)
+    asked = {
+        node.func.__name__.replace(".", "_").upper()
+        for _, expression in (*needed(list(outputs.values()), model.definitions)[0], *outputs.items())
+        for node in sp.sympify(expression).atoms(AppliedUndef)
+        if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in prepared
+    }
+    lines = [f"#if {' && '.join(f'defined({name})' for name in sorted(asked))}", "#define TETHERED MIDGAP_ARM"]
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    for name, (keys, doc) in PARTS.items():
+        kept, _ = needed([outputs[key] for key in keys], model.definitions)
+        lines += _function(name, doc, kept, {key: outputs[key] for key in keys}, moving, constants, prepared)
+    return [*lines, "#else", "#define TETHERED 0", "#endif", ""]
+
+
+def held_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The margins of the attraction certificate, for laws whose force falls with the gap; arguments as above."""
+    outputs = dict(model["held"].outputs)
+    falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    kept, _ = needed(list(outputs.values()), model.definitions)
+    doc = "What attracts holds for good where hold > 0, flight < 0 and rebound < 0."
+    return [
+        f"#if {' && '.join(falling)}",
+        "#define HELD (REDUCED || MIDGAP_ARM)",
+        *_function("held_margins", doc, kept, outputs, moving, constants, prepared),
+        "#else",
+        "#define HELD 0",
+        "#endif",
+        "",
+    ]
+
+
+def _function(
+    name: str,
+    doc: str,
+    kept: list[tuple[sp.Symbol, sp.Expr]],
+    outputs: dict[str, sp.Expr],
+    moving: dict[sp.Symbol, str],
+    constants: Constants,
+    prepared: dict[tuple[str, str], str],
+) -> list[str]:
+    local = dict(moving)
+    text = Text(lambda symbol: local.get(symbol) or constants.name(symbol), _calls(prepared))
+    body = []
+    for symbol, expression in kept:
+        if expression.free_symbols & set(local) or expression.atoms(AppliedUndef):
+            body.append(f"vec {symbol.name} = {text.vector(expression)};")
+            local[symbol] = symbol.name
+        else:
+            constants.define(symbol, expression)
+    taken = {symbol.name for symbol, _ in kept}
+    into = {key: f"{key}_margin" if key in taken else key for key in outputs}
+    body += [f"*{into[key]} = {text.vector(expression)};" for key, expression in outputs.items()]
+    results = ", ".join(f"vec *{name}" for name in into.values())
+    head = f"static inline void {name}(const constants *c, const vec *y, {results})"
+    return [*comment(doc), *function(head, body)]
+
+
+def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, tuple[str, int]]:
+    """How laws with constants are called: by value, the still arguments in the constants; where the moving one is."""
+    return {
+        f"{slot}.{name}": (
+            f"{slot}_{name}_value(&c->{where}, ",
+            moves(places()[f"{slot}.{name}"].arguments).index(True),
+        )
+        for (slot, name), where in prepared.items()
+    }

@@ -1,0 +1,96 @@
+"""Derivatives of named definitions by a state or a group: the chain rule, with the names kept.
+
+What is left of a derivative is as short as the definitions are: intermediates and the values of laws stay symbols, so
+that the series of them which a flow has already made are used again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...physics.laws.base import Definition, is_slot_call
+
+Slope = Callable[[AppliedUndef, int], sp.Expr]
+
+
+class Chain:
+    """Total derivatives through definitions.
+
+    Arguments:
+        definitions: in order, each in terms of those before it.
+        slope: the symbol for the derivative of a law's call by its argument of that number.
+        constant: symbols that do not move along a flight, which cost nothing to divide by.
+    """
+
+    def __init__(
+        self, definitions: Sequence[Definition], slope: Slope | None = None, constant: Collection[sp.Symbol] = ()
+    ) -> None:
+        self._constant = constant
+        self._definitions = dict(definitions)
+        self._slope = slope
+        self._known: dict[tuple[sp.Basic, sp.Symbol], sp.Expr] = {}
+        self.named: list[Definition] = []  # derivatives with more than one term, under a name of their own
+
+    def by(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+        """D expression/d variable, all other states and groups held."""
+        calls = {node: sp.Dummy(positive=True) for node in expression.atoms(AppliedUndef) if is_slot_call(node)}
+        hidden = expression.xreplace(calls)
+        shown = {dummy: node for node, dummy in calls.items()}
+        total = sp.diff(hidden, variable)
+        for symbol in sorted(hidden.free_symbols & self._definitions.keys(), key=str):
+            total += sp.diff(hidden, symbol) * self._of(symbol, variable)
+        for node, dummy in calls.items():
+            total += sp.diff(hidden, dummy) * self._of_call(node, variable)
+        return _expanded(total).xreplace(shown)
+
+    def _of(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
+        key = symbol, variable
+        if key not in self._known:
+            self._known[key] = self._name(self._short(symbol, variable), f"{symbol.name}_by_{variable.name}")
+        return self._known[key]
+
+    def _of_call(self, node: AppliedUndef, variable: sp.Symbol) -> sp.Expr:
+        key = node, variable
+        if key not in self._known:
+            total = sp.Integer(0)
+            for position, argument in enumerate(node.args):
+                inner = self.by(argument, variable)
+                if inner != 0:
+                    assert self._slope is not None, f"{node} is called, and nothing is known of its slopes"
+                    total += self._slope(node, position) * inner
+            call = node.func.__name__.replace(".", "_")
+            self._known[key] = self._name(_expanded(total), f"{call}_by_{variable.name}")
+        return self._known[key]
+
+    def _name(self, found: sp.Expr, name: str) -> sp.Expr:
+        """A derivative that is a sum, or a product of several that move, under a name of its own; quotients cancel."""
+        moving = [part for part in sp.Mul.make_args(found) if part.free_symbols - set(self._constant)]
+        several = len(moving) > 1 and not any(part.is_Pow and part.exp.is_negative for part in moving)
+        if not (isinstance(found, sp.Add) or several):
+            return found
+        symbol = sp.Symbol(name, real=True)
+        self.named.append((symbol, found))
+        return symbol
+
+    def _short(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
+        """The derivative of a definition; of a power in a product by the product itself, where that cannot be zero."""
+        value = self._definitions[symbol]
+        if isinstance(value, sp.Add):
+            return self.by(value, variable)
+        total = sp.Integer(0)
+        for base, power in value.as_powers_dict().items():
+            inner = self.by(base, variable)
+            if inner == 0:
+                continue
+            kept = base.is_Symbol and base.is_positive and (power != 1 or base in self._constant)
+            whole = symbol / base if kept else value / base
+            total += power * whole * inner
+        return _expanded(total)
+
+
+def _expanded(expression: sp.Expr) -> sp.Expr:
+    """Products over sums multiplied out, so that like terms meet; functions stay as they are."""
+    return sp.expand(expression, power_exp=False, power_base=False, log=False, trig=False)

@@ -1,0 +1,80 @@
+"""Functions of a structure in closed form: edge of the tangential force, work of attractions, momentum of the film."""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...equations.model import Model
+from ...physics.forces import FILM
+from ...physics.laws.base import is_slot_call
+from ...vocabulary.quantities import opening
+from .c_text import Constants
+from .layout import comment, function
+
+WORKS = {"capillary": "bridge", "attraction": "attraction"}  # of the ledger, and the slot of the force
+Calls = dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]]
+
+
+def attracting(model: Model) -> list[str]:
+    """Slots of the forces that attract."""
+    return [slot for slot in WORKS.values() if slot in model.slots]
+
+
+def edge_function(event: sp.Expr, constants: Constants) -> list[str]:
+    """Where the tangential force ends."""
+    call = next(node for node in event.atoms(AppliedUndef) if is_slot_call(node))
+    text = constants.factor(call, "edge")
+    return [
+        *comment("Gap beyond which there is no tangential force."),
+        *function("static inline vec tangential_edge(const constants *c)", [f"return {text};"]),
+        "",
+    ]
+
+
+def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]:
+    """Work against attractions by the laws' antiderivatives: force over the rate at which its argument grows."""
+    gap, terms = model.states[0], []
+    for slot in attracting(model):
+        force = next(value for symbol, value in model.definitions if symbol.name == f"{slot}_force")
+        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+        name = next(name for name, (own, _, _) in calls.items() if own == slot)
+        per = sp.cancel(force / call / call.args[0].diff(gap))
+        scale = constants.factor(call.args[0].diff(gap), f"{slot}_gap_factor")
+        factor = constants.factor(per, f"{slot}_work_factor")
+        at = "gap" if scale == "1.0" else f"{scale}*gap"
+        terms.append(f"{factor}*{slot}_force_work(&c->{name}, {at})")
+    what = "Capillary work" if attracting(model) == ["bridge"] else "Work against what attracts"
+    return [
+        "#if !CAPILLARY_STATE",
+        *comment(f"{what} up to a gap over m v0^2, from a fixed but arbitrary gap."),
+        *function("static inline vec capillary_work(const constants *c, vec gap)", [f"return {' + '.join(terms)};"]),
+        "#endif",
+        "",
+    ]
+
+
+def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list[str]:
+    """What the film takes of the opening velocity along a gap: du/dx is minus its force over the velocity."""
+    force = next(value for symbol, value in model.definitions if symbol.name == "film_force").subs(FILM, 1)
+    call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+    name = next(name for name, (slot, _, _) in calls.items() if slot == "film")
+    if call.has(opening):
+        return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
+    factor = constants.factor(sp.cancel(force / call / opening), "film_momentum_factor")
+    return [
+        "#define FILM_MOMENTUM 1",
+        *comment("Velocity over v0 that the film takes per gap."),
+        *function(
+            "static inline vec film_slowing(const constants *c, vec gap)",
+            [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
+        ),
+        "#if defined(FILM_RESISTANCE_WORK)",
+        *comment("Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap."),
+        *function(
+            "static inline vec film_momentum(const constants *c, vec gap)",
+            [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
+        ),
+        "#endif",
+        "",
+    ]

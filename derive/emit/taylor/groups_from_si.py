@@ -1,0 +1,92 @@
+"""From quantities in SI to the groups of a collision, in C."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from ...equations.model import Model
+from ...physics.laws.base import slot_call
+from ...physics.scaling import group_definitions
+from ...vocabulary.quantities import VOCABULARY, R, contact_angle, rupture_gap, volume, x0
+from .c_text import Text
+from .layout import comment, function
+
+_PER_DISTANCE = R / x0
+_OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", volume, contact_angle)  # the law's own
+
+
+def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
+    """The groups from SI quantities, whose names are exported in the order they are given in.
+
+    Arguments:
+        own: groups of a user's model in SI quantities.
+    """
+    expressions = _expressions(model, own)
+    names = [symbol.name for symbol in _quantities(expressions)]
+    text = Text(lambda symbol: f"q[SI_{symbol.name.upper()}]")
+    lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
+    lines += ["const char quantity_names[] =", *(f'    "{name} "' for name in names[:-1]), f'    "{names[-1]}";', ""]
+    body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
+    if rupture_gap in expressions:
+        body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
+    doc = "The groups of a collision from its quantities in SI."
+    return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+
+
+def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    """The groups of a model in SI quantities."""
+    definitions = {**group_definitions(), **own}
+    return {group: definitions.get(group, group) for group in model.groups}
+
+
+def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
+    """What groups are made of: the vocabulary in its order, then what a user has declared."""
+    used = set().union(*(expression.free_symbols for expression in expressions.values()))
+    found = [one.symbol for one in VOCABULARY.values() if one.symbol in used]
+    return found + sorted(used - set(found), key=lambda symbol: str(symbol.name))
+
+
+def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
+    """How the groups change with the quantities in SI, and which of them each quantity moves; `own` as above."""
+    wanted = _expressions(model, own)
+    known = {group for group, expression in wanted.items() if group != expression}
+    text = Text(lambda symbol: f"v->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]")
+    bits: dict[sp.Symbol, int] = dict.fromkeys(_quantities(wanted), 0)
+    body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
+    for symbol in bits:
+        body.append(f"case SI_{symbol.name.upper()}:")
+        for place, (group, expression) in enumerate(wanted.items()):
+            slope = _power_slope(expression, symbol, group)
+            if slope != 0:
+                bits[symbol] |= 1 << place
+                line = f"    slope[BY_{group.name.upper()}] = {text.vector(slope)};"
+                if group == rupture_gap:
+                    own_line = f"    slope[BY_RUPTURE_GAP] = {text.vector(_own_rupture_slope(symbol))};"
+                    body += ["#if OWN_RUPTURE", own_line, "#else", line, "#endif"]
+                else:
+                    body.append(line)
+        body.append("    break;")
+    body.append("}")
+    head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
+    moved = f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};"
+    lines = [*comment("The groups that each quantity in SI moves, as bits."), moved, ""]
+    return [*lines, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
+
+
+def _own_rupture_slope(symbol: sp.Symbol) -> sp.Expr:
+    """Of the rupture gap by the law's own distance."""
+    if symbol in (volume, contact_angle):
+        return _PER_DISTANCE * slot_call("bridge", f"rupture_distance_by_{symbol.name}", volume, contact_angle)
+    return _power_slope(_PER_DISTANCE, symbol, rupture_gap)
+
+
+def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
+    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
+    if expression == symbol:
+        return sp.Integer(1)
+    power = expression.as_powers_dict().get(symbol, 0)
+    if symbol.is_positive and power != 0 and not (expression / symbol**power).has(symbol):
+        return power * group / symbol
+    return sp.diff(expression, symbol)

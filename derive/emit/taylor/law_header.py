@@ -1,0 +1,216 @@
+"""C headers of the laws: constants, recurrences and values of each function, and the work of a force where it closes.
+
+A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Set as AbstractSet
+
+import sympy as sp
+
+from ...equations.model import GROUPS
+from ...physics.laws.base import Law, LawFunction
+from ..text import needed
+from .antiderivative import antiderivative
+from .c_text import Constants, Recurrences, Text
+from .layout import comment, function
+from .program import Program, cheapest
+
+LIMIT = sp.Symbol("limit", positive=True)  # what an event compares a law's value with
+
+
+def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = frozenset()) -> tuple[bool, ...]:
+    """Which arguments of a law's function are series along a flight: all that are no groups.
+
+    Arguments:
+        groups: those of a user's model, beside the library's.
+    """
+    return tuple(argument not in groups and argument not in GROUPS for argument in arguments)
+
+
+def compared() -> set[tuple[str, str]]:
+    """Slot functions that an event compares with a limit."""
+    return {("glass", "pressure")}
+
+
+def law_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header of a law.
+
+    Arguments:
+        groups: those of a user's model, beside the library's.
+    """
+    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+    lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
+    for each in law.functions:
+        if each.name == "suction":
+            lines += ["#define FILM_CAVITATES 1 /* no force while opening */", ""]
+        elif each.for_proof:
+            lines += _asked(law.slot, each)
+        elif each.name != "potential":  # which is the work of the force
+            lines += _function(law, each, moves(each.arguments, groups))
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _asked(slot: str, each: LawFunction) -> list[str]:
+    """A plain function that only a stick proof calls."""
+    name = f"{slot}_{each.name}"
+    text = Text(lambda symbol: symbol.name)
+    kept, _ = needed([each.result], each.definitions)
+    body = [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+    arguments = ", ".join(f"vec {argument.name}" for argument in each.arguments)
+    return [
+        f"#define {name.upper()} 1",
+        *comment(each.doc),
+        *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
+        "",
+    ]
+
+
+def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
+    slot = law.slot
+    moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
+    still = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if not moved)
+    name = f"{slot}_{each.name}"
+    kept, _ = needed([each.result], each.definitions)
+    if not moving:
+        text = Text(lambda symbol: symbol.name)
+        arguments = ", ".join(f"vec {argument.name}" for argument in still) or "void"
+        body = [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+        return [
+            *comment(each.doc),
+            *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
+            "",
+        ]
+    if (slot, each.name) in compared():
+        return _clearance(name, each, kept, moving, still)
+    program, result = cheapest(each.result, kept, moving)
+    constants = Constants({argument: f"c->{argument.name}" for argument in still})
+    lines = _recurrences(name, each.doc, program, result, constants, moving)
+    if each.falls:
+        lines += [f"#define {name.upper()}_FALLS 1 /* it never grows with its first argument */", ""]
+    work = _work(law, each, kept, moving, constants)
+    if work is not None:
+        lines += work_lines(name, work, constants, moving[0])
+    # what follows may hoist more constants, so the struct is written last
+    return [*_constants(name, constants, still), *lines]
+
+
+def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) -> list[str]:
+    names = [*(argument.name for argument in still), *constants.prepared]
+    fields = f"vec {', '.join(names)};" if names else "char none[0];"
+    arguments = "".join(f", vec {argument.name}" for argument in still)
+    body = [f"c->{argument.name} = {argument.name};" for argument in still]
+    body += [f"c->{key} = {constants.text.vector(value)};" for key, value in constants.prepared.items()]
+    return [
+        f"typedef struct {{ {fields} }} {name}_constants;",
+        "",
+        *function(f"static inline void {name}_prepare({name}_constants *c{arguments})", body or ["(void)c;"]),
+        "",
+    ]
+
+
+def _recurrences(
+    name: str,
+    doc: str,
+    program: Program,
+    result: str | sp.Expr,
+    constants: Constants,
+    moving: tuple[sp.Symbol, ...],
+) -> list[str]:
+    made = Recurrences(program, constants, lambda series: series)
+    own = [operation.name for operation in program.operations]
+    ending, value = [], ""
+    if isinstance(result, str) and result == "result" and own and own[-1] == "result":
+        value = "result"
+    elif isinstance(result, str):
+        ending, value = [f"s->result[k] = {made.array(result)}[k];"], result
+    else:
+        constant = constants.factor(result, "level")
+        ending = [f"s->result[k] = k == 0 ? splat({constant}) : splat(0.0);"]
+        value = f"splat({constant})"
+        if constant.startswith("c->"):
+            ending, value = [f"s->result[k] = k == 0 ? {constant} : splat(0.0);"], constant
+    fields = made.fields() + (["vec result[TERMS];"] if ending else [])
+    series_arguments = "".join(f", const vec *{argument.name}" for argument in moving)
+    value_arguments = "".join(f", vec {argument.name}" for argument in moving)
+    unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)c;"
+    return [
+        "typedef struct {",
+        *(f"    {field}" for field in fields),
+        f"}} {name}_series;",
+        "",
+        *comment(f"{doc} Coefficient k of its series; products of series: {program.cost:g}."),
+        *function(
+            f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series_arguments}, int k)",
+            [unused, *made.lines(), *ending],
+        ),
+        "",
+        *comment(doc),
+        *function(
+            f"static inline vec {name}_value(const {name}_constants *c{value_arguments})",
+            [unused, *made.values(), f"return {value};"],
+        ),
+        "",
+    ]
+
+
+def _work(
+    law: Law,
+    each: LawFunction,
+    kept: list[tuple[sp.Symbol, sp.Expr]],
+    moving: tuple[sp.Symbol, ...],
+    constants: Constants,
+) -> sp.Expr | None:
+    if each.name not in ("force", "resistance") or len(moving) != 1:
+        return None
+    for other in law.functions:
+        if (other.name, other.arguments) == ("potential", each.arguments):
+            known = other(*other.arguments)
+            if sp.simplify(known.diff(moving[0]) - each(*each.arguments)) == 0:
+                return known
+    force = each.result
+    for symbol, value in reversed(kept):
+        if value.free_symbols & {moving[0], *(s for s, v in kept if v.has(moving[0]))}:
+            force = force.subs(symbol, value)
+    for symbol, value in kept:
+        if not value.has(moving[0]):
+            constants.define(symbol, value)
+    return antiderivative(force, moving[0])
+
+
+def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol) -> list[str]:
+    """A function with the antiderivative of a force."""
+    program = Program((moving,))
+    result = program.series(work, "work")
+    made = Recurrences(program, constants, lambda series: series)
+    return [
+        f"#define {name.upper()}_WORK 1",
+        *comment("An antiderivative of it: work in closed form."),
+        *function(
+            f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})",
+            ["(void)c;", *made.values(), f"return {result};"],
+        ),
+        "",
+    ]
+
+
+def _clearance(
+    name: str,
+    each: LawFunction,
+    kept: list[tuple[sp.Symbol, sp.Expr]],
+    moving: tuple[sp.Symbol, ...],
+    still: tuple[sp.Symbol, ...],
+) -> list[str]:
+    """`limit - value` times the value's positive denominator: the same sign, and no division along a flight."""
+    result = each.result
+    for symbol, value in reversed(kept):
+        result = result.subs(symbol, value)
+    over, under = sp.fraction(sp.together(result))
+    positive = bool(under.is_positive)
+    clearance = LIMIT * under - over if positive else LIMIT - result
+    program, found = cheapest(sp.expand(clearance), (), moving)
+    constants = Constants({argument: f"c->{argument.name}" for argument in (*still, LIMIT)})
+    doc = f"Limit less value{', times the positive denominator' if positive else ''}: sign of the event function."
+    lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving)
+    return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]

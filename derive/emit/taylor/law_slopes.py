@@ -1,0 +1,174 @@
+"""C headers with the slopes of a law: series of its derivatives by each argument, out of the law's own series."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
+
+import sympy as sp
+
+from ...physics.laws import LAWS
+from ...physics.laws.base import Law, LawFunction
+from ..text import needed
+from .c_text import Constants, Recurrences, Text
+from .chain_rule import Chain
+from .law_header import LIMIT, compared, moves
+from .layout import comment, each_term, function
+from .program import Program, cheapest
+
+UNUSED = "unused_"  # before the name of an argument that a law takes no notice of
+
+
+def arguments(slot: str, name: str, count: int, extra: tuple[sp.Symbol, ...] = ()) -> tuple[str, ...]:
+    """Names of a slot function's arguments as the laws that take so many have them.
+
+    Arguments:
+        extra: the last of them, which a user's model passes beside.
+    """
+    for law in LAWS[slot].values():
+        for each in law.functions:
+            if each.name == name and len(each.arguments) + len(extra) == count:
+                return tuple(argument.name for argument in (*each.arguments, *extra))
+    raise LookupError(f"no law of {slot} has {name}")
+
+
+def _by(argument: sp.Symbol) -> str:
+    return f"by_{argument.name.removeprefix(UNUSED)}"
+
+
+def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header with the slopes of a law; `groups` are a user's."""
+    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+    lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
+    for each in law.functions:
+        if each.for_proof or each.name in ("suction", "potential"):  # no force, and the work of one
+            continue
+        name = f"{law.slot}_{each.name}"
+        moved = moves(each.arguments, groups)
+        moving = tuple(argument for argument, own in zip(each.arguments, moved, strict=True) if own)
+        if (law.slot, each.name) in compared():
+            lines += _clearance(name, each)
+        elif moving:
+            lines += _series(name, each, moving)
+        else:
+            lines += _plain(name, each)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _plain(name: str, each: LawFunction) -> list[str]:
+    """Slopes of a function of what is constant along a flight."""
+    chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
+    head = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
+    lines = []
+    for argument in each.arguments:
+        slope = sp.simplify(chain.by(each.result, argument))
+        kept, _ = needed([slope], (*each.definitions, *chain.named))
+        body = [f"(void){other.name};" for other in each.arguments]
+        body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+        lines += function(f"static inline vec {name}_{_by(argument)}({head})", [*body, f"return {text.vector(slope)};"])
+        lines += [""]
+    return lines
+
+
+def shortest(program: Program, expressions: Iterable[sp.Expr], name: str) -> str | sp.Expr:
+    """The first of the cheapest forms of an expression, made in `program`; the expression itself if it is constant."""
+    forms = list(dict.fromkeys(expressions))
+    if not program.moves(forms[0]):
+        return forms[0]
+
+    def cost(form: sp.Expr) -> float:
+        trial = program.continued()
+        trial.series(form)
+        return trial.cost
+
+    return program.series(min(forms, key=cost), name)
+
+
+def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) -> None:
+    """Let a symbol stand for the cheapest form of an expression."""
+
+    def cost(form: sp.Expr) -> float:
+        trial = program.continued()
+        trial.define(symbol, form)
+        return trial.cost
+
+    program.define(symbol, min(dict.fromkeys((expression, *factored(expression))), key=cost))
+
+
+def factored(expression: sp.Expr) -> list[sp.Expr]:
+    """Other forms of a sum: what all its terms share before it, and what most of them do."""
+    forms = [sp.factor(expression)]
+    if isinstance(expression, sp.Add):
+        forms += [sp.collect(expression, symbol) for symbol in sorted(expression.free_symbols, key=str)]
+    return forms
+
+
+def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
+    kept, _ = needed([each.result], each.definitions)
+    value, _ = cheapest(each.result, kept, moving)
+    own = {operation.name for operation in value.operations}
+    program, chain = value.continued(), Chain(kept)
+    slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
+    for symbol, expression in chain.named:
+        program.define(symbol, expression)
+    found = {}
+    for argument, slope in slopes.items():
+        forms = (slope, sp.factor(slope))
+        found[argument] = shortest(program, forms, _by(argument))
+    given = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
+    constants = Constants(given)
+    made = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
+    ending, fields = [], made.fields()
+    for argument, result in found.items():
+        target = _by(argument)
+        if isinstance(result, str):
+            if result != target:
+                ending.append(each_term(f"s->{target}[k] = {made.array(result)}[k];"))
+        else:
+            level = constants.factor(result, f"level_{_by(argument)}")
+            level = level if level.startswith(("c->", "v->")) else f"splat({level})"
+            ending.append(each_term(f"s->{target}[k] = k == 0 ? {level} : splat(0.0);"))
+        if not isinstance(result, str) or result != target:
+            fields.append(f"vec {target}[TERMS];")
+    names = [*constants.prepared]
+    inputs = "".join(f", const vec *{argument.name}" for argument in moving)
+    unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)of; (void)c; (void)v;"
+    body = [f"c->{key} = {constants.text.vector(expression)};" for key, expression in constants.prepared.items()]
+    return [
+        f"typedef struct {{ {'vec ' + ', '.join(names) if names else 'char none[0]'}; }} {name}_slope_constants;",
+        "",
+        *function(
+            f"static inline void {name}_slope_prepare({name}_slope_constants *c, const {name}_constants *v)",
+            ["(void)c; (void)v;", *body],
+        ),
+        "",
+        "typedef struct {",
+        *(f"    {field}" for field in fields),
+        f"}} {name}_slopes;",
+        "",
+        *comment(f"Derivatives of {name} by its arguments; products of series: {program.cost:g}."),
+        *function(
+            f"INLINE void {name}_slopes_of({name}_slopes *restrict s, const {name}_slope_constants *c, "
+            f"const {name}_series *of, const {name}_constants *v{inputs})",
+            [unused, *map(each_term, made.lines()), *ending],
+        ),
+        "",
+    ]
+
+
+def _clearance(name: str, each: LawFunction) -> list[str]:
+    """Slopes of `limit - value`: at the event's surface, those of the clearance but for its positive denominator."""
+    chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
+    head = ", ".join(f"vec {argument.name}" for argument in (*each.arguments, LIMIT))
+    body = [f"(void){argument.name};" for argument in (*each.arguments, LIMIT)]
+    result = LIMIT - each.result
+    slopes = {argument: chain.by(result, argument) for argument in (*each.arguments, LIMIT)}
+    kept, _ = needed(list(slopes.values()), (*each.definitions, *chain.named))
+    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+    body += [f"*by_{argument.name} = {text.vector(slope)};" for argument, slope in slopes.items()]
+    outputs = ", ".join(f"vec *by_{argument.name}" for argument in slopes)
+    return [
+        *comment("Slopes of the limit less the value."),
+        *function(f"static inline void {name}_margin_slopes({head}, {outputs})", body),
+        "",
+    ]

@@ -1,0 +1,275 @@
+"""From expressions to elementary operations on Taylor series: one recurrence each, shared parts once.
+
+A series is a symbol that moves along a flight; everything else is constant during it and computed once. The builder
+walks a whitelist of sympy nodes, as the CasADi printer does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...physics.laws.base import is_slot_call
+from ..casadi.printer import EmissionError
+
+#: Products of whole series that an operation costs, a square being half of one.
+COST = {
+    "linear": 0.0,
+    "product": 1.0,
+    "square": 0.5,
+    "quotient": 1.0,
+    "reciprocal": 1.0,
+    "sqrt": 0.5,
+    "exp": 1.0,
+    "log": 1.0,
+    "power": 2.0,
+    "sine": 2.0,
+    "cosine": 0.0,
+    "call": 0.0,
+}
+
+
+@dataclass(frozen=True)
+class Operation:
+    """A series `name` out of others.
+
+    Arguments:
+        kind: a key of COST.
+        series: the series it is made of.
+        factors: constants: of a product its factor; of a linear combination one a series, then the term of order 0.
+        call: of a call, slot, function and all its arguments, a series' name as a string, a constant as expression.
+    """
+
+    name: str
+    kind: str
+    series: tuple[str, ...]
+    factors: tuple[sp.Expr, ...] = ()
+    call: tuple[str, str, tuple[str | sp.Expr, ...]] | None = None
+
+
+class Program:
+    """Operations in order, built by `series`.
+
+    Arguments:
+        moving: symbols that are series from the start.
+    """
+
+    def __init__(self, moving: Iterable[sp.Symbol]) -> None:
+        self.operations: list[Operation] = []
+        self.inputs = tuple(symbol.name for symbol in moving)
+        self._moving: dict[sp.Basic, str] = {symbol: symbol.name for symbol in moving}
+        self.named: dict[sp.Symbol, sp.Expr] = {}  # constants with a name of their own, in order
+        self._names: set[str] = set(self.inputs)
+        self._before: tuple[Operation, ...] = ()
+
+    @property
+    def cost(self) -> float:
+        """Products of series."""
+        return sum(COST[operation.kind] for operation in self.operations)
+
+    def passing(self, beside: AbstractSet[str] = frozenset()) -> frozenset[str]:
+        """Series that only linear combinations are made of, so that nothing asks for a coefficient once it is past.
+
+        Arguments:
+            beside: operations that do not count.
+        """
+        counted = [operation for operation in self.operations if operation.name not in beside]
+        kept = {part for operation in counted if operation.kind != "linear" for part in operation.series}
+        plain = ("linear", "product", "square")  # of the others a coefficient is made of those before
+        return frozenset(each.name for each in self.operations if each.kind in plain and each.name not in kept)
+
+    def give(self, symbol: sp.Symbol) -> None:
+        """Let `symbol` be a series that is made elsewhere."""
+        self._moving[symbol] = self._free(symbol.name)
+
+    def continued(self) -> Program:
+        """A program that knows these series and goes on from them; its own operations are those that follow."""
+        later = Program(())
+        later.inputs = (*self.inputs, *(operation.name for operation in self.operations))
+        later._moving = dict(self._moving)
+        later._names = set(self._names)
+        later._before = (*self._before, *self.operations)
+        return later
+
+    def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
+        """Let `symbol` stand for an expression, as a series of its name or as a constant."""
+        if self.moves(expression):
+            self._moving[symbol] = self.series(expression, symbol.name)
+        else:
+            self.named[symbol] = expression
+
+    def moves(self, expression: sp.Expr) -> bool:
+        """Whether an expression changes along a flight."""
+        return any(node in self._moving for node in sp.preorder_traversal(expression))
+
+    def series(self, expression: sp.Expr, name: str | None = None) -> str:
+        """The name of the series of an expression that moves."""
+        if expression in self._moving:
+            return self._moving[expression]
+        made = self._build(expression, name)
+        self._moving[expression] = made
+        return made
+
+    def _add(
+        self,
+        kind: str,
+        series: tuple[str, ...],
+        name: str | None,
+        hint: str,
+        factors: tuple[sp.Expr, ...] = (),
+        call: tuple[str, str, tuple[str | sp.Expr, ...]] | None = None,
+    ) -> str:
+        for known in (*self._before, *self.operations):
+            if (known.kind, known.series, known.factors, known.call) == (kind, series, factors, call):
+                return known.name
+            if kind == "product" and self._before and (known.kind, known.series) == (kind, series):
+                ratio = factors[0] / known.factors[0]  # the same but for its factor
+                return self._add("linear", (known.name,), name, hint, (ratio, sp.Integer(0)))
+        chosen = self._free(name or hint)
+        self.operations.append(Operation(chosen, kind, series, factors, call))
+        return chosen
+
+    def _free(self, wanted: str) -> str:
+        name, count = wanted, 1
+        while name in self._names:
+            count += 1
+            name = f"{wanted}_{count}"
+        self._names.add(name)
+        return name
+
+    def _build(self, node: sp.Expr, name: str | None) -> str:
+        if isinstance(node, sp.Add):
+            return self._sum(node, name)
+        if isinstance(node, sp.Mul):
+            return self._product(node, name)
+        if isinstance(node, sp.Pow):
+            return self._power(node, name)
+        if isinstance(node, AppliedUndef) and is_slot_call(node):
+            return self._call(node, name)
+        if isinstance(node, (sp.exp, sp.log)):
+            inner = self.series(node.args[0])
+            kind = "exp" if isinstance(node, sp.exp) else "log"
+            return self._add(kind, (inner,), name, f"{kind}_of_{inner}")
+        if isinstance(node, (sp.sin, sp.cos)):
+            return self._circular(node, name)
+        if isinstance(node, (sp.sinh, sp.cosh, sp.tanh)):
+            return self.series(node.rewrite(sp.exp), name)
+        raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")
+
+    def _sum(self, node: sp.Add, name: str | None) -> str:
+        series: list[str] = []
+        factors: list[sp.Expr] = []
+        alone: list[sp.Expr] = []
+        for term in node.as_ordered_terms():
+            if not self.moves(term):
+                alone.append(term)
+                continue
+            factor, moving = self._split(term)
+            series.append(self.series(moving))
+            factors.append(factor)
+        return self._add("linear", tuple(series), name, "combination", (*factors, sp.Add(*alone)))
+
+    def _split(self, node: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """A product's constant factor and what is left."""
+        parts = node.as_ordered_factors()
+        still = [part for part in parts if not self.moves(part)]
+        return sp.Mul(*still), sp.Mul(*(part for part in parts if self.moves(part)))
+
+    def _product(self, node: sp.Mul, name: str | None) -> str:
+        factor, moving = self._split(node)
+        over = [part for part in moving.as_ordered_factors() if not _divides(part)]
+        under = [1 / part for part in moving.as_ordered_factors() if _divides(part)]
+        plain = factor == 1
+        if len(over) + len(under) == 1:
+            part = self.series(over[0] if over else 1 / under[0], name if plain else None)
+            return part if plain else self._add("linear", (part,), name, f"scaled_{part}", (factor, sp.Integer(0)))
+        names = [self.series(part) for part in over]
+        # what has been inverted already is multiplied by, not divided by
+        names += [self._moving[1 / part] for part in under if 1 / part in self._moving]
+        under = [part for part in under if 1 / part not in self._moving]
+        if not names:
+            names, under = [self.series(1 / under[0])], under[1:]
+        result = names[0]
+        for position, other in enumerate(names[1:]):
+            last = position == len(names) - 2 and not under
+            hint = f"{result}_by_{other}"
+            result = self._add(
+                "product",
+                (result, other),
+                name if last else None,
+                hint,
+                (factor if last else sp.Integer(1),),
+            )
+            plain = plain or last
+        for position, part in enumerate(under):
+            below = self.series(part)
+            last = position == len(under) - 1 and plain
+            result = self._add("quotient", (result, below), name if last else None, f"{result}_over_{below}")
+        if not plain:
+            result = self._add("linear", (result,), name, f"scaled_{result}", (factor, sp.Integer(0)))
+        return result
+
+    def _power(self, node: sp.Pow, name: str | None) -> str:
+        base, exponent = node.args
+        if self.moves(exponent):
+            return self.series(sp.exp(exponent * sp.log(base), evaluate=False), name)
+        if exponent == -2 and 1 / base in self._moving:
+            inverse = self._moving[1 / base]
+            return self._add("square", (inverse,), name, f"{inverse}_squared")
+        if exponent.is_number and exponent.is_negative:
+            below = self.series(sp.Pow(base, -exponent))
+            return self._add("reciprocal", (below,), name, f"inverse_{below}")
+        if exponent == sp.Rational(1, 2):
+            inner = self.series(base)
+            return self._add("sqrt", (inner,), name, f"root_of_{inner}")
+        if exponent.is_Integer:
+            if exponent == 2:
+                inner = self.series(base)
+                return self._add("square", (inner,), name, f"{inner}_squared")
+            half = self.series(sp.Pow(base, exponent // 2))
+            squared = self._add("square", (half,), None if exponent % 2 else name, f"{half}_squared")
+            if exponent % 2 == 0:
+                return squared
+            inner = self.series(base)
+            return self._add("product", (squared, inner), name, f"{squared}_by_{inner}", (sp.Integer(1),))
+        inner = self.series(base)
+        return self._add("power", (inner,), name, f"power_of_{inner}", (exponent,))
+
+    def _circular(self, node: sp.Expr, name: str | None) -> str:
+        angle = node.args[0]
+        half = {angle: angle / 2}
+        if isinstance(node, sp.sin) and sp.sin(angle / 2) in self._moving:  # one pair serves both
+            return self.series(2 * sp.sin(half[angle]) * sp.cos(half[angle]), name)
+        inner = self.series(angle)
+        sine = self._add("sine", (inner,), None, f"sine_of_{inner}")
+        cosine = self._add("cosine", (inner,), None, f"cosine_of_{inner}")
+        self._moving[sp.sin(angle)], self._moving[sp.cos(angle)] = sine, cosine
+        return sine if isinstance(node, sp.sin) else cosine
+
+    def _call(self, node: AppliedUndef, name: str | None) -> str:
+        slot, function = node.func.__name__.split(".")
+        arguments = [self.series(argument) if self.moves(argument) else argument for argument in node.args]
+        series = tuple(argument for argument in arguments if isinstance(argument, str))
+        return self._add("call", series, None, f"{slot}_{function}_law", call=(slot, function, tuple(arguments)))
+
+
+def _divides(part: sp.Expr) -> bool:
+    return isinstance(part, sp.Pow) and bool(part.exp.is_number and part.exp.is_negative)
+
+
+def cheapest(
+    expression: sp.Expr, definitions: Iterable[tuple[sp.Symbol, sp.Expr]], moving: tuple[sp.Symbol, ...]
+) -> tuple[Program, str | sp.Expr]:
+    """The program of an expression as it stands or expanded, whichever multiplies fewer series; and its result."""
+    found: list[tuple[float, int, Program, str | sp.Expr]] = []
+    for form in dict.fromkeys((expression, sp.expand(expression, trig=False))):
+        program = Program(moving)
+        for symbol, value in definitions:
+            program.define(symbol, value)
+        result = program.series(form, "result") if program.moves(form) else form
+        found.append((program.cost, len(found), program, result))
+    return min(found, key=lambda entry: entry[:2])[2:]

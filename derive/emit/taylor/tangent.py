@@ -1,0 +1,347 @@
+"""The C header of a structure's tangent: how its rates, start, jumps and outputs change with the states and the groups.
+
+A derivative of the states obeys a linear equation, v' = A v + b, whose matrix and sources are series made once a step
+out of the flow's own; a direction then costs as many products as the matrix has entries that move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import groupby
+from typing import TypeAlias
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ...equations.model import Model
+from ...physics.forces import FILM, SHEAR
+from ...physics.laws.base import is_slot_call
+from ..casadi.printer import EmissionError
+from .adjoint import cotangent
+from .c_text import Constants, Recurrences, Text
+from .chain_rule import Chain
+from .groups_from_si import scale_slopes
+from .header import Beside, Header
+from .law_slopes import arguments, define_shortest, factored, shortest
+from .layout import comment, each_term, function
+
+_IN = "    "
+Entry: TypeAlias = str | sp.Expr
+"""A series' name, or a constant."""
+
+
+class Tangent:
+    """Text of one structure's tangent header."""
+
+    def __init__(self, model: Model, digest: str, provenance: str, doc: str, beside: Beside) -> None:
+        if beside.extra.get("glass.pressure"):
+            raise EmissionError("no slopes of a glass law with quantities of its own")
+        self.model, self.beside = model, beside
+        self.header = Header(model, beside)
+        self.header.text(digest, provenance, doc)  # fills in its constants and calls
+        self.states = [state.name for state in model.states]
+        flow = self.header.flow
+        self._flow = {operation.name for operation in flow.operations}
+        self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
+        self.program = flow.continued()
+        self.slopes: dict[str, str] = {}  # name of a law's slope -> its array
+        self.chain = Chain(model.definitions, self._slope, (*model.groups, FILM, SHEAR))
+        self.matrix: dict[tuple[str, str], Entry] = {}
+        self.sources: dict[tuple[str, str], Entry] = {}
+        self._differentiate()
+        given = {group: f"v->{group.name}" for group in model.groups}
+        given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
+        self.constants = Constants(given, (FILM, SHEAR))
+        self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
+        self.made = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
+
+    # ---- derivatives
+
+    def _slope(self, node: AppliedUndef, position: int) -> sp.Symbol:
+        slot, name = node.func.__name__.split(".")
+        call = self.header.flow.series(node) if self.header.flow.moves(node) else None
+        if call not in self._calls:
+            raise EmissionError(f"no slopes of {node}: it is no series of the flow")
+        argument = self._arguments(slot, name, len(node.args))[position]
+        symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
+        if symbol.name not in self.slopes:
+            self.slopes[symbol.name] = f"{call}.by_{argument}"
+            self.program.give(symbol)
+        return symbol
+
+    def _arguments(self, slot: str, name: str, count: int) -> tuple[str, ...]:
+        return arguments(slot, name, count, self.beside.extra.get(f"{slot}.{name}", ()))
+
+    def _where(self, series: str) -> str:
+        if series in self.slopes:
+            return self._law_place(self.slopes[series].split(".")[0]) + self.slopes[series]
+        return f"of->{series}.result" if series in self._calls else f"of->{series}"
+
+    def _law_place(self, call: str) -> str:
+        """A law's slopes are local unless one is itself an entry."""
+        entries = {self.slopes[entry].split(".")[0] for entry in self._kept if entry in self.slopes}
+        return "s->" if call in entries else ""
+
+    def rates(self) -> list[tuple[str, sp.Expr]]:
+        """What the states' rates are, by name."""
+        rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
+        if self.header.turning is not None:
+            rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
+        return rows
+
+    def _differentiate(self) -> None:
+        found: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
+        for row, rate in self.rates():
+            for into, variables in ((self.matrix, self.model.states), (self.sources, self.model.groups)):
+                for variable in variables:
+                    slope = self.chain.by(rate, variable)
+                    if slope != 0:
+                        found.append((into, (row, variable.name), slope))
+        for symbol, expression in self.chain.named:
+            define_shortest(self.program, symbol, expression)
+        for into, (row, by), slope in found:
+            into[row, by] = shortest(self.program, (slope, *factored(slope)), f"{row}_by_{by}")
+
+    @property
+    def flowing(self) -> list[str]:
+        """Groups that the rates depend on."""
+        return [group.name for group in self.model.groups if any(by == group.name for _, by in self.sources)]
+
+    @property
+    def flow(self) -> set[str]:
+        """Names of the series that the flow has, the states among them."""
+        return self._flow | set(self.states)
+
+    # ---- text
+
+    def text(self, digest: str, provenance: str, doc: str) -> str:
+        """The header."""
+        coefficients, row, source = self._coefficients(), self._row(), self._sources()
+        back = cotangent(self)
+        per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
+        cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction."
+        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines += ["", *comment(f"{doc}\n\nIts tangent: derivatives of the states by the groups. {cost}"), ""]
+        lines += self._enumerations()
+        lines += [
+            *self._constants(),
+            *self._structs(),
+            *coefficients,
+            *row,
+            *back,
+            *source,
+            *self._values(),
+            *scale_slopes(self.model, self.beside.definitions),
+        ]
+        return "\n".join(lines).rstrip() + "\n"
+
+    def _enumerations(self) -> list[str]:
+        groups = self._groups
+        flags = ", ".join(str(int(name in self.flowing)) for name in groups)
+        return [
+            f"enum {{ {', '.join(f'BY_{name.upper()}' for name in groups)} }};",
+            "const char group_names[] =",
+            *(f'    "{name} "' for name in groups[:-1]),
+            f'    "{groups[-1]}";',
+            *comment("Groups that the rates depend on; the others enter at an event."),
+            f"static const unsigned char FLOWS[GROUPS] = {{ {flags} }};",
+            "",
+        ]
+
+    def _laws(self) -> dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]]:
+        return {name: call for name, call in self.header.calls.items() if name in self._calls}
+
+    def _constants(self) -> list[str]:
+        laws = self._laws()
+        lines = ["typedef struct {"]
+        lines += [f"    vec {name};" for name in self.constants.prepared]
+        lines += [f"    {slot}_{call}_slope_constants {name};" for name, (slot, call, _) in laws.items()]
+        lines += ["} slope_constants;", ""]
+        body = [f"c->{name} = {self.constants.text.vector(value)};" for name, value in self.constants.prepared.items()]
+        body += [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, (slot, call, _) in laws.items()]
+        head = "static inline void prepare_slopes(slope_constants *c, const constants *v)"
+        return [*lines, *comment("What the slopes need once a collision."), *function(head, body), ""]
+
+    def _structs(self) -> list[str]:
+        lines = comment("What the rates change by: entries of the matrix, and what drives a direction.")
+        lines += ["typedef struct {", *(f"    {field}" for field in self._law_fields("s->"))]
+        lines += [f"    {field}" for field in self.made.fields()]
+        lines += [f"    vec {field}[TERMS];" for field in self._level_fields()]
+        return [*lines, "} slopes;", ""]
+
+    def _law_fields(self, place: str) -> list[str]:
+        laws = self._laws().items()
+        return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
+
+    def _level_fields(self) -> list[str]:
+        return [f"{row}_by_{by}" for (row, by), entry in self.sources.items() if not isinstance(entry, str)]
+
+    def _coefficients(self) -> list[str]:
+        body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
+        for name, (slot, call, given) in self._laws().items():
+            passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
+            into = f"{self._law_place(name)}{name}"
+            body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
+        body += self._guarded()
+        for (row, by), entry in self.sources.items():
+            if not isinstance(entry, str):
+                body.append(each_term(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);"))
+        head = (
+            "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
+        )
+        doc = "What the rates change by with the states, and with the groups that are asked for."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _guarded(self) -> list[str]:
+        """Lines of the operations, those that only some groups need under a test of these."""
+        always = {entry for entry in self.matrix.values() if isinstance(entry, str)}
+        needs = {entry: {by} for (_, by), entry in self.sources.items() if isinstance(entry, str)}
+        for (_, by), entry in self.sources.items():
+            if isinstance(entry, str):
+                needs[entry].add(by)
+        sines = {each.series: each.name for each in self.program.operations if each.kind == "sine"}
+        for operation in reversed(self.program.operations):
+            made_with = (sines[operation.series],) if operation.kind == "cosine" and operation.series in sines else ()
+            for part in (*operation.series, *made_with):
+                if operation.name in always:
+                    always.add(part)
+                needs.setdefault(part, set()).update(needs.get(operation.name, ()))
+        turning = {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of == "turned"}
+        turning -= {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of != "turned"}
+        rows = []
+        for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
+            own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
+            rows.append((own, [each_term(line)]))
+            if operation.name in turning:
+                rows[-1] = own, ["#if TURNING_STATE", each_term(line), "#endif"]
+        # what more groups need comes first: nothing that fewer need is a part of it
+        rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
+        lines: list[str] = []
+        for own, some in groupby(rows, key=lambda row: row[0]):
+            inner = [line for _, each in some for line in each]
+            if own:
+                test = f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"
+                inner = [test, *(line if line.startswith("#") else _IN + line for line in inner), "}"]
+            lines += inner
+        return lines
+
+    @property
+    def _groups(self) -> list[str]:
+        return [group.name for group in self.model.groups]
+
+    def array(self, name: str) -> str:
+        """Where emitted C has a series."""
+        return self.made.array(name)
+
+    def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
+        text = self.constants.factor(entry, hint)
+        return text if entry.free_symbols else f"splat({text})"
+
+    def _row(self) -> list[str]:
+        body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
+        for row, _ in self.rates():
+            terms = []
+            for state in self.states:
+                entry = self.matrix.get((row, state), sp.Integer(0))
+                column = f"t[{state.upper()}]"
+                if isinstance(entry, str):
+                    terms.append(f"product({self.array(entry)}, {column}, k)")
+                elif entry == 1:
+                    terms.append(f"{column}[k]")
+                elif entry != 0:
+                    terms.append(f"{self.constants.factor(entry, f'{row}_by_{state}')}*{column}[k]")
+            if any(of == row for of, _ in self.sources):
+                terms.append(f"source[{row.upper()}][k]")
+            line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
+            body += ["#if TURNING_STATE", line, "#endif"] if row == "turned" else [line]
+        head = (
+            "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
+            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
+        )
+        doc = "Coefficient k + 1 of a derivative of the states, with what drives it beside the states."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _sources(self) -> list[str]:
+        body = ["(void)s; (void)of;", "switch (group) {"]
+        for group in self.flowing:
+            body.append(f"case BY_{group.upper()}:")
+            lines = []
+            for (row, by), entry in self.sources.items():
+                if by == group:
+                    array = self.array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
+                    line = f"source[{row.upper()}] = {array};"
+                    lines += ["#if TURNING_STATE", _IN + line, "#endif"] if row == "turned" else [_IN + line]
+            body += [*lines, _IN + "break;"]
+        body.append("}")
+        head = "static inline void sources(const slopes *s, const series *of, int group, const vec **source)"
+        doc = "What drives the derivatives by a group, where it is not zero."
+        return [*comment(doc), *function(head, body), ""]
+
+    def _values(self) -> list[str]:
+        """The start, the jump and the outputs in a direction: of the states `t`, of one group by one."""
+        states = {name: f"after[{name.upper()}]" for name in self.states}
+        lines = self._directed(
+            "start", "static inline void start_along(const constants *v, int group, vec *after)", states, False,
+            "The start's derivative by a group.",
+        )  # fmt: skip
+        lines += self._directed(
+            "reversal",
+            "static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
+            states, True, "The derivative just after a reversal.",
+        )  # fmt: skip
+        shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
+        lines += self._directed(
+            "outputs",
+            "static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)",
+            shown, True, "The derivative of what a separated doublet shows.",
+        )  # fmt: skip
+        if self.model.structure.oblique:
+            lines += self._edge()
+        return lines
+
+    def _directed(self, name: str, head: str, targets: dict[str, str], moves: bool, doc: str) -> list[str]:
+        outputs = {key: self.model.expanded(sp.sympify(value)) for key, value in self.model[name].outputs}
+        text = Text(self._plain_name)
+        body = ["(void)v;"] + (["(void)y;"] if moves else [])
+        for key, target in targets.items():
+            terms = [
+                f"{text(slope)}*t[{state.name.upper()}]" if (slope := sp.factor(outputs[key].diff(state))) != 1
+                else f"t[{state.name.upper()}]"
+                for state in self.model.states if moves and outputs[key].diff(state) != 0
+            ]  # fmt: skip
+            body.append(f"{target} = {' + '.join(terms) or 'splat(0.0)'};")
+        body += _switch(
+            (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)
+            for group in self.model.groups
+        )
+        return [*comment(doc), *function(head, body), ""]
+
+    def _plain_name(self, symbol: sp.Symbol) -> str:
+        return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
+
+    def _edge(self) -> list[str]:
+        edge = dict(self.model["events"].outputs)["tangential_edge"]
+        call = next(node for node in edge.atoms(AppliedUndef) if is_slot_call(node))
+        slot, name = call.func.__name__.split(".")
+        passed = ", ".join(f"v->{argument}" for argument in call.args)
+        body = ["(void)v;", "switch (group) {"]
+        for argument, own in zip(self._arguments(slot, name, len(call.args)), call.args, strict=True):
+            body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
+        body += ["default:", f"{_IN}return splat(0.0);", "}"]
+        head = "static inline vec tangential_edge_along(const constants *v, int group)"
+        return [*comment("How the gap beyond which there is no tangential force changes."), *function(head, body), ""]
+
+
+def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
+    body = []
+    for group, slopes, text in rows:
+        told = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes if slope != 0]
+        if told:
+            body += [f"case BY_{group.upper()}:", *told, _IN + "break;"]
+    return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
+
+
+def tangent_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
+    """The C header of a structure's tangent."""
+    return Tangent(model, digest, provenance, doc, beside or Beside()).text(digest, provenance, doc)

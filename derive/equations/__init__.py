@@ -1,0 +1,1 @@
+"""What is solved: rates, events, observables, invariants and certificates of a structure."""

@@ -1,0 +1,91 @@
+"""When a doublet on strings is proved to stick: four numbers, and why they suffice.
+
+Per unit mass, midgap arm, strings and a film (no bridge), 0 <= beta <= pi and omega >= 0 (else a cut-off has ended the
+flight as a stick):
+
+1. L falls, since the strings pull back (S_t >= 0), and F_t pulls omega and xi together, so J = r^2 omega never exceeds
+   J_max, the larger of its present value and the share r_f^2/(r_f^2 + (32/5) a^2) of L that a rigid body has at r_f.
+2. beta only grows, and S_n(r, beta) grows with both. So where J_max^2/r^3 < S_n/m at the smallest gap (`outward` <
+   `pull`), everything but lubrication pushes inward from now on, at every gap.
+3. Then the film alone stops a doublet that opens: u St/v0 below its integral from here to x0 (`film` < 0).
+4. Closing, it gains no more than u^2 + 2 max(S_n/m) x0; a reversal happens at most where the glass criterion is met at
+   that speed, or in contact; if the film stops the rebound from there (`recoil` < 0), it stops every later one.
+
+`checks.tethered` proves the steps on the emitted equations.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ...physics.forces import scaled_strings
+from ...physics.laws import slot_call
+from ...physics.laws.strings import offset_squared
+from ...physics.mechanics import doublet_inertia
+from ...physics.scaling import DISTANCE, INERTIA, nondimensional
+from ...vocabulary.quantities import (
+    a,
+    aspect,
+    beta,
+    e_dry,
+    elastic_gap,
+    gap,
+    glass_number,
+    m,
+    omega,
+    opening,
+    orbit,
+    r,
+    rough_gap,
+    stokes,
+)
+from ..intermediates import MOMENTUM
+
+CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
+NEAREST, FARTHEST = sp.symbols("nearest farthest", positive=True)  # smallest and largest centre distance over a
+SPUN_UP, LARGEST_ORBIT = sp.symbols("spun_up largest_orbit", real=True)
+LARGEST_PULL = sp.Symbol("largest_pull", positive=True)
+
+
+def rigid_orbit(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
+    """r^2 omega over a^2 omega0 of a doublet that turns as one body with this angular momentum."""
+    inertia = nondimensional(doublet_inertia() / (m * a**2)).subs(DISTANCE, distance)
+    return momentum * distance**2 / inertia
+
+
+def pull_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
+    """String pull over m v0^2/x0 at this gap and angle."""
+    pull, _, swing = scaled_strings(oblique=True)
+    whole = pull.subs(offset_squared, swing).subs(DISTANCE, 4 + aspect * gap)
+    return whole.subs({gap: at, beta: angle}, simultaneous=True)
+
+
+def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
+    """Centrifugal force over m v0^2/x0 of this orbital momentum at this centre distance."""
+    force = nondimensional(m * r * omega**2 / INERTIA)
+    return force.subs({orbit: momentum, DISTANCE: distance}, simultaneous=True)
+
+
+def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
+    """Named intermediates of `margins`, in order."""
+    closing = sp.Min(opening, 0)
+    return (
+        (CONTACT, sp.Max(elastic_gap, rough_gap)),
+        (NEAREST, 4 + aspect * CONTACT),
+        (FARTHEST, 4 + aspect),
+        (SPUN_UP, rigid_orbit(MOMENTUM, FARTHEST)),
+        (LARGEST_ORBIT, sp.Max(orbit, SPUN_UP)),
+        (LARGEST_PULL, pull_at(sp.Integer(1), sp.pi)),
+        (FASTEST, sp.sqrt(closing**2 + 2 * LARGEST_PULL)),
+        (REACH, sp.Max(CONTACT, slot_call("glass", "reach", FASTEST, glass_number))),
+    )
+
+
+def margins() -> dict[str, sp.Expr]:
+    """A stick is proved where `outward` < `pull`, `film` < 0 and `recoil` < 0."""
+    return {
+        "outward": outward_at(LARGEST_ORBIT, NEAREST),
+        "pull": pull_at(CONTACT, beta),
+        "film": stokes * sp.Max(opening, 0) - slot_call("film", "stopping", gap),
+        "recoil": stokes * e_dry * FASTEST - slot_call("film", "stopping", REACH),
+    }

@@ -1,0 +1,66 @@
+"""Where a flight starts, the events that end its phases, and the jump at a reversal with what it costs."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..physics.laws import slot_call
+from ..physics.partners import rotation
+from ..physics.structure import Structure
+from ..vocabulary.quantities import (
+    aspect,
+    beta,
+    e_dry,
+    elastic_gap,
+    gap,
+    glass_number,
+    opening,
+    orbit,
+    rough_gap,
+    rupture_gap,
+    spin,
+)
+from .rates import inward_force
+
+
+def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """State at first touch: closing at v0, the line of centres turning and nothing spinning."""
+    touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), opening: sp.Integer(-1)}
+    if structure.partner:
+        return touching | dict(rotation(structure.partner).start)
+    return touching | {
+        orbit: (4 + aspect) ** 2,
+        spin: sp.Integer(0),
+        beta: sp.Integer(0),
+    }
+
+
+def events(structure: Structure) -> dict[str, sp.Expr]:
+    """Event functions, each positive before its event."""
+    functions: dict[str, sp.Expr] = {
+        "glass": glass_number - slot_call("glass", "pressure", gap, -opening),
+        "elastic": gap - elastic_gap,
+        "rough": gap - rough_gap,
+        "turning": opening,
+        "rupture": (rupture_gap if structure.bridge else 1) - gap,
+    }
+    if structure.bridge and not structure.spread:
+        functions["film_edge"] = 1 - gap
+    if structure.oblique:
+        functions["tangential_edge"] = slot_call("shear", "edge", aspect) - gap
+    if structure.oblique and structure.partner != "wall":  # beside a wall nothing turns that could release
+        functions["release"] = inward_force(structure)
+    if structure.oblique and structure.strings:
+        functions["half_turn"] = sp.pi - beta
+        functions["unwinding"] = orbit
+    return functions
+
+
+def reversal(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
+    """State just after a reversal by the solids: u -> -e_dry u, all else continues."""
+    return {state: -e_dry * opening if state == opening else state for state in states}
+
+
+def reversal_loss() -> sp.Expr:
+    """Energy lost in a reversal, over m v0^2."""
+    return sp.Rational(1, 2) * opening**2 * (1 - e_dry**2)

@@ -1,0 +1,83 @@
+"""The named intermediates of a structure: forces, rates and momenta in states and groups, under their emitted names."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
+from ..physics.laws import slot_call
+from ..physics.laws.base import Definition
+from ..physics.laws.strings import offset_squared
+from ..physics.mechanics import F_c, F_n, F_t, F_w, doublet_inertia, equations_of_motion
+from ..physics.partners import rotation
+from ..physics.scaling import DISTANCE, INERTIA, nondimensional
+from ..physics.structure import Structure
+from ..vocabulary.quantities import a, aspect, gap, m, omega, omega0, orbit, r, spin
+
+if TYPE_CHECKING:
+    from .invariants import Invariant
+
+ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
+FILM_FORCE, BRIDGE_FORCE, SHEAR_FORCE = sp.symbols("film_force bridge_force shear_force", real=True)
+STRING_PULL, STRING_SIDEWAYS, CENTRIFUGAL_FORCE = sp.symbols("string_pull string_sideways centrifugal_force", real=True)
+ATTRACTION_FORCE = sp.Symbol("attraction_force", real=True)
+LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
+
+
+Conserved = tuple["Invariant", sp.Expr]  # an invariant and its value at the start
+
+
+def intermediates(structure: Structure, conserved: Conserved | None = None) -> tuple[Definition, ...]:
+    """Every named intermediate that `structure` can use, in the order of the derivation.
+
+    Arguments:
+        conserved: what a reduced structure eliminates the spin with: the invariant found and its value at the start.
+    """
+    laws = force_laws(structure.spread)
+    definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
+    if structure.partner:
+        definitions = list(rotation(structure.partner).definitions)
+    elif structure.oblique:
+        definitions += _rotation(conserved)
+        slip_form = _scaled(laws[F_t], TANGENTIAL)
+        definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - spin, SLIP)))
+        definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(m * r * omega**2 / INERTIA))))
+    definitions.append((FILM_FORCE, _scaled(laws[F_n], INERTIA)))
+    if structure.bridge:
+        definitions.append((BRIDGE_FORCE, _scaled(laws[F_c], INERTIA)))
+    if structure.attraction:
+        definitions.append((ATTRACTION_FORCE, _scaled(laws[F_w], INERTIA)))
+    if structure.strings:
+        pull, sideways, swing = scaled_strings(structure.oblique)
+        definitions.append((offset_squared, swing))
+        definitions.append((STRING_PULL, pull))
+        if structure.oblique:
+            definitions.append((STRING_SIDEWAYS, sideways))
+    if structure.oblique and not structure.reduced and not structure.partner:
+        definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
+    return tuple(definitions)
+
+
+def _rotation(conserved: Conserved | None) -> list[Definition]:
+    """Orbital rate, angular momentum, the spin if it is eliminated, slip and inertia."""
+    definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / omega0))]
+    if conserved is not None:
+        invariant, value = conserved
+        definitions.append((MOMENTUM, value))
+        definitions.append((spin, invariant.solved(spin, MOMENTUM)))
+    else:
+        definitions.append((MOMENTUM, nondimensional(equations_of_motion().angular_momentum / (m * a**2 * omega0))))
+    definitions.append((SLIP, ORBITAL_RATE - spin))
+    definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (m * a**2))))
+    return definitions
+
+
+def by_orbital_rate(expression: sp.Expr) -> sp.Expr:
+    """The nondimensional `expression` in the orbital rate, in place of the orbital angular momentum."""
+    return expression.subs(orbit, ORBITAL_RATE * DISTANCE**2)
+
+
+def _scaled(force: sp.Expr, scale: sp.Expr) -> sp.Expr:
+    return nondimensional(force / scale)

@@ -1,0 +1,297 @@
+"""From a structure to its nondimensional equations, events, jumps, ledger and outputs, ready to be emitted.
+
+What there is to emit is put together here out of `intermediates`, `rates`, `events` and `observables`: states, groups,
+slots, definitions and functions, each with the doc it is emitted with.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+
+import sympy as sp
+
+from ..physics.laws import LAWS
+from ..physics.laws.base import Definition
+from ..physics.partners import rotation
+from ..physics.structure import Structure
+from ..vocabulary.quantities import (
+    adhesion,
+    aspect,
+    beta,
+    capillary,
+    contact_angle,
+    e_dry,
+    elastic_gap,
+    gap,
+    glass_number,
+    mass_ratio,
+    obliquity,
+    opening,
+    orbit,
+    radius_ratio,
+    rough_gap,
+    rupture_gap,
+    spin,
+    stokes,
+    string_ratio,
+    volume,
+    weight,
+)
+from .certificates import attraction as held
+from .certificates import orbital_momentum as orbital
+from .certificates.strings import definitions as tether_definitions
+from .certificates.strings import margins as tether_margins
+from .events import events, reversal, reversal_loss, start
+from .intermediates import intermediates
+from .invariants import Invariant, conserved_momentum
+from .observables import (
+    angular_momentum,
+    effective_potential,
+    energies,
+    energy_rates,
+    outputs,
+    restitution_ceiling,
+    rigid_rotation,
+)
+from .rates import inward_force, rates, resting_rates, turning_rate
+
+
+@dataclass(frozen=True)
+class ModelFunction:
+    """A function of state and groups that will be emitted: `outputs` are (name, expression) pairs."""
+
+    name: str
+    doc: str
+    outputs: tuple[tuple[str, sp.Expr], ...]
+    regional: bool = False  # depends on the region's flags
+
+
+@dataclass(frozen=True)
+class Model:
+    """The nondimensional model of a structure."""
+
+    structure: Structure
+    states: tuple[sp.Symbol, ...]
+    groups: tuple[sp.Symbol, ...]
+    slots: tuple[str, ...]
+    definitions: tuple[Definition, ...]
+    functions: tuple[ModelFunction, ...]
+
+    def __getitem__(self, name: str) -> ModelFunction:
+        return next(each for each in self.functions if each.name == name)
+
+    def expanded(self, expression: sp.Expr) -> sp.Expr:
+        """`expression` with every named intermediate put back in."""
+        for symbol, value in reversed(self.definitions):
+            expression = expression.subs(symbol, value)
+        return expression
+
+
+@cache
+def derive(structure: Structure) -> Model:
+    """The nondimensional model of `structure`."""
+    states = _states(structure)
+    functions = _functions(structure, states)
+    definitions = intermediates(structure, _conserved(structure) if structure.reduced else None)
+    if _tethered(structure):
+        definitions += tether_definitions()
+    elif held.admits(structure):
+        definitions += held.definitions(structure)
+    if orbital.admits(structure):
+        definitions += orbital.definitions(structure)
+    used = _closure(functions, definitions)
+    return Model(
+        structure,
+        states,
+        groups=tuple(q for q in GROUPS if q in used),
+        slots=_slots(structure),
+        definitions=tuple((symbol, expression) for symbol, expression in definitions if symbol in used),
+        functions=functions,
+    )
+
+
+def _tethered(structure: Structure) -> bool:
+    """Whether the stick proof of `tethered` is about this structure: strings that turn, and a film alone."""
+    return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
+
+
+GROUPS = (
+    stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
+    radius_ratio, mass_ratio, glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
+)  # fmt: skip
+
+
+def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
+    """The angular momentum, as found in the full equations with the arm that conserves it, and its value at the start.
+
+    Raises:
+        NoInvariantError: the full equations do not conserve it.
+    """
+    invariant = conserved_momentum(derive(replace(structure, reduced=False)), {"arm": LAWS["arm"]["midgap"]})
+    return invariant, invariant.at(start(structure))
+
+
+def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
+    states = [gap, opening]
+    if structure.partner:
+        return (*states, *rotation(structure.partner).states)
+    if structure.oblique:
+        states += [orbit] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
+    return tuple(states)
+
+
+def _slots(structure: Structure) -> tuple[str, ...]:
+    slots = ["film", "glass"]
+    if structure.oblique:
+        slots += ["shear"] + ([] if structure.reduced or structure.partner == "wall" else ["arm"])
+    slots += [slot for slot in ("bridge", "strings", "attraction") if getattr(structure, slot)]
+    return tuple(slots)
+
+
+def _closure(functions: tuple[ModelFunction, ...], definitions: tuple[Definition, ...]) -> set[sp.Basic]:
+    used: set[sp.Basic] = set()
+    for function in functions:
+        for _, expression in function.outputs:
+            used |= expression.free_symbols
+    for symbol, expression in reversed(definitions):
+        if symbol in used:
+            used |= expression.free_symbols
+    return used
+
+
+def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[ModelFunction, ...]:
+    """Every function of `structure`, in the order of emission."""
+
+    def of_states(values: Mapping[sp.Symbol, sp.Expr]) -> tuple[tuple[str, sp.Expr], ...]:
+        return tuple((state.name, values[state]) for state in states)
+
+    functions = [
+        ModelFunction("right_hand_side", "Rates of the states per v0/x0.", of_states(rates(structure)), regional=True)
+    ]
+    if structure.oblique:
+        functions += [
+            ModelFunction(
+                "resting_rates",
+                "Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.",
+                of_states(resting_rates(structure)),
+                regional=True,
+            ),
+        ]
+        turning = turning_rate(structure)
+        if turning is not None:
+            functions.append(
+                ModelFunction(
+                    "turning_rate",
+                    "Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).",
+                    ((beta.name, turning),),
+                )
+            )
+    functions += [
+        ModelFunction(
+            "inward_force",
+            "What holds a doublet at rest together, over m v0^2/x0: positive inward.",
+            (("inward_force", inward_force(structure)),),
+        ),
+        ModelFunction(
+            "events",
+            "Event functions, each positive before its event: the criteria while closing, `turning` the opening "
+            "velocity (its sign tells closing from opening), `release` in resting contact.",
+            tuple(events(structure).items()),
+        ),
+        ModelFunction(
+            "reversal",
+            "State just after a reversal by the solids: u -> -e_dry u, all else continues.",
+            of_states(reversal(states)),
+        ),
+        ModelFunction("start", "State at first touch.", of_states(start(structure))),
+        ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
+        ModelFunction(
+            "energy_rates",
+            "Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.",
+            tuple(energy_rates(structure).items()),
+            regional=True,
+        ),
+        ModelFunction(
+            "reversal_loss",
+            "Energy lost in a reversal that starts from this state, over m v0^2.",
+            (("dry_contact", reversal_loss()),),
+        ),
+    ]
+    momentum = angular_momentum(structure) if structure.oblique and not structure.reduced else None
+    if momentum is not None:
+        functions.append(
+            ModelFunction(
+                "angular_momentum",
+                "Angular momentum over its start value.",
+                (("angular_momentum", momentum),),
+            )
+        )
+    functions.append(
+        ModelFunction(
+            "outputs",
+            "What a separated doublet shows: restitutions, and rates over omega0.",
+            tuple(outputs(structure).items()),
+        )
+    )
+    if _tethered(structure):
+        functions.append(
+            ModelFunction(
+                "tethered",
+                "Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.",
+                tuple(tether_margins().items()),
+            )
+        )
+    if held.admits(structure):
+        functions.append(
+            ModelFunction(
+                "held",
+                "Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): "
+                "hold > 0, flight < 0 and rebound < 0 prove a stick.",
+                tuple(held.margins(structure).items()),
+            )
+        )
+    if orbital.admits(structure):
+        functions.append(
+            ModelFunction(
+                "orbital",
+                "Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for "
+                "either arm: margins of the proof by the orbit's momentum.",
+                tuple(orbital.margins(structure).items()),
+            )
+        )
+    if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument
+        functions.append(
+            ModelFunction(
+                "effective_potential",
+                "Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, "
+                "and the slope with it.",
+                tuple(effective_potential(structure).items()),
+            )
+        )
+        functions.append(
+            ModelFunction(
+                "rigid_rotation",
+                "The state that has this least energy: at rest in the gap, turning as one body.",
+                of_states(rigid_rotation(structure)),
+            )
+        )
+    if structure.partner == "wall":  # what moves along the wall never comes to help
+        functions.append(
+            ModelFunction(
+                "escape_energy",
+                "Energy over m v0^2 of the motion along the line of centres, which alone can part the two.",
+                (("kinetic", opening**2 / 2),),
+            )
+        )
+    if not structure.strings and not structure.partner:
+        functions.append(
+            ModelFunction(
+                "restitution_ceiling",
+                "Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; "
+                "the work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.",
+                tuple(restitution_ceiling(structure).items()),
+            )
+        )
+    return tuple(functions)

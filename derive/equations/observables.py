@@ -1,0 +1,150 @@
+"""What is read off a state: the ledger of energy and angular momentum, outputs, and the certificate's energy."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..physics.forces import TANGENTIAL
+from ..physics.laws import slot_call
+from ..physics.laws.strings import offset_squared
+from ..physics.mechanics import doublet_inertia, equations_of_motion
+from ..physics.partners import rotation
+from ..physics.scaling import DISTANCE, nondimensional
+from ..physics.structure import Structure
+from ..vocabulary.quantities import (
+    a,
+    aspect,
+    g,
+    gap,
+    m,
+    omega,
+    omega0,
+    opening,
+    orbit,
+    r,
+    spin,
+    string_ratio,
+    v0,
+    x,
+    x0,
+    xi,
+)
+from .events import start
+from .intermediates import (
+    ATTRACTION_FORCE,
+    BRIDGE_FORCE,
+    FILM_FORCE,
+    INERTIA_RATIO,
+    LEVER,
+    MOMENTUM,
+    ORBITAL_RATE,
+    SHEAR_FORCE,
+    STRING_PULL,
+    by_orbital_rate,
+)
+from .invariants import angular_momentum as angular_momentum_invariant
+
+
+def energies(structure: Structure) -> dict[str, sp.Expr]:
+    """Energies of the state over m v0^2."""
+    stored = {"kinetic": _kinetic(structure)}
+    if structure.strings:
+        stored["strings"] = _lifted()
+    return stored
+
+
+def _kinetic(structure: Structure) -> sp.Expr:
+    if structure.partner:
+        return opening**2 / 2 + rotation(structure.partner).kinetic
+    energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
+    if not structure.oblique:
+        energy = energy.subs({omega: 0, xi: 0})
+    orbital = sp.Rational(1, 2) * m * r**2 * omega**2 / (m * v0**2)
+    rest = sp.expand(energy - sp.expand(orbital)) if structure.oblique else energy
+    result = nondimensional(rest)
+    if structure.oblique:
+        result += by_orbital_rate(nondimensional(orbital))
+    return result
+
+
+def _lifted() -> sp.Expr:
+    """Potential energy of the spheres on their strings."""
+    rise = slot_call("strings", "rise", string_ratio, offset_squared)
+    return nondimensional(4 * m * g * a / (m * v0**2)) * rise
+
+
+def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
+    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2."""
+    taken = {"normal_lubrication": FILM_FORCE * opening}
+    if structure.bridge:
+        taken["capillary"] = BRIDGE_FORCE * opening
+    if structure.attraction:
+        taken["attraction"] = ATTRACTION_FORCE * opening
+    if structure.partner:
+        taken["tangential_lubrication"] = rotation(structure.partner).power
+    elif structure.oblique and not structure.reduced:
+        power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * omega0 * ORBITAL_RATE - 2 * a * LEVER * xi)
+        taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
+    return taken
+
+
+def angular_momentum(structure: Structure) -> sp.Expr | None:
+    """Angular momentum over its start value; None where there is none to be conserved."""
+    if structure.partner:
+        return rotation(structure.partner).momentum
+    return MOMENTUM / (4 + aspect) ** 2
+
+
+def outputs(structure: Structure) -> dict[str, sp.Expr]:
+    """What a separated doublet shows: restitutions, and rates over omega0."""
+    shown: dict[str, sp.Expr] = {"restitution": opening}
+    if structure.partner:
+        return shown | dict(rotation(structure.partner).outputs)
+    if structure.oblique:
+        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / (4 + aspect)
+        shown["final_rotation_rate"] = ORBITAL_RATE
+        shown["final_spin"] = spin
+    return shown
+
+
+def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
+    """Pieces of the stick certificate: least energy at a gap for the state's angular momentum, and its slope."""
+    energy, slope = sp.Integer(0), sp.Integer(0)
+    if structure.partner:
+        energy, slope = rotation(structure.partner).least
+    elif structure.oblique:
+        square = (m * a**2 * omega0 * MOMENTUM) ** 2
+        energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
+        body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
+        slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
+    if structure.bridge:
+        slope += BRIDGE_FORCE
+    if structure.attraction:
+        slope += ATTRACTION_FORCE
+    if structure.strings:
+        energy += _lifted()
+        slope += STRING_PULL
+    return {"energy": energy, "slope": slope}
+
+
+def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
+    if structure.partner:
+        return {gap: gap, opening: sp.Integer(0), **rotation(structure.partner).rigid}
+    rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
+    return {gap: gap, opening: sp.Integer(0), orbit: DISTANCE**2 * rate, spin: rate}
+
+
+def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
+    """Largest e_n^2 of a doublet without strings that parts at this gap, the bridge's work left out.
+
+    Twice the energy at the start less the least rotational energy at this gap for the L of the start.
+    """
+    first = start(structure)
+    at_start = {ORBITAL_RATE: first[orbit] / DISTANCE**2, opening: first[opening], spin: first[spin]}
+    initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + aspect)
+    least = sp.Integer(0)
+    if structure.oblique:
+        momentum = (m * a**2 * omega0 * angular_momentum_invariant().subs(first)) ** 2
+        least = nondimensional(momentum / (2 * m * a**2) / (m * v0**2)) / INERTIA_RATIO
+    return {"squared": 2 * initial - 2 * least}

@@ -1,0 +1,78 @@
+"""The rates of the states per v0/x0, in flight and in resting contact, out of the equations of motion."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ..physics.forces import TANGENTIAL
+from ..physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, equations_of_motion
+from ..physics.partners import rotation
+from ..physics.scaling import INERTIA, nondimensional
+from ..physics.structure import Structure
+from ..vocabulary.quantities import a, beta, gap, m, omega, omega0, opening, orbit, r, spin, u, v0, x0
+from .intermediates import (
+    ATTRACTION_FORCE,
+    BRIDGE_FORCE,
+    CENTRIFUGAL_FORCE,
+    FILM_FORCE,
+    LEVER,
+    SHEAR_FORCE,
+    STRING_PULL,
+    STRING_SIDEWAYS,
+    by_orbital_rate,
+)
+
+
+@cache
+def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Time derivatives of the states per v0/x0, out of the equations of motion."""
+    motion = equations_of_motion()
+    named = {
+        F_n: FILM_FORCE,
+        F_c: BRIDGE_FORCE if structure.bridge else 0,
+        F_w: ATTRACTION_FORCE if structure.attraction else 0,
+        S_n: STRING_PULL if structure.strings else 0,
+    }
+    named_tangential = {F_t: SHEAR_FORCE, S_t: STRING_SIDEWAYS if structure.strings else 0}
+    normal = {force: INERTIA * value for force, value in named.items()}
+    tangential = {force: TANGENTIAL * value for force, value in named_tangential.items()}
+    rate: dict[sp.Symbol, sp.Expr] = {gap: nondimensional(u / v0)}
+    acceleration = motion.separation_acceleration.subs(normal)
+    if not structure.oblique:
+        rate[opening] = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+        return rate
+    if structure.partner:
+        beside = rotation(structure.partner)
+        forces = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+        return rate | {opening: beside.centrifugal + forces} | dict(beside.rates)
+    # the centrifugal term is named: what is left is minus the forces
+    centrifugal = sp.expand(acceleration - acceleration.subs(omega, 0))
+    assert sp.expand(centrifugal - r * omega**2) == 0
+    rate[opening] = CENTRIFUGAL_FORCE + sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+    pull_round = motion.orbital_momentum_rate.subs(tangential) / (m * a**2 * omega0) * x0 / v0
+    rate[orbit] = nondimensional(pull_round)
+    if not structure.reduced:
+        spin_up = motion.spin_acceleration.subs(tangential).subs(arm, a * LEVER)
+        rate[spin] = nondimensional(spin_up * x0 / (v0 * omega0))
+    if structure.strings:
+        rate[beta] = turning_rate()
+    return rate
+
+
+def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Time derivatives of the states in resting contact: gap held, the rotation goes on."""
+    return {**rates(structure), gap: sp.Integer(0), opening: sp.Integer(0)}
+
+
+def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
+    """Rate of the angle turned by the line of centres; None if it cannot turn."""
+    if structure is not None and structure.partner:
+        return rotation(structure.partner).turning
+    return by_orbital_rate(nondimensional(omega * x0 / v0))
+
+
+def inward_force(structure: Structure) -> sp.Expr:
+    """What holds a doublet at rest together: every normal force but the film's, positive inward."""
+    return -(rates(structure)[opening].subs(FILM_FORCE, 0))

@@ -1,0 +1,1 @@
+"""What nature does: mechanics, laws, partners, forces and scaling, and which of them make a structure."""

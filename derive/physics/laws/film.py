@@ -1,0 +1,162 @@
+"""Normal lubrication in a thin film, by integrating the film pressure over the wetted disc."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ...vocabulary.quantities import R, a, aspect, gap, mu, u, volume, x, x0
+from .base import Law, LawFunction
+
+_h = sp.Symbol("h", positive=True)
+_rim = sp.Symbol("rim", positive=True)
+
+
+@cache
+def pressure() -> sp.Expr:
+    """Film pressure p at local thickness h, from Reynolds' equation of an axisymmetric squeeze.
+
+    (1/s) d/ds (s h^3/(12 mu) dp/ds) = u with h = x + s^2/(2a), so s ds = a dh; regular on the axis; p = 0 at the
+    film's rim h = x0.
+    """
+    s, thickness = sp.Symbol("s", nonnegative=True), x + sp.Symbol("s", nonnegative=True) ** 2 / (2 * a)
+    flux = sp.integrate(12 * mu * u * s, s)  # s h^3 dp/ds, zero on the axis
+    slope_over_h = sp.simplify(flux / (s * _h**3) / thickness.diff(s))  # dp/dh = (dp/ds)/(dh/ds)
+    rise = sp.integrate(slope_over_h, _h)
+    return sp.simplify(rise - rise.subs(_h, x0))
+
+
+def _over_disc(integrand: sp.Expr, rim: sp.Expr) -> sp.Expr:
+    """Integral over the wetted disc x < h < rim (2 pi s ds = 2 pi a dh)."""
+    return sp.integrate(sp.expand(integrand) * 2 * sp.pi * a, (_h, x, rim))
+
+
+@cache
+def normal_force() -> sp.Expr:
+    """F_n, positive against opening: minus the pressure integrated over the disc h < x0."""
+    return sp.factor(_over_disc(-pressure(), x0))
+
+
+@cache
+def unbounded_force() -> sp.Expr:
+    """F_n of a film without a rim: the limit x0 -> infinity, 6 pi mu a^2 u/x."""
+    return sp.factor(sp.limit(sp.expand(normal_force()), x0, sp.oo))
+
+
+@cache
+def sustained_force() -> sp.Expr:
+    """F_n while opening of a liquid that sustains no tension: the pressure below ambient is cut off, max(p, 0).
+
+    With u > 0 the pressure is proportional to -(1/h^2 - 1/x0^2) < 0 all over the disc, so nothing is left.
+    """
+    opening, inside = sp.Symbol("opening_speed", positive=True), sp.Symbol("inside", positive=True)
+    at = sp.factor(pressure().subs(u, opening).subs(x0, _h + inside))  # anywhere in the disc, h < x0
+    return _over_disc(-sp.Max(at, 0), x0)
+
+
+@cache
+def rim_of_constant_volume() -> sp.Expr:
+    """H = sqrt(x^2 + V_b/(pi a)): rim of the disc that holds the bridge's volume V_b = V R^3 between the surfaces."""
+    filled = sp.factor(_over_disc(_h, _rim))  # pi a (H^2 - x^2)
+    return next(root for root in sp.solve(sp.Eq(filled, volume * R**3), _rim) if root.is_positive)
+
+
+@cache
+def constant_volume_force() -> sp.Expr:
+    """F_n with the rim at H in place of x0: p = 0 at h = H, integrated over h < H."""
+    return normal_force().subs(x0, _rim)
+
+
+@cache
+def axis_pressure() -> sp.Expr:
+    """Pressure on the axis, h = x: the largest in the film."""
+    return sp.factor(pressure().subs(_h, x))
+
+
+def _scaled_rim() -> sp.Expr:
+    squared = rim_of_constant_volume() ** 2 / x0**2
+    return sp.sqrt(sp.expand(squared.subs(x, gap * x0).subs(a, x0 / aspect)))
+
+
+def _resistance(force: sp.Expr) -> sp.Expr:
+    """A force over 6 pi mu a^2 u/x0, lengths in x0 (the rim too)."""
+    viscous_scale = 6 * sp.pi * mu * a**2 * u / x0
+    scaled = sp.simplify(force / viscous_scale).subs({x: gap * x0, _rim: _rim * x0}, simultaneous=True)
+    return sp.factor(sp.simplify(scaled))
+
+
+def _stopping(force: sp.Expr) -> LawFunction:
+    """Opening velocity that a film takes from here to its surface: its resistance's integral."""
+    taken = sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
+    doc = "Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0."
+    return LawFunction("stopping", (gap,), taken, doc, for_proof=True)
+
+
+FILMS = (
+    Law(
+        slot="film",
+        name="finite",
+        meaning="Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
+        source="Kantak & Davis, Powder Technol. 168, 42 (2006); derived: pressure integrated over the disc h < x0",
+        functions=(
+            LawFunction(
+                name="resistance",
+                arguments=(gap,),
+                result=_resistance(normal_force()),
+                doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
+            ),
+            _stopping(normal_force()),
+        ),
+    ),
+    Law(
+        slot="film",
+        name="infinite",
+        meaning="no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
+        source="Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002); derived: the limit x0 -> infinity of `finite`",
+        functions=(
+            LawFunction(
+                name="resistance",
+                arguments=(gap,),
+                result=_resistance(unbounded_force()),
+                doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
+            ),
+            _stopping(unbounded_force()),
+        ),
+    ),
+    Law(
+        slot="film",
+        name="cavitating",
+        meaning="`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
+        source="Barnocky & Davis, Phys. Fluids 31, 1324 (1988); derived: the pressure cut off at ambient",
+        functions=(
+            LawFunction(
+                name="resistance",
+                arguments=(gap,),
+                result=_resistance(normal_force()),
+                doc="Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1).",
+            ),
+            LawFunction(
+                name="suction",
+                arguments=(gap,),
+                result=_resistance(sustained_force()),
+                doc="What of the resistance is left while opening.",
+            ),
+        ),
+    ),
+    Law(
+        slot="film",
+        name="constant-volume",
+        meaning="the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
+        source="Pitois, Moucheront & Chateau, J. Colloid Interface Sci. 231, 26 (2000); derived: a disc of that volume",
+        functions=(
+            LawFunction(
+                name="resistance",
+                arguments=(gap, aspect, volume),
+                result=_resistance(constant_volume_force()),
+                doc="Normal film force over 6 pi mu a^2 u/x0.",
+                definitions=((_rim, _scaled_rim()),),
+            ),
+        ),
+    ),
+)

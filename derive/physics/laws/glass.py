@@ -1,0 +1,60 @@
+"""The glass criterion: the film pressure on the axis reaches the glass-transition pressure of the liquid."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ...vocabulary.quantities import a, gap, glass_number, mu, u, x, x0
+from .base import Law, LawFunction
+from .film import axis_pressure
+
+approach = sp.Symbol("approach", real=True)  # -u/v0, positive while closing
+
+
+@cache
+def _film_corrected() -> sp.Expr:
+    """Axis pressure over 3 mu a v0/x0^2."""
+    scale = 3 * mu * a / x0**2
+    return sp.factor(sp.simplify(axis_pressure() / scale).subs({x: gap * x0, u: -approach}, simultaneous=True))
+
+
+@cache
+def _literal() -> sp.Expr:
+    """The same without the rim's pressure, i.e. in the limit x0 -> infinity: 3 mu a |u|/x^2."""
+    unbounded = sp.limit(axis_pressure(), x0, sp.oo)
+    return sp.simplify((unbounded * x0**2 / (3 * mu * a)).subs({x: gap * x0, u: -approach}, simultaneous=True))
+
+
+def _reach(pressure: sp.Expr) -> sp.Expr:
+    """The largest gap at which an approach meets the criterion: the pressure falls along the gap."""
+    fast = sp.Symbol("approach", positive=True)
+    (farthest,) = (root for root in sp.solve(pressure.subs(approach, fast) - glass_number, gap) if root.is_positive)
+    return sp.simplify(farthest).subs(fast, approach)
+
+
+def _law(name: str, pressure: sp.Expr, meaning: str) -> Law:
+    functions = (
+        LawFunction("pressure", (gap, approach), pressure, "Film pressure on the axis over 3 mu a v0/x0^2."),
+        LawFunction(
+            "reach",
+            (approach, glass_number),
+            _reach(pressure),
+            "Gap at which this approach speed meets the criterion.",
+            for_proof=True,
+        ),
+    )
+    return Law(
+        "glass",
+        name,
+        meaning,
+        "Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure",
+        functions,
+    )
+
+
+GLASSES = (
+    _law("literal", _literal(), "3 mu a |u|/x^2 as published: can fire at first touch"),
+    _law("film-corrected", _film_corrected(), "with the film's rim, 1/x^2 - 1/x0^2: zero at first touch"),
+)

@@ -1,0 +1,22 @@
+"""Where an approach is reversed by the solids: elastic length and roughness (the glass criterion is its own law)."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ...vocabulary.quantities import E, a, mu, nu, v0
+
+ELASTIC_SOURCE = "Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002), after Davis, Serayssol & Hinch (1986)"
+
+
+def elastic_compliance() -> sp.Expr:
+    """theta_e = 2 (1 - nu^2)/(pi E) of two equal spheres (1/Pa): the sum of (1 - nu_i^2)/(pi E_i)."""
+    one = (1 - nu**2) / (sp.pi * E)
+    return one + one
+
+
+def elastic_length() -> sp.Expr:
+    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which the film's pressure has stored the motion as
+    elastic energy (ELASTIC_SOURCE).
+    """
+    return (3 * sp.pi * elastic_compliance() * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)

@@ -1,0 +1,143 @@
+"""Mechanics of the doublet: inertia by integration, Lagrangian, equations of motion with generalised forces.
+
+Two equal spheres (radius R = 2a, mass M = 2m) whose line of centres has length r = 4a + x and direction beta; both
+spin at xi about their own centres. Forces enter by their virtual work, so nothing here is transcribed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from ..vocabulary.quantities import a, m, omega, u, x, xi
+from ..vocabulary.quantities import r as r_of_x
+from ..vocabulary.quantities import t as time
+
+# Generalised forces as the laws define them: attraction and film resist opening, F_t pulls omega and xi together.
+F_n, F_c, F_t, arm = sp.symbols("F_n F_c F_t arm", real=True)
+F_w = sp.Symbol("F_w", real=True)  # another attraction along the line of centres than the bridge's
+S_n, S_t = sp.symbols("S_n S_t", real=True)
+
+
+@cache
+def sphere_inertia() -> sp.Expr:
+    """Moment of inertia of one sphere about a diameter, (2/5) M R^2 = (16/5) m a^2, integrated over its volume."""
+    radius, mass, s, polar, azimuth = sp.symbols("R M s vartheta varphi", positive=True)
+    density = mass / (sp.Rational(4, 3) * sp.pi * radius**3)
+    lever_squared = (s * sp.sin(polar)) ** 2
+    integrand = density * lever_squared * s**2 * sp.sin(polar)
+    inertia = sp.integrate(integrand, (s, 0, radius), (polar, 0, sp.pi), (azimuth, 0, 2 * sp.pi))
+    return sp.simplify(inertia.subs({radius: 2 * a, mass: 2 * m}))
+
+
+@cache
+def doublet_inertia() -> sp.Expr:
+    """Moment of inertia I(x) of the doublet turning as one body: two spheres and the parallel-axis theorem."""
+    return sp.expand(2 * (sphere_inertia() + 2 * m * (r_of_x / 2) ** 2))
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """Generalised coordinates as functions of time."""
+
+    x: sp.Expr
+    beta: sp.Expr
+    spin_angle: sp.Expr
+
+
+def coordinates() -> Coordinates:
+    """Gap, angle of the line of centres, and the angle each sphere has turned about its centre."""
+    functions = [sp.Function(name, real=True)(time) for name in ("x", "beta", "alpha")]
+    return Coordinates(*functions)
+
+
+@cache
+def kinetic_energy() -> sp.Expr:
+    """Kinetic energy relative to the centre of mass, from the two centres' positions and the two spins."""
+    q = coordinates()
+    half = (4 * a + q.x) / 2
+    position = sp.Matrix([half * sp.cos(q.beta), half * sp.sin(q.beta)])  # the other sphere mirrors this one
+    velocity = position.diff(time)
+    per_sphere = (
+        sp.Rational(1, 2) * 2 * m * velocity.dot(velocity)
+        + sp.Rational(1, 2) * sphere_inertia() * q.spin_angle.diff(time) ** 2
+    )
+    return sp.simplify(2 * per_sphere)
+
+
+@cache
+def generalised_forces() -> dict[str, sp.Expr]:
+    """Virtual work of the film, the bridge and the strings, coordinate by coordinate.
+
+    On the sphere at +r/2 acts -(F_n + F_c + F_w) along the line and -F_t across it, the opposite on the other; the
+    tangential pair acts at a distance `arm` from either centre and so turns each sphere with F_t arm.
+    """
+    q = coordinates()
+    n = sp.Matrix([sp.cos(q.beta), sp.sin(q.beta)])
+    across = sp.Matrix([-sp.sin(q.beta), sp.cos(q.beta)])
+    force = -(F_n + F_c + F_w + S_n) * n - (F_t + S_t) * across
+    position = (4 * a + q.x) / 2 * n
+    work = {}
+    for name, coordinate in (("x", q.x), ("beta", q.beta)):
+        work[name] = sp.simplify(2 * force.dot(position.diff(coordinate)))
+    work["spin_angle"] = 2 * F_t * arm
+    return work
+
+
+@dataclass(frozen=True)
+class EquationsOfMotion:
+    """Accelerations and momenta of the doublet, in the quantities of the vocabulary."""
+
+    separation_acceleration: sp.Expr  # du/dt
+    orbital_acceleration: sp.Expr  # domega/dt
+    spin_acceleration: sp.Expr  # dxi/dt
+    orbital_momentum: sp.Expr  # conjugate to beta
+    orbital_momentum_rate: sp.Expr
+    spin_momentum: sp.Expr  # conjugate to the spin angle of both spheres
+    kinetic_energy: sp.Expr
+
+    @property
+    def angular_momentum(self) -> sp.Expr:
+        return self.orbital_momentum + self.spin_momentum
+
+
+@cache
+def equations_of_motion() -> EquationsOfMotion:
+    """Lagrange's equations d/dt dT/dq' - dT/dq = Q, solved for the accelerations."""
+    q = coordinates()
+    energy, forces = kinetic_energy(), generalised_forces()
+    plain = {
+        q.x.diff(time): u,
+        q.beta.diff(time): omega,
+        q.spin_angle.diff(time): xi,
+    }
+
+    def settle(expression: sp.Expr) -> sp.Expr:
+        return expression.subs(plain).subs({q.x: x})
+
+    acceleration: dict[str, sp.Expr] = {}
+    momentum: dict[str, sp.Expr] = {}
+    rate: dict[str, sp.Expr] = {}
+    for name, coordinate in (("x", q.x), ("beta", q.beta), ("spin_angle", q.spin_angle)):
+        conjugate = energy.diff(coordinate.diff(time))
+        balance = conjugate.diff(time) - energy.diff(coordinate) - forces[name]
+        second = coordinate.diff(time, 2)
+        acceleration[name] = sp.expand(settle(sp.solve(balance, second)[0]))
+        momentum[name] = sp.expand(settle(conjugate))
+        rate[name] = settle(energy.diff(coordinate) + forces[name])
+    return EquationsOfMotion(
+        separation_acceleration=acceleration["x"],
+        orbital_acceleration=acceleration["beta"],
+        spin_acceleration=acceleration["spin_angle"],
+        orbital_momentum=sp.factor(momentum["beta"]),
+        orbital_momentum_rate=sp.factor(rate["beta"]),
+        spin_momentum=sp.factor(momentum["spin_angle"]),
+        kinetic_energy=settle(energy),
+    )
+
+
+def string_forces(potential: sp.Expr, distance: sp.Symbol, angle: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
+    """Normal and tangential string force (S_n, S_t) from a potential U_s(r, beta): -grad U along and across."""
+    return potential.diff(distance), potential.diff(angle) / distance

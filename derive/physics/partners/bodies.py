@@ -1,0 +1,105 @@
+"""Mechanics of two unequal spheres: radii and masses out of reduced ones and ratios, Lagrangian, equations of motion.
+
+The centre of mass is among the coordinates, so that linear momentum is there to be conserved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from ...vocabulary.quantities import a, m, mass_ratio, omega, partner_spin_rate, radius_ratio, u, x, xi
+from ...vocabulary.quantities import t as time
+from ..mechanics import sphere_inertia
+
+CENTRES = sp.Symbol("centres", positive=True)  # (R_1 + R_2)/a, named in emitted code
+F, F_t, T_1, T_2 = sp.symbols("F F_t T_1 T_2", real=True)  # along the line of centres, across it, torques
+r = CENTRES * a + x
+
+
+@cache
+def radii() -> tuple[sp.Expr, sp.Expr]:
+    """R_1, R_2 from a = R_1 R_2/(R_1 + R_2) and R_2 = radius_ratio R_1."""
+    first = sp.Symbol("R_1", positive=True)
+    (own,) = sp.solve(sp.Eq(a, sp.simplify(first * radius_ratio * first / (first + radius_ratio * first))), first)
+    return sp.factor(own), sp.factor(own * radius_ratio)
+
+
+@cache
+def masses() -> tuple[sp.Expr, sp.Expr]:
+    """M_1, M_2 from m = M_1 M_2/(M_1 + M_2) and M_2 = mass_ratio M_1."""
+    shape = {a: m, radius_ratio: mass_ratio}
+    one, other = radii()
+    return one.subs(shape), other.subs(shape)
+
+
+@cache
+def centres() -> sp.Expr:
+    """(R_1 + R_2)/a; 4 for equal spheres."""
+    return sp.factor(sum(radii()) / a)
+
+
+@cache
+def inertias() -> tuple[sp.Expr, sp.Expr]:
+    """Moments of inertia (2/5) M_i R_i^2."""
+    own = sphere_inertia() / (2 * m * (2 * a) ** 2)  # that of a sphere of mass 2m and radius 2a, over M R^2
+    return tuple(sp.factor(own * mass * radius**2) for mass, radius in zip(masses(), radii(), strict=True))
+
+
+@dataclass(frozen=True)
+class PairMotion:
+    """Accelerations of the pair, its momenta and their rates, by coordinate: X, Y, x, beta, alpha_1, alpha_2."""
+
+    accelerations: dict[str, sp.Expr]
+    momenta: dict[str, sp.Expr]
+    rates: dict[str, sp.Expr]
+    kinetic_energy: sp.Expr
+
+
+@cache
+def equations_of_motion() -> PairMotion:
+    """Lagrange's equations d/dt dT/dq' - dT/dq = Q for two free spheres that act on each other only.
+
+    On sphere 2, at the far end of the line of centres, acts -F along it and -F_t across it, the opposite on sphere 1.
+    """
+    q = {name: sp.Function(name, real=True)(time) for name in ("X", "Y", "x", "beta", "alpha_1", "alpha_2")}
+    mass_1, mass_2, inertia_1, inertia_2 = named = sp.symbols("M_1 M_2 I_1 I_2", positive=True)
+    sizes = dict(zip(named, (*masses(), *inertias()), strict=True))
+    line = sp.Matrix([sp.cos(q["beta"]), sp.sin(q["beta"])])
+    across = sp.Matrix([-sp.sin(q["beta"]), sp.cos(q["beta"])])
+    centre = sp.Matrix([q["X"], q["Y"]])
+    apart = (CENTRES * a + q["x"]) * line
+    first = centre - mass_2 / (mass_1 + mass_2) * apart
+    second = centre + mass_1 / (mass_1 + mass_2) * apart
+    half = sp.Rational(1, 2)
+
+    def squared(vector: sp.Matrix) -> sp.Expr:
+        return vector.dot(vector)
+
+    translation = half * mass_1 * squared(first.diff(time)) + half * mass_2 * squared(second.diff(time))
+    spinning = half * inertia_1 * q["alpha_1"].diff(time) ** 2 + half * inertia_2 * q["alpha_2"].diff(time) ** 2
+    across_squared = sp.sin(q["beta"]) ** 2, 1 - sp.cos(q["beta"]) ** 2
+    energy = sp.expand(sp.expand(translation).subs(*across_squared)) + spinning
+    force = -F * line - F_t * across
+    work = {name: sp.simplify(force.dot((second - first).diff(q[name]))) for name in ("X", "Y", "x", "beta")}
+    work |= {"alpha_1": T_1, "alpha_2": T_2}
+    plain = {
+        q["x"].diff(time): u,
+        q["beta"].diff(time): omega,
+        q["alpha_1"].diff(time): xi,
+        q["alpha_2"].diff(time): partner_spin_rate,
+    }
+
+    def settle(expression: sp.Expr) -> sp.Expr:
+        return sp.factor(expression.subs(plain).subs({q["x"]: x, **sizes}))
+
+    accelerations, momenta, rates = {}, {}, {}
+    for name, coordinate in q.items():
+        conjugate = energy.diff(coordinate.diff(time))
+        balance = conjugate.diff(time) - energy.diff(coordinate) - work[name]
+        accelerations[name] = settle(sp.solve(balance, coordinate.diff(time, 2))[0])
+        momenta[name] = settle(conjugate)
+        rates[name] = settle(energy.diff(coordinate) + work[name])
+    return PairMotion(accelerations, momenta, rates, settle(energy))

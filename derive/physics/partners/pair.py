@@ -1,0 +1,141 @@
+"""Two unequal spheres, each with its own spin: rotation, friction and angular momentum in states and groups."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ...vocabulary.quantities import (
+    a,
+    aspect,
+    gap,
+    m,
+    mu,
+    omega,
+    omega0,
+    orbit,
+    partner_spin,
+    partner_spin_rate,
+    spin,
+    v0,
+    x,
+    x0,
+    xi,
+)
+from ..forces import SHEAR, TANGENTIAL
+from ..laws import slot_call
+from ..laws.base import Definition
+from ..scaling import DISTANCE, INERTIA, nondimensional
+from .base import Rotation
+from .bodies import CENTRES, T_1, T_2, F_t, centres, equations_of_motion, inertias, r, radii
+from .rolling import R_1, R_2, torque_matrix
+
+RADIUS, PARTNER_RADIUS, SPIN_INERTIA, PARTNER_INERTIA = sp.symbols(
+    "radius partner_radius spin_inertia partner_inertia", positive=True
+)
+ORBITAL_RATE, SLIP, PARTNER_SLIP = sp.symbols("orbital_rate slip partner_slip", real=True)
+LEVER, MOMENTUM, INERTIA_RATIO, DRAG = sp.symbols("lever momentum inertia_ratio drag", positive=True)
+TORQUE, PARTNER_TORQUE, SHEAR_FORCE = sp.symbols("torque partner_torque shear_force", real=True)
+
+
+def scaled(expression: sp.Expr) -> sp.Expr:
+    """A dimensionless SI expression in states and groups, the centre distance at contact being `centres` a."""
+    return nondimensional(expression, CENTRES)
+
+
+def _turned(expression: sp.Expr) -> sp.Expr:
+    return scaled(expression).subs(orbit, ORBITAL_RATE * DISTANCE**2)
+
+
+def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
+    """Torques on the two spheres and the tangential force, in SI.
+
+    The torques are the leading logarithms, stretched by the arm's law: `midgap` by r/(R_1 + R_2), so that they add
+    up to r F_t and dL/dt = 0 identically; `surface` not at all.
+    """
+    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
+    slips = sp.Matrix([omega - xi, omega - partner_spin_rate])
+    torques = torque_matrix() * slips * log
+    stretch = slot_call("arm", "lever", 4 * r / (CENTRES * a)) / 2  # the lever of equal spheres over their radius 2a
+    return (stretch * torques[0], stretch * torques[1]), (torques[0] + torques[1]) / (R_1 + R_2)
+
+
+def _friction() -> list[Definition]:
+    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
+    unit = 2 * sp.pi * mu * a**3  # of the torques per slip
+    shape = (torque_matrix() / unit).subs({R_1: a * RADIUS, R_2: a * PARTNER_RADIUS})
+    torque, partner_torque = LEVER * DRAG * sp.simplify(shape) * sp.Matrix([SLIP, PARTNER_SLIP])
+    return [
+        (DRAG, scaled(log * unit * omega0 / (TANGENTIAL * a))),
+        (LEVER, slot_call("arm", "lever", 4 * DISTANCE / CENTRES) / 2),
+        (TORQUE, sp.factor(torque)),
+        (PARTNER_TORQUE, sp.factor(partner_torque)),
+        (SHEAR_FORCE, (TORQUE + PARTNER_TORQUE) / (LEVER * CENTRES)),
+    ]
+
+
+def _definitions() -> tuple[Definition, ...]:
+    (radius, partner_radius), (inertia, partner_inertia) = radii(), inertias()
+    return (
+        (CENTRES, centres()),
+        (DISTANCE, CENTRES + aspect * gap),
+        (ORBITAL_RATE, scaled(omega / omega0)),
+        (RADIUS, sp.factor(radius / a)),
+        (PARTNER_RADIUS, sp.factor(partner_radius / a)),
+        (SPIN_INERTIA, sp.factor(inertia / (m * a**2))),
+        (PARTNER_INERTIA, sp.factor(partner_inertia / (m * a**2))),
+        (MOMENTUM, orbit + SPIN_INERTIA * spin + PARTNER_INERTIA * partner_spin),
+        (INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA),
+        (SLIP, ORBITAL_RATE - spin),
+        (PARTNER_SLIP, ORBITAL_RATE - partner_spin),
+        *_friction(),
+    )
+
+
+def _kinetic() -> sp.Expr:
+    """Orbital energy and that of the two spins, over m v0^2; the centre of mass is at rest."""
+    orbital = _turned(m * r**2 * omega**2 / 2 / (m * v0**2))
+    turning = scaled(m * a**2 * omega0**2 / 2 / (m * v0**2))
+    return orbital + turning * SPIN_INERTIA * spin**2 + turning * PARTNER_INERTIA * partner_spin**2
+
+
+@cache
+def rotation() -> Rotation:
+    """What the equations of an unequal pair are made of."""
+    motion = equations_of_motion()
+    named = {F_t: TANGENTIAL * SHEAR_FORCE, T_1: TANGENTIAL * a * TORQUE, T_2: TANGENTIAL * a * PARTNER_TORQUE}
+    per_time = x0 / (v0 * m * a**2 * omega0)
+
+    def rate(coordinate: str) -> sp.Expr:
+        return scaled(motion.rates[coordinate].subs(named) * per_time)
+
+    power = F_t * r * omega - T_1 * xi - T_2 * partner_spin_rate
+    rigid = MOMENTUM / INERTIA_RATIO
+    least = scaled((m * a**2 * omega0 * MOMENTUM) ** 2 / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
+    opened = motion.accelerations["x"]
+    centrifugal = sp.expand(opened - opened.subs(omega, 0))
+    assert sp.expand(centrifugal - r * omega**2) == 0
+    return Rotation(
+        states=(orbit, spin, partner_spin),
+        definitions=_definitions(),
+        centrifugal=_turned(m * r * omega**2 / INERTIA),
+        rates={
+            orbit: rate("beta"),
+            spin: rate("alpha_1") / SPIN_INERTIA,
+            partner_spin: rate("alpha_2") / PARTNER_INERTIA,
+        },
+        turning=_turned(omega * x0 / v0),
+        kinetic=_kinetic(),
+        power=_turned(power.subs(named) * x0 / v0 / (m * v0**2)),
+        momentum=MOMENTUM / (CENTRES + aspect) ** 2,
+        outputs={
+            "tangential_restitution": DISTANCE * ORBITAL_RATE / (CENTRES + aspect),
+            "final_rotation_rate": ORBITAL_RATE,
+            "final_spin": spin,
+            "final_spin_partner": partner_spin,
+        },
+        least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
+        rigid={orbit: DISTANCE**2 * rigid, spin: rigid, partner_spin: rigid},
+        start={orbit: (CENTRES + aspect) ** 2, spin: sp.Integer(0), partner_spin: sp.Integer(0)},
+    )

@@ -1,0 +1,170 @@
+"""Sphere against wall: the pair as the partner's radius and mass go to infinity, in quantities that stay finite.
+
+r omega becomes the velocity v along the wall, while omega, and with it the centrifugal force m v^2/r, goes to zero: the
+line of centres does not turn, and the motion along it no longer knows of that across it. The wall does not spin.
+
+Nor does the motion across it need equations of its own. Friction is linear in sliding and rolling, and the gap enters
+through one common factor, so the two modes of its matrix stay the same all along the flight: slide and roll are sums
+of exp(-decay) and exp(-ratio decay), and the one state is `decay`, the integral of the slower mode's rate. What has
+died away is then an exponential that is zero; it holds no integration, and has the right sign down to the smallest
+double.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from ...vocabulary.quantities import (
+    a,
+    decay,
+    m,
+    mass_ratio,
+    obliquity,
+    omega,
+    partner_spin_rate,
+    radius_ratio,
+    roll,
+    slide,
+    slide_rate,
+    u,
+    v0,
+    x,
+    x0,
+    xi,
+)
+from ..forces import SHEAR
+from ..laws import slot_call
+from ..laws.base import Definition
+from ..scaling import nondimensional
+from .base import Rotation
+from .bodies import CENTRES, T_1, F_t, centres, equations_of_motion, inertias, r, radii
+from .rolling import R_1, R_2, torque_matrix
+
+SHEAR_FORCE, TORQUE = sp.symbols("shear_force torque", real=True)
+SLOW_MODE, FAST_MODE = sp.symbols("slow_mode fast_mode", positive=True)
+
+
+def limit(expression: sp.Expr) -> sp.Expr:
+    """An SI expression of the pair beside a wall: omega = v/r, no spin of the partner, R_2 and M_2 to infinity."""
+    at_rest = expression.subs(partner_spin_rate, 0).subs(omega, slide_rate / r)
+    one, other = radii()
+    in_ratios = at_rest.subs({R_1: one, R_2: other}).subs(CENTRES, centres())
+    for ratio in (mass_ratio, radius_ratio):
+        in_ratios = sp.limit(sp.factor(in_ratios), ratio, sp.oo)
+    return sp.factor(in_ratios)
+
+
+@cache
+def friction() -> tuple[sp.Expr, sp.Expr]:
+    """Torque on the sphere and the force against its sliding, in SI, over ln(h_outer/x)."""
+    torques = torque_matrix() * sp.Matrix([omega - xi, omega - partner_spin_rate])
+    return limit(torques[0]), limit((torques[0] + torques[1]) / (R_1 + R_2))
+
+
+@cache
+def accelerations() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """Of the gap (less the forces along it), along the wall (of v = r omega), and of the spin; in SI."""
+    motion = equations_of_motion().accelerations
+    opened = motion["x"]
+    along = u * omega + r * motion["beta"]  # d(r omega)/dt
+    return limit(opened - opened.subs(omega, 0)), limit(along), limit(motion["alpha_1"])
+
+
+def scaled(expression: sp.Expr) -> sp.Expr:
+    """A dimensionless SI expression in states and groups; v over v0 tan(theta0), the spin over that per a."""
+    sideways = v0 * obliquity
+    return nondimensional(expression.subs({slide_rate: sideways * slide, xi: sideways / a * roll}, simultaneous=True))
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Slide and roll as sums of two modes that decay.
+
+    Arguments:
+        rate: of the slower mode, per v0/x0; the one place where the gap enters.
+        ratio: the faster mode's rate over it.
+        slide, roll: weights of the slower and the faster mode.
+    """
+
+    rate: sp.Expr
+    ratio: sp.Expr
+    slide: tuple[sp.Expr, sp.Expr]
+    roll: tuple[sp.Expr, sp.Expr]
+
+
+def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]) -> Modes:
+    """The modes of rates that are linear in slide and roll, by a constant matrix times one common factor.
+
+    Raises:
+        ValueError: the rates are not of this form, or a mode does not decay.
+    """
+    moving = sp.Matrix([slide, roll])
+    found = sp.Matrix([sp.expand(rates[state]) for state in moving])
+    matrix = -found.jacobian(moving)
+    factor = matrix[0, 0]
+    numbers = (matrix / factor).applyfunc(sp.simplify)
+    if (found + matrix * moving).applyfunc(sp.expand) != sp.zeros(2, 1) or numbers.free_symbols:
+        raise ValueError(f"sliding and rolling are not damped by one constant matrix: {numbers}")
+    (slow, _, (one,)), (fast, _, (other,)) = sorted(numbers.eigenvects(), key=lambda each: each[0])
+    if not (slow.is_positive and fast.is_positive):
+        raise ValueError(f"a mode of sliding and rolling does not decay: {slow}, {fast}")
+    vectors = sp.Matrix.hstack(one, other)
+    weights = vectors * sp.diag(*vectors.LUsolve(moving.subs(start)))
+    along, spun = (tuple(sp.radsimp(sp.simplify(weight)) for weight in weights.row(k)) for k in range(2))
+    return Modes(factor * sp.together(slow), sp.expand(sp.radsimp(fast / slow)), along, spun)
+
+
+@cache
+def friction_rates() -> tuple[tuple[Definition, ...], dict[sp.Symbol, sp.Expr]]:
+    """Force and torque of the friction by their names, and the rates of slide and roll in them, per v0/x0."""
+    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
+    torque, force = friction()
+    unit = _force_unit()
+    opened, along, spun = accelerations()
+    assert opened == 0  # no centrifugal force
+    named = {F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE}
+    definitions = ((SHEAR_FORCE, scaled(log * force / unit)), (TORQUE, scaled(log * torque / (unit * a))))
+    return definitions, {
+        slide: scaled(along.subs(named) * x0 / (v0 * v0 * obliquity)),
+        roll: scaled(spun.subs(named) * x0 / v0 * a / (v0 * obliquity)),
+    }
+
+
+def _force_unit() -> sp.Expr:
+    return m * v0 * obliquity * v0 / x0
+
+
+@cache
+def rotation() -> Rotation:
+    """What the equations beside a wall are made of."""
+    definitions, rates = friction_rates()
+    begin = {slide: sp.Integer(1), roll: sp.Integer(0)}
+    found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
+    both = (SLOW_MODE, FAST_MODE)
+    unit = _force_unit()
+    kinetic = (m * slide_rate**2 + limit(inertias()[0]) * xi**2) / 2
+    power = (F_t * slide_rate - T_1 * xi).subs({F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE})
+    return Rotation(
+        states=(decay,),
+        definitions=(
+            (SLOW_MODE, sp.exp(-decay)),
+            (FAST_MODE, sp.exp(-found.ratio * decay)),
+            (slide, sum(weight * mode for weight, mode in zip(found.slide, both, strict=True))),
+            (roll, sum(weight * mode for weight, mode in zip(found.roll, both, strict=True))),
+            *definitions,
+        ),
+        centrifugal=sp.Integer(0),
+        rates={decay: found.rate},
+        turning=None,
+        kinetic=scaled(kinetic / (m * v0**2)),
+        power=scaled(power * x0 / v0 / (m * v0**2)),
+        momentum=None,
+        outputs={"tangential_restitution": slide, "final_rotation_rate": sp.Integer(0), "final_spin": roll},
+        least=(sp.Integer(0), sp.Integer(0)),
+        rigid={decay: decay},
+        start={decay: sp.Integer(0)},
+    )

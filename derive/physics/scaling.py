@@ -1,0 +1,215 @@
+"""Dimensionless groups: how many there are (nullspace), which ones they are (ratios of terms), and the substitution.
+
+Gap by x0, velocity by v0, time by x0/v0, angular velocity by omega0: integrators see numbers of order one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..vocabulary.quantities import (
+    A_H,
+    DIMENSIONS,
+    R,
+    a,
+    adhesion,
+    aspect,
+    attraction,
+    capillary,
+    centrifugal,
+    cohesive_centrifugal,
+    elastic_gap,
+    g,
+    gap,
+    glass_number,
+    l_s,
+    m,
+    mu,
+    obliquity,
+    omega,
+    omega0,
+    opening,
+    orbit,
+    p_gt,
+    pair_centrifugal,
+    pair_rate,
+    partner_spin,
+    partner_spin_rate,
+    r,
+    radius_ratio,
+    reynolds,
+    rho,
+    rough_gap,
+    rupture_gap,
+    sigma,
+    spin,
+    stokes,
+    string_ratio,
+    theta0,
+    u,
+    v0,
+    wall_rate,
+    weight,
+    x,
+    x0,
+    x_b,
+    xi,
+)
+from .laws.attraction import van_der_waals_force
+from .laws.reversal import elastic_length
+from .laws.rupture import rupture_distance
+from .laws.start import initial_rate
+
+DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
+
+
+def dimension_matrix(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    """Rows mass, length, time; a column of exponents for each quantity."""
+    return sp.Matrix([[sp.Rational(DIMENSIONS[s].exponents[row]) for s in symbols] for row in range(3)])
+
+
+def pi_groups(symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
+    """A basis of the dimensionless monomials of `symbols`, from the nullspace of their dimension matrix."""
+    basis = dimension_matrix(symbols).nullspace()
+    return [sp.prod([s**power for s, power in zip(symbols, vector, strict=True)]) for vector in basis]
+
+
+def exponents(monomial: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    """Exponents of `symbols` in a monomial (numeric factors ignored)."""
+    powers = sp.powsimp(monomial).as_powers_dict()
+    return sp.Matrix([powers.get(s, 0) for s in symbols])
+
+
+# The scales of force that the equation of motion puts side by side at first touch.
+INERTIA = m * v0**2 / x0  # m du/dt
+VISCOUS = 6 * sp.pi * mu * a**2 * v0 / x0  # F_n
+CAPILLARY = sp.pi * R * sigma  # F_c
+CENTRIFUGAL = m * a * omega0**2  # m r omega^2
+VAN_DER_WAALS = van_der_waals_force().subs(x, x0)  # F_w at first touch
+LUBRICATION_PRESSURE = 3 * mu * a * v0 / x0**2
+
+
+@cache
+def group_definitions() -> dict[sp.Symbol, sp.Expr]:
+    """Each group in SI quantities, as a ratio of two terms of the model."""
+    return {
+        stokes: INERTIA / VISCOUS,
+        capillary: VISCOUS / CAPILLARY,
+        centrifugal: (CENTRIFUGAL / (a * sigma)).subs(omega0, initial_rate()),
+        adhesion: VAN_DER_WAALS / VISCOUS,
+        reynolds: rho * v0 * x0 / mu,
+        aspect: x0 / a,
+        obliquity: sp.tan(theta0),
+        glass_number: p_gt / LUBRICATION_PRESSURE,
+        weight: m * g / INERTIA,
+        string_ratio: l_s / a,
+        elastic_gap: elastic_length() / x0,
+        rough_gap: x_b / x0,
+        rupture_gap: rupture_distance(bridge=True) / x0,
+    }
+
+
+@cache
+def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
+    """Scales that are not themselves quantities of a scene."""
+    from .partners.bodies import centres  # which builds on this module's neighbours
+
+    apart = centres() * a
+    per_pair = v0 * sp.tan(theta0) / apart
+    return {
+        omega0: initial_rate(),
+        pair_rate: per_pair,
+        wall_rate: sp.limit(per_pair * apart / a, radius_ratio, sp.oo),
+        pair_centrifugal: m * per_pair**2 / sigma,
+        cohesive_centrifugal: generalised_centrifugal(attraction),
+    }
+
+
+def generalised_centrifugal(force: sp.Expr) -> sp.Expr:
+    """Ce_F = m omega0^2 a/F: the centrifugal force's scale over an attraction F, whatever law that follows.
+
+    The paper's Ce = m omega0^2/sigma is this with F = a sigma, so for the constant bridge Ce_F = Ce/(4 pi cos(phi)).
+    """
+    return CENTRIFUGAL / force
+
+
+EQUAL = sp.Integer(4)  # centre distance at contact over a, of equal spheres
+
+
+@cache
+def to_groups(centres: sp.Expr = EQUAL) -> dict[sp.Symbol, sp.Expr]:
+    """SI quantities in terms of groups, a, v0 and mu (which must cancel from every dimensionless expression).
+
+    Arguments:
+        centres: the centre distance at contact over a.
+    """
+    film = aspect * a
+    definitions = group_definitions()
+
+    def solved(group: sp.Symbol, quantity: sp.Symbol) -> sp.Expr:
+        return sp.solve(sp.Eq(definitions[group], group), quantity)[0].subs(x0, film)
+
+    mass = solved(stokes, m)
+    return {
+        m: mass,
+        x0: film,
+        sigma: solved(capillary, sigma),
+        p_gt: solved(glass_number, p_gt),
+        g: solved(weight, g).subs(m, mass),
+        A_H: solved(adhesion, A_H),
+        l_s: solved(string_ratio, l_s),
+        omega0: v0 * obliquity / (centres * a),
+        x: film * gap,
+        u: v0 * opening,
+        omega: omega0 * orbit / DISTANCE**2,
+        xi: omega0 * spin,
+        partner_spin_rate: omega0 * partner_spin,
+    }
+
+
+class ScalingError(ValueError):
+    """A dimensional quantity did not cancel."""
+
+
+@cache
+def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
+    """A dimensionless SI expression in states and groups: arguments of laws in the gap, all else in r/a.
+
+    Arguments:
+        centres: the centre distance at contact over a.
+
+    Raises:
+        ScalingError: a dimensional quantity is left over; the message names it.
+    """
+    rules = to_groups(centres)
+    calls = {node: _substituted(node, rules) for node in expression.atoms(AppliedUndef)}
+    body = sp.sympify(expression).xreplace(calls)
+    result = sp.simplify(_substituted(body, {**rules, x: a * (DISTANCE - centres)}))
+    left = sorted(s.name for s in result.free_symbols if s in DIMENSIONS and any(DIMENSIONS[s].exponents))
+    if left:
+        raise ScalingError(f"{', '.join(left)} did not cancel from {expression}")
+    return result
+
+
+def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    for _ in range(3):  # rotation rate -> omega0 -> v0 and the angle
+        expression = expression.subs(rules, simultaneous=True)
+    if isinstance(expression, AppliedUndef):
+        return expression.func(*(sp.simplify(argument) for argument in expression.args))
+    return expression
+
+
+def centrifugal_identity() -> sp.Expr:
+    """Ce in the other groups: (pi/8) (x0/a) tan^2(theta0) St Ca."""
+    definition = group_definitions()[centrifugal].subs(sp.tan(theta0), obliquity)
+    return nondimensional(definition)
+
+
+def paper_normalisation() -> sp.Expr:
+    """The centrifugal term m r omega^2 over a sigma, as the paper scales it: Ce (4 + x/a) (omega/omega0)^2."""
+    term = m * r * omega**2 / (a * sigma)
+    return sp.factor(term.subs(m, centrifugal * sigma / omega0**2))

@@ -1,0 +1,73 @@
+"""What fills a slot: each function's dimensionless arguments, where they stand in SI, and its scale."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..vocabulary.dimensions import ONE, Dimension, dimension_of
+from ..vocabulary.quantities import DIMENSIONS, opening, u, v0, x, x0
+from .forces import FILM, SHEAR, force_laws
+from .laws import LAWS
+from .laws.base import is_slot_call
+from .scaling import LUBRICATION_PRESSURE
+
+
+@dataclass(frozen=True)
+class Place:
+    """A function of a slot.
+
+    Arguments:
+        arguments: its dimensionless arguments.
+        at: those in SI quantities, one for one; empty where it has no SI form.
+        scale: the function times this is in SI; 1 where it has no SI form.
+    """
+
+    slot: str
+    function: str
+    arguments: tuple[sp.Symbol, ...]
+    at: tuple[sp.Expr, ...]
+    scale: sp.Expr
+    doc: str
+
+    @property
+    def key(self) -> str:
+        return f"{self.slot}.{self.function}"
+
+    @property
+    def dimension(self) -> Dimension:
+        return dimension_of(self.scale, DIMENSIONS) or ONE
+
+
+def places() -> dict[str, Place]:
+    """Every function of every slot, by `slot.function`; scales and places out of the force laws."""
+    scaled = _scaled()
+    found = {}
+    for slot, laws in LAWS.items():
+        functions = {function.name: function for law in reversed(laws.values()) for function in law.functions}
+        for function in functions.values():  # of the first law that has it
+            at, scale = scaled.get(f"{slot}.{function.name}", ((), sp.Integer(1)))
+            place = Place(slot, function.name, function.arguments, at, scale, function.doc)
+            found[place.key] = place
+    return found
+
+
+def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
+    """Where a force is one call times a factor, that factor is the call's scale."""
+    found: dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]] = {
+        "glass.pressure": ((x / x0, -u / v0), LUBRICATION_PRESSURE),
+        "shear.edge": ((next(iter(LAWS["shear"].values()))["edge"].arguments), x0),
+    }
+    for force in force_laws().values():
+        calls = [node for node in force.atoms(AppliedUndef) if is_slot_call(node)]
+        if len(calls) != 1 or calls[0].func.__name__.startswith("strings."):
+            continue  # rise and stiffness of the strings belong together
+        factor = force.subs({FILM: 1, SHEAR: 1}).xreplace({calls[0]: sp.Integer(1)})
+        found[calls[0].func.__name__] = (calls[0].args, factor)
+    return found
+
+
+MOTION: dict[str, tuple[sp.Symbol, ...]] = {"film": (opening,), "shear": (opening,)}
+"""States other than the gap that a slot's law may depend on: what the stick certificates do not need to know."""

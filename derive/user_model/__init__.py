@@ -1,0 +1,1 @@
+"""A user's own laws and quantities, and the structures that they make."""

@@ -1,0 +1,296 @@
+r"""A user's model: one small Python file that declares laws, and the quantities that they need, over the vocabulary.
+
+    from wetdoublet.derive.user import *
+
+    stress = quantity("yield_stress", r"\tau_y", unit="Pa", default="10 Pa", bounds=">= 0")
+    law("bridge", "mine", force=pi * R * sigma * 2 * cos(phi) + 4 * pi * a**2 * stress, source="...")
+
+A law fills a slot of the library's (`film`, `shear`, `arm`, `glass`, `bridge`, `strings`, ...). Its functions are given
+as they are in SI, or dimensionless in the slot's own arguments; `declared` reads such a file.
+"""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+
+import sympy as sp
+from sympy import (
+    Abs,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    acos,
+    asin,
+    atan,
+    cos,
+    cosh,
+    exp,
+    log,
+    pi,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+)
+
+from ..physics.laws import LAWS
+from ..physics.laws.arm import distance
+from ..physics.laws.bridge import h
+from ..physics.laws.glass import approach
+from ..physics.laws.strings import offset_squared
+from ..vocabulary.allowed_values import Bounds, BoundsError
+from ..vocabulary.dimensions import Dimension
+from ..vocabulary.quantities import (  # fmt: skip
+    VOCABULARY,
+    E,
+    R,
+    a,
+    aspect,
+    e_dry,
+    g,
+    gap,
+    glass_number,
+    l_s,
+    m,
+    mu,
+    nu,
+    omega,
+    omega0,
+    opening,
+    p_gt,
+    r,
+    rho,
+    sigma,
+    string_ratio,
+    u,
+    v0,
+    x,
+    x0,
+    x_b,
+    xi,
+)
+from ..vocabulary.quantities import contact_angle as phi
+from ..vocabulary.quantities import volume as V
+from ..vocabulary.unitnames import UnitError, dimension_of_unit
+
+__all__ = [
+    "Abs", "E", "Max", "Min", "Piecewise", "R", "Rational", "V", "a", "acos", "approach", "asin", "aspect", "atan",
+    "cos", "cosh", "distance", "e_dry", "exp", "g", "gap", "glass_number", "h", "l_s", "law", "let", "log", "m", "mu",
+    "nu", "offset_squared", "omega", "omega0", "opening", "p_gt", "phi", "pi", "quantity", "r", "rho", "sigma", "sin",
+    "sinh", "sp", "sqrt", "string_ratio", "tan", "tanh", "u", "v0", "x", "x0", "x_b", "xi",
+]  # fmt: skip
+
+_LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_NAME = re.compile(r"[a-z][a-z0-9_]*")
+_TAKEN = {"film", "groups", "laws", "result", "shear", "state", "values", *keyword.kwlist, *keyword.softkwlist}
+
+
+class ModelFileError(ValueError):
+    """What is wrong with a model file: field, value, what is accepted, and the problem in words."""
+
+    def __init__(self, name: str, value: object, accepted: str, problem: str = "is not accepted") -> None:
+        super().__init__(f"{name}: {value!r} {problem}; accepted: {accepted}")
+        self.field, self.value, self.accepted, self.problem = name, value, accepted, problem
+
+
+@dataclass(frozen=True)
+class Declared:
+    """A quantity that a model declares; `over` is the monomial that makes it a group (None: to be found)."""
+
+    symbol: sp.Symbol
+    latex: str
+    unit: str
+    dimension: Dimension
+    default: str | float | None
+    bounds: Bounds
+    meaning: str
+    over: sp.Expr | None
+    group: str
+
+    @property
+    def name(self) -> str:
+        return str(self.symbol.name)
+
+
+@dataclass(frozen=True)
+class Intermediate:
+    """A named part of an expression, as `let` makes it."""
+
+    symbol: sp.Symbol
+    expression: sp.Expr
+    latex: str
+
+
+@dataclass(frozen=True)
+class Proposed:
+    """A law as the file gives it: functions by name, in SI or dimensionless."""
+
+    slot: str
+    name: str
+    functions: tuple[tuple[str, sp.Expr], ...]
+    meaning: str
+    source: str
+    accept: tuple[str, ...]
+
+
+@dataclass
+class Declarations:
+    """Everything that a file declares, in its order."""
+
+    quantities: dict[str, Declared] = field(default_factory=dict)
+    intermediates: dict[str, Intermediate] = field(default_factory=dict)
+    laws: dict[tuple[str, str], Proposed] = field(default_factory=dict)
+
+
+_here: ContextVar[Declarations | None] = ContextVar("declarations", default=None)
+_loose = Declarations()  # a model file that is run by itself
+
+
+def _declarations() -> Declarations:
+    return _here.get() or _loose
+
+
+@contextmanager
+def collecting() -> Iterator[Declarations]:
+    """Collect what is declared inside."""
+    fresh = Declarations()
+    token = _here.set(fresh)
+    try:
+        yield fresh
+    finally:
+        _here.reset(token)
+
+
+def quantity(
+    name: str,
+    latex: str = "",
+    *,
+    unit: str = "1",
+    default: str | float | None = None,
+    bounds: str = "> 0",
+    meaning: str = "",
+    over: sp.Expr | None = None,
+    group: str = "",
+) -> sp.Symbol:
+    """Declare a quantity of the model, which scenes fill in their `[custom]` table.
+
+    Arguments:
+        name: its name in scene files and in emitted code.
+        latex: its symbol in print; by default the name, upright.
+        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number.
+        default: what a scene that says nothing means, with its unit, as "10 Pa"; None: scenes must say.
+        bounds: the numbers it may take, in `unit`: "> 0", ">= 0", "0 to 1", "> 0 and <= 5".
+        over: quantities that make it dimensionless: quantity/over is a group; found if it is not given.
+        group: name of that group; by default NAME_number.
+
+    Raises:
+        ModelFileError: names what is wrong and what is accepted.
+    """
+    there = _declarations()
+    _check_name("quantity", name, there)
+    group = group or f"{name}_number"
+    _check_name(f"{name}.group", group, there)
+    try:
+        dimension = dimension_of_unit(unit)
+    except UnitError as error:
+        raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
+    try:
+        limits = Bounds.read(bounds)
+    except BoundsError:
+        raise ModelFileError(f"{name}.bounds", bounds, '"> 0", ">= 0", "0 to 1", "> 0 and <= 5"') from None
+    if over is not None and not isinstance(over, sp.Expr):
+        raise ModelFileError(f"{name}.over", over, "an expression of the vocabulary, as mu*v0/x0")
+    sign = {"positive": True} if limits.positive else {"nonnegative": True} if limits.not_negative else {"real": True}
+    symbol = sp.Symbol(name, **sign)
+    upright = rf"\mathrm{{{name.replace('_', ' ')}}}".replace(" ", r"\ ")
+    there.quantities[name] = Declared(
+        symbol, latex or upright, unit, dimension, default, limits, meaning or name.replace("_", " "), over, group
+    )
+    return symbol
+
+
+def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
+    """Name a part of an expression: it keeps its name in emitted code and in print."""
+    there = _declarations()
+    _check_name("let", name, there)
+    symbol = sp.Symbol(name, real=True)
+    upright = rf"\mathrm{{{name}}}".replace("_", r"\_")
+    there.intermediates[name] = Intermediate(symbol, _expression(name, expression), latex or upright)
+    return symbol
+
+
+def law(
+    slot: str, name: str, *, source: str = "", meaning: str = "", accept: tuple[str, ...] = (), **functions: object
+) -> None:
+    """Declare a law.
+
+    Arguments:
+        slot: the slot that it fills.
+        name: the name that scenes choose it by.
+        source: where it is from.
+        meaning: what it is, in a line.
+        accept: names of checks that it is known to fail.
+        functions: the slot's functions as expressions: of the slot's dimension in SI, or dimensionless.
+
+    Raises:
+        ModelFileError: names what is wrong and what is accepted.
+    """
+    there, label = _declarations(), f"law {slot} {name}"
+    if slot not in LAWS:
+        raise ModelFileError("law", slot, "a slot: " + ", ".join(LAWS), "is not a slot")
+    if not isinstance(name, str) or not _LAW_NAME.fullmatch(name):
+        raise ModelFileError(f"law {slot}", name, "a name of small letters, digits and single dashes")
+    if name in LAWS[slot]:
+        raise ModelFileError(f"law {slot}", name, "a name of your own", "is a law of the library")
+    if (slot, name) in there.laws:
+        raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
+    known = functions_of(slot)
+    for given in functions:
+        if given not in known:
+            raise ModelFileError(label, given, "the functions " + ", ".join(known), "is no function of this slot")
+    for missing in (function for function, required in known.items() if required and function not in functions):
+        raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
+    made = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
+    there.laws[slot, name] = Proposed(
+        slot, name, made, meaning or f"{name}, a user's law", source or "no source given", tuple(accept)
+    )
+
+
+def functions_of(slot: str) -> dict[str, bool]:
+    """The functions that a law of a slot may have, and whether it must: what all of the library's laws need to fly."""
+    laws = LAWS[slot].values()
+    names = dict.fromkeys(function.name for law in laws for function in law.functions)
+    return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
+
+
+def _check_name(what: str, name: object, there: Declarations) -> None:
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        raise ModelFileError(what, name, "a name of small letters, digits and underscores")
+    taken = name in VOCABULARY or name in _TAKEN or name in there.quantities or name in there.intermediates
+    if taken or any(name == known.group for known in there.quantities.values()):
+        raise ModelFileError(what, name, "a name that is not taken", "is taken already")
+
+
+def _expression(label: str, value: object) -> sp.Expr:
+    """A sympy expression with every decimal exact, as it was written."""
+    try:
+        found = sp.sympify(value)
+    except (sp.SympifyError, TypeError, AttributeError):
+        raise ModelFileError(label, value, "a sympy expression") from None
+    if not isinstance(found, sp.Expr) or isinstance(value, str):
+        raise ModelFileError(label, value, "a sympy expression")
+    return found.xreplace({number: Rational(str(float(number))) for number in found.atoms(sp.Float)})
+
+
+def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str]:
+    """LaTeX of everything that a model adds to the vocabulary, by name."""
+    names = {one.name: one.latex for one in there.quantities.values()}
+    names |= {one.symbol.name: one.latex for one in there.intermediates.values()}
+    return names | dict(groups)

@@ -1,0 +1,72 @@
+"""Read a model file: run it, collect what it declares, derive its laws."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+
+from .declarations import Declarations, ModelFileError, collecting
+from .structures import UserModel, express
+
+_LARGEST = 1_000_000  # bytes
+
+
+def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
+    """The docstring's first line and the declarations of a model file; `text` stands for its content.
+
+    Raises:
+        ModelFileError: the file cannot be read or run, or declares nothing; names the line.
+    """
+    source = _text(path) if text is None else text
+    namespace = {"__name__": "wetdoublet_model", "__file__": str(path)}
+    with collecting() as found:
+        try:
+            exec(compile(source, str(path), "exec", dont_inherit=True), namespace)  # it is the user's own
+        except ModelFileError as error:
+            where = f"{path}, line {_line(error, path)}: {error.field}"
+            raise ModelFileError(where, error.value, error.accepted, error.problem) from None
+        except SyntaxError as error:
+            problem = f"is not Python ({error.msg})"
+            raise ModelFileError(
+                f"{path}, line {error.lineno}", (error.text or "").strip(), "a model file", problem
+            ) from None
+        except Exception as error:  # noqa: BLE001 # whatever a user's file does
+            where = f"{path}, line {_line(error, path)}"
+            said = " ".join(f"{type(error).__name__}: {error}".split())
+            raise ModelFileError(where, None, "a model file (see `wetdoublet generate --template`)", said) from None
+    if not found.laws:
+        raise ModelFileError(str(path), None, "law(SLOT, NAME, ...), at least once", "declares no law")
+    doc = namespace.get("__doc__") or ""
+    return doc.strip().partition("\n")[0].rstrip("."), found
+
+
+def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
+    """The model of a file, derived; `name` by default the file's.
+
+    Raises:
+        ModelFileError: as `declared`. DimensionError, ScalingError: as `express`.
+    """
+    meaning, found = declared(path, text)
+    return express(name or path.stem.replace("_", "-"), meaning or "a user's model", found)
+
+
+def _text(path: Path) -> str:
+    accepted = "a model file (see `wetdoublet generate --template`)"
+    try:
+        if not path.is_file() and not path.is_dir():  # a pipe or a device may have no end, or no beginning
+            raise ModelFileError(str(path), None, accepted, "is not a file" if path.exists() else "is not there")
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+        if len(content) > _LARGEST:
+            raise ModelFileError(str(path), None, accepted, "is larger than any model")
+        return content.decode("utf-8")
+    except OSError as error:
+        raise ModelFileError(str(path), None, accepted, f"cannot be read ({error.strerror or error})") from None
+    except UnicodeDecodeError:
+        raise ModelFileError(str(path), None, accepted, "is not UTF-8 text") from None
+
+
+def _line(error: BaseException, path: Path) -> int:
+    """The last line of the file itself that the error went through."""
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    return (lines or [0])[-1] or 0

@@ -1,0 +1,292 @@
+"""From declarations to laws: SI expressions brought to the slots' arguments, new groups found, structures extended."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..equations.model import GROUPS, Model
+from ..physics.laws.base import Definition, Law, LawFunction, is_slot_call
+from ..physics.scaling import ScalingError, dimension_matrix, group_definitions, to_groups
+from ..physics.slots import MOTION, Place, places
+from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
+from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, opening, u, v0, x, x0
+from .declarations import Declarations, Declared, Proposed
+
+_ALWAYS = (a, x0, mu, v0, m)  # what every scene has, in the order in which a scale is looked for
+_MOVED = ("separation", "separation_rate", "rotation_rate", "spin_rate")
+_MOVING = ("separation", "separation_rate", "rotation_rate", "spin_rate", "rotation", "time", "initial_rate")
+
+
+@dataclass(frozen=True)
+class Group:
+    """A dimensionless group of the model's own: `quantity` over `over` (1: the quantity is a plain number)."""
+
+    symbol: sp.Symbol
+    quantity: Declared
+    over: sp.Expr
+
+    @property
+    def definition(self) -> sp.Expr:
+        return self.quantity.symbol / self.over
+
+
+class InSI(LawFunction):
+    """A law's function for print: in its slot's arguments, and in SI quantities that no argument gives."""
+
+    def __post_init__(self) -> None:
+        """Demand nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class UserModel:
+    """A model file, derived: laws in the library's form, groups, and what each slot's functions take beside their own.
+
+    `si` holds the laws with everything but the slot's arguments in SI, for print.
+    """
+
+    name: str
+    meaning: str
+    declarations: Declarations
+    laws: tuple[Law, ...]
+    si: tuple[Law, ...]
+    groups: tuple[Group, ...]
+    extra: Mapping[str, tuple[sp.Symbol, ...]]
+
+    @property
+    def slots(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(law.slot for law in self.laws))
+
+    def default(self, slot: str) -> Law:
+        """The law that fills a slot unless a scene names another: the first that is declared."""
+        return next(law for law in self.laws if law.slot == slot)
+
+    @property
+    def accepted(self) -> set[str]:
+        return {check for law in self.declarations.laws.values() for check in law.accept}
+
+    def extended(self, model: Model) -> Model:
+        """A structure's model with the new arguments in its calls, and the groups that they bring."""
+
+        def call(expression: sp.Expr) -> sp.Expr:
+            nodes = {
+                node: node.func(*node.args, *self.extra[node.func.__name__])
+                for node in sp.sympify(expression).atoms(AppliedUndef)
+                if is_slot_call(node) and self.extra.get(node.func.__name__)
+            }
+            return sp.sympify(expression).xreplace(nodes)
+
+        functions = tuple(
+            replace(f, outputs=tuple((key, _stopped(f.name, key, call(value))) for key, value in f.outputs))
+            for f in model.functions
+        )
+        definitions = tuple((symbol, call(value)) for symbol, value in model.definitions)
+        reached = {s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra}
+        known = {*model.groups, *reached}
+        groups = [group for group in GROUPS if group in known]
+        groups += [group.symbol for group in self.groups if group.symbol in reached]
+        return replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
+
+
+def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
+    """At rest in the gap nothing opens."""
+    return expression.subs(opening, 0) if (function, key) == ("effective_potential", "slope") else expression
+
+
+def express(name: str, meaning: str, declared: Declarations) -> UserModel:
+    """The model of declarations.
+
+    Raises:
+        DimensionError, ScalingError: name law and function, and the term or quantity that is at fault.
+    """
+    all_places = places()
+    groups = _groups(declared, all_places)
+    laws, printed, extra = [], [], _Extra(groups)
+    for proposed in declared.laws.values():
+        functions = [
+            _function(all_places[f"{proposed.slot}.{name}"], expression, proposed, declared, groups)
+            for name, expression in proposed.functions
+        ]
+        laws.append(Law(proposed.slot, proposed.name, proposed.meaning, proposed.source, tuple(functions)))
+        extra.add(laws[-1], all_places)
+    laws = [extra.widened(law) for law in laws]
+    printed = [_in_si(law, groups, all_places) for law in laws]
+    used = {symbol for symbols in extra.found.values() for symbol in symbols}
+    kept = tuple(group for group in groups.values() if group.symbol in used)
+    unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
+    if unused:
+        raise ScalingError(f"{', '.join(unused)}: declared, but no law depends on it")
+    return UserModel(name, meaning, declared, tuple(laws), tuple(printed), kept, extra.found)
+
+
+class _Extra:
+    """The arguments that a slot's functions take beside their own, over all its laws."""
+
+    def __init__(self, groups: Mapping[str, Group]) -> None:
+        self.order = (opening, *GROUPS, *(group.symbol for group in groups.values()))
+        self.found: dict[str, tuple[sp.Symbol, ...]] = {}
+
+    def add(self, law: Law, all_places: Mapping[str, Place]) -> None:
+        for function in law.functions:
+            key = f"{law.slot}.{function.name}"
+            own = set(all_places[key].arguments)
+            more = {*self.found.get(key, ()), *(s for s in function.arguments if s not in own)}
+            if more:
+                self.found[key] = tuple(s for s in self.order if s in more)
+
+    def widened(self, law: Law) -> Law:
+        functions = []
+        for f in law.functions:
+            more = self.found.get(f"{law.slot}.{f.name}", ())
+            own = tuple(s for s in f.arguments if s not in more)
+            functions.append(replace(f, arguments=(*own, *more)))
+        return replace(law, functions=tuple(functions))
+
+
+def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str, Group]:
+    """A group for each quantity, by the quantity's name."""
+    found = {}
+    for one in declared.quantities.values():
+        if one.dimension == ONE:
+            found[one.name] = Group(one.symbol, one, sp.Integer(1))
+            continue
+        over = one.over if one.over is not None else _scale(one, declared, all_places)
+        dimension = dimension_of(over, DIMENSIONS)
+        if dimension != one.dimension:
+            raise DimensionError(f"{one.name}.over: {over} has dimension {dimension}, {one.name} has {one.dimension}")
+        found[one.name] = Group(sp.Symbol(one.group, **_sign(one)), one, over)
+    return found
+
+
+def _sign(one: Declared) -> dict[str, bool]:
+    assumed = one.symbol.assumptions0
+    return {key: True for key in ("positive", "nonnegative", "real") if assumed.get(key)}
+
+
+def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place]) -> sp.Expr:
+    """A monomial of a scene's quantities with the dimension of `one`: those of the scale it stands beside first."""
+    near: list[sp.Symbol] = []
+    for proposed in declared.laws.values():
+        for name, expression in proposed.functions:
+            full = _unfolded(expression, declared)
+            if one.symbol in full.free_symbols:
+                near += _by_vocabulary(all_places[f"{proposed.slot}.{name}"].scale.free_symbols)
+                near += _by_vocabulary(full.free_symbols)
+    candidates = [s for s in dict.fromkeys([*near, *_ALWAYS]) if s.name not in _MOVING and any(DIMENSIONS[s].exponents)]
+    target = sp.Matrix([sp.Rational(power) for power in one.dimension.exponents])
+    for count in (1, 2, 3):
+        for chosen in combinations(candidates, count):
+            matrix = dimension_matrix(chosen)
+            if matrix.rank() < count or matrix.row_join(target).rank() > count:
+                continue  # not independent, or not enough
+            powers = (matrix.T * matrix).inv() * matrix.T * target
+            return sp.prod([s**power for s, power in zip(chosen, powers, strict=True)])
+    raise ScalingError(f"{one.name}: no monomial of {', '.join(s.name for s in candidates)} has its dimension")
+
+
+def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
+    here = {s.name for s in symbols}
+    return [VOCABULARY[name].symbol for name in VOCABULARY if name in here]
+
+
+def _unfolded(expression: sp.Expr, declared: Declarations) -> sp.Expr:
+    """With every `let` put back in."""
+    for part in reversed(declared.intermediates.values()):
+        expression = expression.xreplace({part.symbol: part.expression})
+    return expression
+
+
+def _function(
+    place: Place, expression: sp.Expr, proposed: Proposed, declared: Declarations, groups: Mapping[str, Group]
+) -> LawFunction:
+    """A function in the slot's arguments, states and groups; parts keep their names where they are dimensionless."""
+    label = f"law {proposed.slot} {proposed.name}, {place.function}"
+    of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **dict.fromkeys(place.arguments, ONE)}
+    of |= {one.symbol: one.dimension for one in declared.quantities.values()}
+    parts: list[Definition] = []
+    inline: dict[sp.Basic, sp.Basic] = {}
+    try:
+        for part in declared.intermediates.values():
+            dimension = dimension_of(part.expression, of) or ONE
+            of[part.symbol] = dimension
+            if part.symbol not in _reached(expression, declared):
+                continue
+            value = part.expression.xreplace(inline)
+            if dimension == ONE:
+                parts.append((part.symbol, _settled(label, place, value, groups)))
+            else:
+                inline[part.symbol] = value
+        found = dimension_of(expression, of)
+    except DimensionError as error:
+        raise DimensionError(f"{label}: {error}") from None
+    value = expression.xreplace(inline)
+    if found not in (None, ONE):
+        if found != place.dimension:
+            wanted = "" if place.dimension == ONE else f"{place.dimension} or "
+            raise DimensionError(f"{label}: {expression} has dimension {found}, expected {wanted}a pure number")
+        value = sp.Add(*(term / place.scale for term in sp.Add.make_args(value)))
+    result = _settled(label, place, value, groups)
+    named = {symbol for symbol, _ in parts}
+    used = set().union(*(e.free_symbols for e in (result, *(value for _, value in parts)))) - named
+    allowed = {*place.arguments, *MOTION.get(place.slot, ()), *GROUPS, *(g.symbol for g in groups.values())}
+    if wrong := sorted(s.name for s in used - allowed):
+        own = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
+        raise ScalingError(f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {own} and groups")
+    extra = [s for s in (opening, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
+    arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
+    return LawFunction(place.function, arguments, result, place.doc, tuple(parts))
+
+
+def _reached(expression: sp.Expr, declared: Declarations) -> set[sp.Basic]:
+    reached = set(expression.free_symbols)
+    for part in reversed(declared.intermediates.values()):
+        if part.symbol in reached:
+            reached |= part.expression.free_symbols
+    return reached
+
+
+def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str, Group]) -> sp.Expr:
+    """A dimensionless SI expression in the slot's arguments, states and groups."""
+    own = {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
+    if not _dimensional(expression) and not expression.free_symbols & set(own):
+        return expression  # as it was written
+    for argument, at in zip(place.arguments, place.at, strict=False):
+        for moving in (x, u):
+            if moving in at.free_symbols and moving in expression.free_symbols:
+                expression = expression.subs(moving, sp.solve(sp.Eq(at, argument), moving)[0])
+    expression = expression.subs(u, v0 * opening).subs(own, simultaneous=True)
+    kept = {s: s for s in place.arguments}
+    rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
+    for _ in range(3):
+        expression = expression.subs(rules, simultaneous=True)
+    terms = sp.Add.make_args(expression)  # which stay as they were written, where nothing is left to cancel
+    by_term = sp.Add(*(sp.simplify(term) if _dimensional(term) else term for term in terms))
+    result = by_term if not _dimensional(by_term) else sp.simplify(expression)
+    if left := _dimensional(result):
+        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
+    return result
+
+
+def _dimensional(expression: sp.Expr) -> list[str]:
+    return sorted(s.name for s in expression.free_symbols if s in DIMENSIONS and any(DIMENSIONS[s].exponents))
+
+
+def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place]) -> Law:
+    """The law with its groups as quantities, in the slot's own arguments alone."""
+    back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups.values()}
+    back |= dict(group_definitions())
+    functions = []
+    for f in law.functions:
+        own = all_places[f"{law.slot}.{f.name}"].arguments
+        rules = {s: value for s, value in {**back, opening: u / v0}.items() if s not in own}
+
+        def put(expression: sp.Expr, rules: Mapping[sp.Basic, sp.Basic] = rules) -> sp.Expr:
+            return expression.subs(rules, simultaneous=True)
+
+        parts = tuple((symbol, put(value)) for symbol, value in f.definitions)
+        functions.append(InSI(f.name, own, put(f.result), f.doc, parts))
+    return replace(law, functions=tuple(functions))

@@ -1,0 +1,1 @@
+"""What may be spoken of: quantities, their dimensions and units, the values they may have."""

@@ -1,0 +1,1 @@
+"""Where the outcome changes: lines, curves and atlases."""

@@ -1,0 +1,258 @@
+"""What happens along the curves of a plane, and the names of the points at which that changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from ..errors import ComputationError
+from ..model.dimensionless import numbers
+from ..model.model import choose, load
+from .arcs import Arc
+from .changes import FREE, GRAZE, REVERSED
+from .continuation import crossings
+from .line import WITHOUT_SOLIDS, Probe
+from .plane import ANGLE, Plane
+from .saddle import barrier_of
+from .survey import Meeting
+
+TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
+CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"
+CRITICAL = "St* meets Ce*"
+BESIDE = 1e-8  # of the window: distance from a curve at which collisions say what happens there
+_AT = 1e-9  # of the window: two places that are one
+_PARTS, _NARROWED = 16, 6  # places between two where a change along a curve is looked for, and how often
+_LOOKS = 9  # places along a curve at which its barrier is looked at
+_STRAIGHT = 0.02  # rad: a curve that turns by less where its following was interrupted goes on
+_NONE = -9  # nothing is known
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a curve along which the same thing happens.
+
+    Arguments:
+        arc: with x ascending.
+        kind: as of a `Change`.
+        criterion: the rebound criterion that is met beyond it, -1 for none.
+    """
+
+    arc: Arc
+    kind: str
+    criterion: int
+
+
+def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tuple[str, np.ndarray]]]:
+    """The curves cut where what happens changes, and these places by their names."""
+    found: list[Stretch] = []
+    points: list[tuple[str, np.ndarray]] = []
+    for arc in arcs:
+        codes = _filled(_codes(plane, arc, arc.points[1:-1])) if len(arc.points) > 2 else np.zeros(0, dtype=int)
+        if not codes.size:
+            codes = _filled(_codes(plane, arc, arc.points.mean(axis=0)[None]))
+        codes = np.concatenate([codes[:1], codes, codes[-1:]])[: len(arc.points)]
+        for part, code in _cut(plane, arc, codes, points):
+            found += _at_barriers(plane, Stretch(part, *_decoded(code)), points)
+    return found, points
+
+
+def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
+    """What happens at places on a curve, as numbers: the kind of change, and the criterion."""
+    if 2 not in (arc.right, arc.left):
+        return np.zeros(len(at), dtype=int)
+    aside = BESIDE * _normals(arc, at) * (1 if arc.left == 2 else -1)
+    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0)
+    criterion = np.where(labels == 2, reversal, -2)
+    codes: np.ndarray = 1 + np.maximum(criterion, 0)
+    known = criterion >= 0
+    if 0 in (arc.right, arc.left):
+        before = plane.first_criterion(np.clip(at - aside, 0, 1))
+        codes += 3 * (before >= 0)
+        known &= before > -2
+    return np.where(known, codes, _NONE)
+
+
+def _decoded(code: int) -> tuple[str, int]:
+    if code <= 0:
+        return FREE, -1
+    return (REVERSED if code > 3 else GRAZE), (code - 1) % 3
+
+
+def _normals(arc: Arc, at: np.ndarray) -> np.ndarray:
+    """Unit normals, towards the left of the curve, at places on it."""
+    way = np.diff(arc.points, axis=0)
+    k = np.clip(np.searchsorted(arc.points[:, 0], at[:, 0]) - 1, 0, len(way) - 1)
+    normal = np.column_stack([-way[k, 1], way[k, 0]])
+    unit: np.ndarray = normal / np.linalg.norm(normal, axis=1)[:, None]
+    return unit
+
+
+def _filled(codes: np.ndarray) -> np.ndarray:
+    """Codes that are not known as those of the nearest that are."""
+    known = np.flatnonzero(codes != _NONE)
+    if not known.size:
+        return np.zeros_like(codes)
+    nearest = np.abs(np.arange(codes.size)[:, None] - known).argmin(axis=1)
+    filled: np.ndarray = codes[known[nearest]]
+    return filled
+
+
+def _cut(
+    plane: Plane,
+    arc: Arc,
+    codes: np.ndarray,
+    points: list[tuple[str, np.ndarray]],
+) -> list[tuple[Arc, int]]:
+    """A curve in parts of one code each; where they meet is located and named."""
+    parts, first, begin = [], 0, arc.points[0]
+    for k in np.flatnonzero(np.diff(codes)).tolist():
+        place = _located(plane, arc, k, int(codes[k]))
+        points.append((KIND if (codes[k] > 3) != (codes[k + 1] > 3) else CRITERION, place))
+        parts.append((Arc(np.vstack([begin, arc.points[first + 1 : k + 1], place]), arc.right, arc.left), codes[k]))
+        first, begin = k, place
+    parts.append((Arc(np.vstack([begin, arc.points[first + 1 :]]), arc.right, arc.left), codes[-1]))
+    return [(part, int(code)) for part, code in parts]
+
+
+def _located(plane: Plane, arc: Arc, k: int, before: int) -> np.ndarray:
+    """Where the code ceases to be `before`, between two points of a curve."""
+    one, other = arc.points[k], arc.points[k + 1]
+    for _ in range(_NARROWED):
+        places = _between(plane, arc, one, other, _PARTS)
+        if not len(places):
+            break
+        codes = _codes(plane, arc, places)
+        places, codes = places[codes != _NONE], codes[codes != _NONE]
+        differs = np.flatnonzero(codes != before)
+        j = int(differs[0]) if differs.size else len(places)
+        one, other = places[j - 1] if j else one, places[j] if j < len(places) else other
+        if np.linalg.norm(other - one) < _AT:
+            break
+    middle = _between(plane, arc, one, other, 1)
+    place: np.ndarray = middle[0] if len(middle) else 0.5 * (one + other)
+    return place
+
+
+def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
+    """Places on a curve between two of its points."""
+    way = other - one
+    length = float(np.linalg.norm(way))
+    if length < 1e-15:
+        return np.zeros((0, 2))
+    centres = one + np.arange(1, count + 1)[:, None] / (count + 1) * way
+    normal = np.array([-way[1], way[0]]) / length
+    found = crossings(
+        plane.labels, centres, np.tile(normal, (count, 1)), np.full(count, max(0.2 * length, 1e-9)),
+        np.full(count, arc.right), np.full(count, arc.left),
+    )  # fmt: skip
+    located: np.ndarray = found[~np.isnan(found[:, 0])]
+    return located
+
+
+def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:
+    """An escape cut where the barrier that is passed comes to lie at the rupture gap."""
+    arc = stretch.arc
+    if stretch.kind == GRAZE or plane.scene.bridge is None:
+        return [stretch]
+    inner = np.unique(np.linspace(0, len(arc.points) - 1, _LOOKS).round().astype(int))[1:-1]
+    seen = [(int(k), _passes_saddle(plane, arc.points[k], stretch.kind == REVERSED)) for k in inner]
+    known = [(k, saddle) for k, saddle in seen if saddle is not None]
+    for (k, before), (last, after) in pairwise(known):
+        if before != after:
+            one, other = arc.points[k], arc.points[last]
+            while np.linalg.norm(other - one) > _AT:
+                x = 0.5 * (one[0] + other[0])
+                guess = np.array([[x, np.interp(x, arc.points[:, 0], arc.points[:, 1])]])
+                reach = np.array([max(1e-3 * abs(other[0] - one[0]), 1e-4)])
+                middle = crossings(plane.labels, guess, np.array([[0.0, 1.0]]), reach, np.array([arc.right]),
+                                   np.array([arc.left]))[0]  # fmt: skip
+                saddle = None if np.isnan(middle).any() else _passes_saddle(plane, middle, stretch.kind == REVERSED)
+                if saddle is None:
+                    return [stretch]
+                one, other = (middle, other) if saddle == before else (one, middle)
+            place = 0.5 * (one + other)
+            points.append((RIM, place))
+            j = int(np.searchsorted(arc.points[:, 0], place[0]))
+            below = Arc(np.vstack([arc.points[:j], place]), arc.right, arc.left)
+            above = Arc(np.vstack([place, arc.points[j:]]), arc.right, arc.left)
+            return [replace(stretch, arc=below), *_at_barriers(plane, replace(stretch, arc=above), points)]
+    return [stretch]
+
+
+def _passes_saddle(plane: Plane, place: np.ndarray, reversed_: bool) -> bool | None:
+    """Whether an escape passes a barrier inside the rupture gap; None where that is not known."""
+    scene, angle = plane.scene_at(float(plane.x(place)))
+    n = numbers(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
+    groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
+    try:
+        probe = Probe(load(choose(scene, n.oblique)), groups, plane.rtol)
+        probe.run()
+        barrier = barrier_of(probe)
+    except ComputationError:
+        return None
+    return None if barrier is None else bool(barrier.gap < groups["rupture_gap"] * (1 - 1e-12))
+
+
+def named(
+    plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]
+) -> tuple[list[Stretch], list[tuple[str, np.ndarray]]]:
+    """The meeting points by their names; curves that only seemed to end go on."""
+    points = []
+    for one in meetings:
+        outcomes = {label for branch in one.leaving for label in (branch.right, branch.left)}
+        if len(one.leaving) == 2:
+            parts, name = _joined(parts, one)
+            points += [(name, one.place)] if name else []
+            continue
+        points.append((TRIPLE if len(outcomes) > 2 and len(one.leaving) == 3 else CROSSING, one.place))
+        if points[-1][0] == TRIPLE and plane.over == ANGLE and _reaches_head_on(parts, one.place):
+            points.append((CRITICAL, one.place))
+    return parts, points
+
+
+def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
+    """What changes where two curves meet; they are one if nothing does."""
+    ending = [one for one in parts if _touches(one.arc, point.place)]
+    if len(ending) != 2:
+        return parts, CORNER
+    one, other = ending
+    if one.kind != other.kind:
+        return parts, KIND
+    if one.criterion != other.criterion:
+        return parts, CRITERION
+    if abs(math.pi - _between_branches(point)) > _STRAIGHT:
+        return parts, CORNER
+    first, last = sorted(ending, key=lambda part: part.arc.points[0, 0])
+    if not np.allclose(first.arc.points[-1], last.arc.points[0], rtol=0, atol=_AT):
+        return parts, FOLD
+    whole = Arc(np.vstack([first.arc.points, last.arc.points[1:]]), first.arc.right, first.arc.left)
+    return [part for part in parts if part is not one and part is not other] + [replace(first, arc=whole)], ""
+
+
+def _between_branches(point: Meeting) -> float:
+    apart = abs(point.leaving[0].direction - point.leaving[1].direction) % math.tau
+    return min(apart, math.tau - apart)
+
+
+def _touches(arc: Arc, place: np.ndarray) -> bool:
+    return bool(min(np.linalg.norm(arc.points[[0, -1]] - place, axis=1)) < _AT)
+
+
+def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:
+    """Whether the boundary of sticking below bouncing goes from a point down to the lowest angle.
+
+    There it is the critical Stokes number of head-on collisions.
+    """
+    for _ in range(len(parts)):
+        before = [one.arc for one in parts if np.linalg.norm(one.arc.points[-1] - place) < _AT]
+        before = [arc for arc in before if (arc.right, arc.left) == (0, 2)]
+        if len(before) != 1:
+            return False
+        place = before[0].points[0]
+        if place[0] <= 0:
+            return True
+    return False

@@ -1,0 +1,227 @@
+"""What boundaries ask of collisions, by the kernel: outcomes and margins of many, the approach and the escape of one.
+
+`approach` and `escaping` return None where the kernel hands a collision over; all do where there is no kernel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..collision.by_kernel import FELL_BACK, TURNED
+from ..engines.taylor.call import Impacts
+from ..engines.taylor.endless import CHATTER, limits
+from ..engines.taylor.record import Purpose, Recorded, Steps, recorded
+from ..model.dimensionless import Numbers
+from ..model.model import choose
+from ..scene.scene import Scene
+from .samples import BOUNCE, OUTCOMES, ROTATE, STICK
+
+NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/queue.h)
+_APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
+LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
+_PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
+_FINER = 12  # parts of the surroundings of a maximum, again and again
+_ZOOMS = 4
+_EARLIER = 5  # of the steps that chatter has spent, one in so many leads to the state that its last is held against
+
+
+LOOK = np.dtype(
+    [
+        ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 handed over
+        ("creeps", "?"),  # handed over because its steps were spent on few events
+        ("chatters", "?"),  # ... or on many
+        ("reversal", "i1"),  # the first criterion met, in the order glass, elastic, rough; -1 for none
+        ("at_touch", "?"),  # decided at initial contact
+        ("events", "i4"),  # how many
+        ("restitution", "f8"),
+        ("time", "f8"),  # of the end, x0/v0
+        ("smallest_gap", "f8"),  # x0
+        ("final_gap", "f8"),  # x0
+        ("glass", "f8"),  # largest margin of the glass criterion while closing; -inf where none is known
+    ]
+)
+"""What is kept of a collision that is looked at."""
+
+
+@dataclass(frozen=True)
+class Escaping:
+    """A flight to where it separates, falls back or rests.
+
+    Attributes:
+        decided: the flight has come to its end; else it has spent its steps.
+        end: the last state.
+        times, states: of the flight, states as columns; phases that end at rest in the gap only by their ends.
+    """
+
+    decided: bool
+    separated: bool
+    fell_back: bool
+    end: np.ndarray
+    times: np.ndarray
+    states: np.ndarray
+
+
+def looked(
+    scene: Scene,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    rtol: float,
+    purpose: Purpose = Purpose.WHOLE,
+    solids: Mapping[str, np.ndarray] | None = None,
+    budget: int = LOOK_BUDGET,
+) -> np.ndarray | None:
+    """An array of LOOK: collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
+
+    Arguments:
+        solids: quantities in SI that say what the solids do, instead of the scene's.
+    """
+    found = np.zeros(speed.size, LOOK)
+    for oblique in (True, False):
+        which = np.flatnonzero((angle > 0) == oblique)
+        if not which.size:
+            continue
+        others = {name: values[which] for name, values in (solids or {}).items()}
+        impacts = Impacts(scene, speed[which], angle[which], others)
+        told = recorded(
+            impacts, oblique, rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
+            peaks=True, events=False,
+        )  # fmt: skip
+        if told is None or told.peaks is None:
+            return None
+        answers = told.answers
+        part = np.zeros(which.size, LOOK)
+        part["outcome"] = np.where(answers["status"] <= 1, answers["outcome"], -1)
+        part["creeps"], part["chatters"] = (answers["status"] == status for status in (NO_BUDGET, CHATTER))
+        part["at_touch"] = answers["time"] == 0
+        part["restitution"] = answers["shown"][:, 0]
+        part["glass"] = told.peaks
+        for name in ("reversal", "events", "time", "smallest_gap", "final_gap"):
+            part[name] = answers[name]
+        if purpose == Purpose.WHOLE and not others:
+            _take_limits(part, impacts, answers, oblique, rtol, budget)
+        found[which] = part
+    return found
+
+
+def _take_limits(
+    part: np.ndarray, impacts: Impacts, answers: np.ndarray, oblique: bool, rtol: float, budget: int
+) -> None:
+    """Outcomes of doublets that have circled in and out of their film until their steps were spent, in the limit."""
+    endless = np.flatnonzero(part["chatters"])
+    if not endless.size:
+        return
+    those = impacts.part(endless)
+    before = recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
+    assert before is not None  # the kernel is there
+    choice = choose(impacts.scene, oblique, fold=False)
+    held = limits(before.answers, answers[endless], impacts.scene, those.speed, those.angle, choice, rtol)
+    for k, stays in zip(endless.tolist(), held, strict=True):
+        if stays is not None:
+            reached = BOUNCE if part["reversal"][k] >= 0 else ROTATE
+            part["outcome"][k] = OUTCOMES.index(STICK if stays else reached)
+            part["restitution"][k] = part["time"][k] = np.nan
+
+
+def approach(
+    scene: Scene,
+    n: Numbers,
+    rtol: float,
+    solids: dict[str, float],
+    states: int,
+    pressure: Callable[[np.ndarray], np.ndarray],
+    creeping: float,
+) -> tuple[float, float] | None:
+    """Largest pressure and smallest gap (x0) of an approach.
+
+    Arguments:
+        solids: quantities in SI that say what the solids do, instead of the scene's.
+        states: how many of the series are the model's own.
+        pressure: of states, as columns.
+        creeping: an approach that has spent its steps has been stopped if it is slower than this (v0).
+    """
+    told = _flown(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
+    if told is None or told.steps is None or not told.steps.rows.size:
+        return None
+    rows = told.steps.rows[told.steps.rows["closing"] != 0]
+    if not rows.size:
+        return None
+    steps = Steps(rows, told.steps.turned)
+    end = float(rows["time"][-1] + rows["length"][-1])
+    last = steps.states(np.array([end]))[:, 0]
+    if told.answers["status"][0] > 1 and not abs(last[1]) < creeping:
+        return None
+
+    def at(times: np.ndarray) -> np.ndarray:
+        return pressure(steps.states(times)[:states])
+
+    times, y = steps.within(_PARTS[:-1])  # no time twice: a maximum lies between its neighbours
+    times, values = np.append(times, end), pressure(np.column_stack([y, last])[:states])
+    for _ in range(_ZOOMS):
+        top = int(np.argmax(values))
+        times = np.linspace(times[max(top - 1, 0)], times[min(top + 1, times.size - 1)], _FINER + 1)
+        values = at(times)
+    return _summit(times, values), float(last[0])
+
+
+def escaping(
+    scene: Scene, n: Numbers, rtol: float, solids: dict[str, float], start: np.ndarray, budget: int
+) -> Escaping | None:
+    """A flight that goes on until it separates, falls back or rests; proved a stick only while it approaches.
+
+    Arguments:
+        start: the model's states at first touch.
+        budget: steps.
+    """
+    told = _flown(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
+    if told is None or told.steps is None or told.answers["status"][0] > NO_BUDGET:
+        return None
+    decided = bool(told.answers["status"][0] < NO_BUDGET)
+    answer, rows, size = told.answers[0], told.steps.rows, start.size
+    happened = told.events[0, : answer["events"]]
+    separated = bool(answer["outcome"])
+    fell_back = not separated and happened.size > 0 and int(happened["kind"][-1]) == FELL_BACK
+    if not rows.size:
+        end = start.copy()
+        end[1] = answer["shown"][0] if separated else end[1]
+        return Escaping(decided, separated, fell_back, end, np.zeros(1), start[:, None])
+    ends = rows["time"] + rows["length"]
+    # phases that end at rest in the gap, by the times at which they do
+    turns = happened["time"][np.isin(happened["kind"], (TURNED, FELL_BACK))]
+    lasts = np.append(np.flatnonzero(np.diff(rows["phase"])), rows.size - 1)
+    resting_end = dict(zip(rows["phase"][lasts].tolist(), np.isin(ends[lasts], turns).tolist(), strict=True))
+    looked_at = np.array([not resting_end[phase] for phase in rows["phase"].tolist()])
+    times, states = Steps(rows[looked_at], None).within(_PARTS)
+    more, turned = Steps(rows[lasts], None).within(np.ones(1))
+    end = turned[:size, -1]
+    if separated:
+        end[1] = answer["shown"][0]
+    times = np.concatenate([np.zeros(1), times, more])
+    states = np.hstack([start[:, None], states[:size], turned[:size]])
+    return Escaping(decided, separated, fell_back, end, times, states)
+
+
+def _summit(at: np.ndarray, values: np.ndarray) -> float:
+    """The largest of values on an even grid, by the parabola through it and its neighbours."""
+    top = int(np.argmax(values))
+    if top in (0, at.size - 1):
+        return float(values[top])
+    before, here, after = (float(value) for value in values[top - 1 : top + 2])
+    bend = before - 2 * here + after
+    return here - (after - before) ** 2 / (8 * bend) if bend < 0 else here
+
+
+def _flown(
+    scene: Scene,
+    speeds: np.ndarray,
+    angle: float,
+    rtol: float,
+    solids: dict[str, float],
+    purpose: Purpose,
+    budget: int,
+) -> Recorded | None:
+    others = {name: np.full(speeds.size, value) for name, value in solids.items()}
+    impacts = Impacts(scene, speeds, np.full(speeds.size, angle), others)
+    return recorded(impacts, angle > 0, rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)

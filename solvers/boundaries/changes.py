@@ -1,0 +1,295 @@
+"""Changes of outcome along a line of constant angle: enclosed by samples, located, and accepted if collisions agree."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from ..errors import ComputationError
+from .line import Line
+from .look import Look
+from .roots import Function, root, sample
+from .samples import BOUNCE, OUTCOMES, ROTATE, STICK, known
+
+# What happens at a change: a criterion is just met; a doublet begins to escape, not reversed or reversed; other.
+GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
+MERGED = 1e-8  # relative: changes closer than this are one
+_BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
+_ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
+_LOCATED = 1e-8  # and at which they must with one that a smooth function has located, or outcomes enclose it anew
+_NARROW = 2e-9  # width in ln St to which outcomes enclose a change
+_ROUNDS = 16  # of dividing brackets; four do where every collision is decided
+_PARTS = 16  # into which a bracket is divided, again and again
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of outcome at a Stokes number, going up. Ce is None without a bridge.
+
+    Attributes:
+        kind: "graze" (a rebound criterion is just met), "escape" or "escape reversed" (a doublet begins to separate,
+            without and with a rebound), "plain" (located by outcomes alone).
+        merged: it stands for several changes closer than 1e-8.
+    """
+
+    stokes: float
+    centrifugal: float | None
+    before: str
+    after: str
+    kind: str
+    merged: bool = False
+
+    def to_dict(self) -> dict[str, float | str | None]:
+        """As in the JSON object of `wetdoublet boundary`."""
+        return {"stokes": self.stokes, "centrifugal": self.centrifugal, "from": self.before, "to": self.after}
+
+
+@dataclass(frozen=True)
+class _Bracket:
+    """Two Stokes numbers with different outcomes, and the rebound criterion first met at each (-1 for none)."""
+
+    low: float
+    high: float
+    before: str
+    after: str
+    met: tuple[int, int]
+
+    @property
+    def width(self) -> float:
+        return math.log(self.high / self.low)
+
+
+def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]:
+    """All changes between neighbouring samples of a line, each confirmed by collisions on either side.
+
+    The kernel encloses them by outcomes; what it hands over, and all without a kernel, by functions that are smooth
+    through a change, or by Rosenbrock's outcomes.
+
+    Raises:
+        ComputationError: a change that could not be located, or that collisions beside it deny.
+    """
+    samples = known(samples)
+    brackets = [_bracket(low, high) for low, high in pairwise(samples) if low["outcome"] != high["outcome"]]
+    found = _enclosed(line, look, brackets, True) if look.kernel else [[] for _ in brackets]
+    missing = [k for k, own in enumerate(found) if not own]
+    first = [_located(line, brackets[k]) for k in missing]
+    agrees = _confirmed(line, look, first, _LOCATED)
+    for k, own, good in zip(missing, first, agrees, strict=True):
+        found[k] = own if good else _enclosed(line, look, [brackets[k]], False)[0]
+    agrees = _confirmed(line, look, found, _ACCEPTED)
+    if not all(agrees):
+        at = next(one[0].stokes for one, good in zip(found, agrees, strict=True) if not good)
+        raise ComputationError(
+            f"collisions beside St {at:.10g} do not agree with a change of outcome there", advice="try a smaller --rtol"
+        )
+    changes = [one for own in found for one in own]
+    _demand_agreement(changes, samples)
+    return _merged(changes)
+
+
+def _bracket(low: np.void, high: np.void) -> _Bracket:
+    outcomes = OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]]
+    return _Bracket(
+        float(low["stokes"]), float(high["stokes"]), *outcomes, (int(low["reversal"]), int(high["reversal"]))
+    )
+
+
+def _located(line: Line, bracket: _Bracket) -> list[Change]:
+    """Changes within a bracket by the functions that are smooth through them; none where they do not show."""
+    try:
+        found = _smooth(line, bracket.low, bracket.high, bracket.before, bracket.after)
+    except ComputationError:
+        found = None
+    return [] if found is None else [_change(line, *one) for one in found]
+
+
+Found = tuple[float, str, str, str]  # Stokes number, outcomes below and above, kind
+
+
+def _smooth(line: Line, low: float, high: float, before: str, after: str) -> list[Found] | None:
+    if BOUNCE not in (before, after):
+        free = _signed_root(_escaping(line, False), low, high, after == ROTATE)
+        if free is not None:
+            return [(free, before, after, FREE)]
+    met_below, met_above = line.criterion(low) >= 0, line.criterion(high) >= 0
+    if met_below == met_above:
+        if not met_below or ROTATE in (before, after):
+            return None
+        rebounds = _signed_root(_escaping(line, True), low, high, after == BOUNCE)
+        return None if rebounds is None else [(rebounds, before, after, REVERSED)]
+    graze = _signed_root(_criterion(line), low, high, met_above)
+    if graze is None:
+        return None
+    below, above = graze * (1 - _BESIDE), graze * (1 + _BESIDE)
+    now, then = _outcome(line, below, met_below), _outcome(line, above, met_above)
+    found: list[Found] = []
+    for first, last, one, other, met in ((low, below, before, now, met_below), (above, high, then, after, met_above)):
+        if first == above and now != then:
+            found.append((graze, now, then, GRAZE))
+        if one != other:
+            if {one, other} != {STICK, BOUNCE if met else ROTATE} or last <= first:
+                return None
+            escape = _signed_root(_escaping(line, met), first, last, other != STICK)
+            if escape is None:
+                return None
+            found.append((escape, one, other, REVERSED if met else FREE))
+    return found
+
+
+def _outcome(line: Line, stokes: float, met: bool) -> str:
+    if not line.escape(stokes, met).separates:
+        return STICK
+    return BOUNCE if met else ROTATE
+
+
+def _signed_root(function: Function, low: float, high: float, rises: bool) -> float | None:
+    """The root of a function that changes its sign, upwards or downwards; None where it does not."""
+
+    def upwards(stokes: float) -> tuple[bool, float | None]:
+        positive, value = function(stokes)
+        return positive == rises, value if rises or value is None else -value
+
+    at_low, at_high = sample(upwards, low), sample(upwards, high)
+    if at_low.positive or not at_high.positive:
+        return None
+    return root(upwards, at_low, at_high)
+
+
+def _criterion(line: Line) -> Function:
+    def function(stokes: float) -> tuple[bool, float | None]:
+        value = line.criterion(stokes)
+        return value >= 0, value
+
+    return function
+
+
+def _escaping(line: Line, reversed_: bool) -> Function:
+    def function(stokes: float) -> tuple[bool, float | None]:
+        found = line.escape(stokes, reversed_)
+        return found.separates, found.value
+
+    return function
+
+
+def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: float) -> list[bool]:
+    """Whether collisions at a relative distance below and above each group's changes have their outcomes."""
+    stokes = np.array([one.stokes for group in groups for one in group])
+    if not stokes.size:
+        return [bool(group) for group in groups]
+    gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
+    below = stokes - np.minimum(distance * stokes, gaps[:-1])
+    above = stokes + np.minimum(distance * stokes, gaps[1:])
+    seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))["outcome"]
+    agrees, k, size = [], 0, stokes.size
+    narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
+    narrow[[0, -1]] = False
+    for group in groups:
+        own = range(k, k + len(group))
+        k += len(group)
+        # between changes that are merged there is no place to look
+        below_fits = [narrow[j] or seen[j] == OUTCOMES.index(one.before) for j, one in zip(own, group)]
+        above_fits = [narrow[j + 1] or seen[j + size] == OUTCOMES.index(one.after) for j, one in zip(own, group)]
+        agrees.append(bool(group) and all(below_fits) and all(above_fits))
+    return agrees
+
+
+def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: bool) -> list[list[Change]]:
+    """Changes within each bracket by outcomes: all are divided together until they are _NARROW wide.
+
+    Arguments:
+        kernel_only: a bracket in which the kernel decides no collision has no changes here.
+
+    Raises:
+        ComputationError: a bracket in which no collision could be decided.
+    """
+    open_ = list(enumerate(brackets))
+    closed: list[list[_Bracket]] = [[] for _ in brackets]
+    undecided: set[int] = set()
+    for _ in range(_ROUNDS):
+        grids = [np.geomspace(one.low, one.high, _PARTS + 1)[1:-1] for _, one in open_]
+        if not grids:
+            break
+        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids), kernel_only)
+        parts = np.split(seen, np.cumsum([len(grid) for grid in grids])[:-1])
+        narrower: list[tuple[int, _Bracket]] = []
+        for (k, one), grid, own in zip(open_, grids, parts, strict=True):
+            usable = own["outcome"] >= 0
+            if usable.any():
+                narrower += [(k, each) for each in _parts_of(one, grid[usable], own[usable])]
+            elif one.width < MERGED:  # a band within the error of collisions
+                closed[k].append(one)
+            elif kernel_only:
+                undecided.add(k)
+            else:
+                reason = look.reason(line.angle, one.low, one.high)
+                raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g}: {reason}")
+        open_ = [(k, one) for k, one in narrower if one.width > _NARROW and k not in undecided]
+        for k, one in narrower:
+            if one.width <= _NARROW:
+                closed[k].append(one)
+    if open_ and not kernel_only:
+        one = open_[0][1]
+        raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g} is not enclosed")
+    undecided |= {k for k, _ in open_}
+    return [
+        [] if k in undecided else [_enclosed_change(line, one) for one in sorted(own, key=lambda one: one.low)]
+        for k, own in enumerate(closed)
+    ]
+
+
+def _parts_of(bracket: _Bracket, grid: np.ndarray, seen: np.ndarray) -> list[_Bracket]:
+    """The narrower brackets that collisions within one show."""
+    at = [bracket.low, *grid.tolist(), bracket.high]
+    outcomes = [bracket.before, *(OUTCOMES[k] for k in seen["outcome"]), bracket.after]
+    met = [bracket.met[0], *seen["reversal"].tolist(), bracket.met[1]]
+    return [
+        _Bracket(at[k], at[k + 1], outcomes[k], outcomes[k + 1], (met[k], met[k + 1]))
+        for k in range(len(at) - 1)
+        if outcomes[k] != outcomes[k + 1]
+    ]
+
+
+def _enclosed_change(line: Line, one: _Bracket) -> Change:
+    return _change(line, math.sqrt(one.low * one.high), one.before, one.after, _kind(line, one))
+
+
+def _kind(line: Line, one: _Bracket) -> str:
+    """What happens at a change that is enclosed narrowly."""
+    if STICK not in (one.before, one.after):
+        return GRAZE
+    stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
+    rebounds = stuck >= 0 or (BOUNCE in (one.before, one.after) and line.criterion(at) >= 0)
+    if BOUNCE in (one.before, one.after):
+        return REVERSED if rebounds else GRAZE
+    return GRAZE if rebounds else FREE
+
+
+def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
+    """Every sample has the outcome that the changes below it say; ComputationError if one has not."""
+    at = np.array([one.stokes for one in changes])
+    where = np.searchsorted(at, samples["stokes"])
+    first = changes[0].before if changes else OUTCOMES[samples["outcome"][0]]
+    expected = np.array([OUTCOMES.index(first), *(OUTCOMES.index(one.after) for one in changes)])[where]
+    wrong = samples["stokes"][samples["outcome"] != expected]
+    if wrong.size:
+        raise ComputationError(f"the outcome at St {wrong[0]:.10g} is not the one that the changes about it say")
+
+
+def _merged(changes: list[Change]) -> list[Change]:
+    """Changes closer than MERGED as one; none where the outcome comes back."""
+    found: list[Change] = []
+    for one in changes:
+        if found and one.stokes < found[-1].stokes * (1 + MERGED):
+            both = replace(found.pop(), after=one.after, kind=PLAIN, merged=True)
+            if both.before != both.after:
+                found.append(both)
+        else:
+            found.append(one)
+    return found
+
+
+def _change(line: Line, stokes: float, before: str, after: str, kind: str) -> Change:
+    return Change(stokes, line.numbers(stokes).centrifugal, before, after, kind)

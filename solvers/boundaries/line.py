@@ -1,0 +1,280 @@
+"""Functions of the Stokes number that are smooth through a change of outcome (along a line of constant angle).
+
+* `criterion`: by how much the approach meets, or misses, a reversal criterion; its root is a graze.
+* `escape`: how far a doublet gets, with the solids' reversal or without: through a saddle of the effective potential
+  the amplitude of its unstable mode, at the rim x_f the squared speed left (or missing).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..certificates import Barrier, energy_proof
+from ..engines.casadi.integrators import IntegrationFailed, locator, plain, tolerance
+from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
+from ..engines.taylor.build import compile_all, knows
+from ..engines.taylor.call import variant
+from ..errors import ComputationError
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import Model, choose, load
+from ..model.phases import CLOSING, Flow
+from ..scene.scene import Scene
+from ..settings import RTOL
+from . import by_kernel
+from .by_kernel import Escaping
+from .saddle import barrier_of, saddle_of
+
+_NEVER = 1e30  # a glass number that no pressure meets
+WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
+_UNMET = {"glass_number": 0.0}  # the glass event's function is then the pressure itself
+_RIGID = {"youngs_modulus": 1e300}  # Pa: solids that have no elastic length
+_ESCAPE_STEPS = (400, 20_000)  # of the kernel, first to see whether all that is left is creeping past a saddle
+_CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
+_DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
+_GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
+
+
+def ready(scenes: Iterable[Scene]) -> None:
+    """Compile what the kernel needs for boundaries of these scenes, on all cores."""
+    known = (scene for scene in scenes if knows(scene))
+    wanted = (variant(scene, choose(scene, True), RTOL, True, trajectory=True) for scene in known)
+    compile_all(set(wanted))
+
+
+@dataclass(frozen=True)
+class Escape:
+    """Whether a flight separates, and a smooth function with that sign (None where it is not defined)."""
+
+    separates: bool
+    value: float | None
+
+
+@dataclass
+class Line:
+    """The functions of a scene at one angle (rad). Counts the collisions that it integrates.
+
+    Arguments:
+        kernel: let the Taylor kernel integrate; what it hands over goes to Rosenbrock all the same. Default: if it can.
+    """
+
+    scene: Scene
+    angle: float
+    rtol: float
+    kernel: bool | None = None
+    collisions: int = field(default=0, init=False)
+
+    def __post_init__(self) -> None:
+        """Ask once whether there is a kernel for the scene."""
+        self.kernel = knows(self.scene) if self.kernel is None else self.kernel
+
+    def numbers(self, stokes: float) -> Numbers:
+        """Dimensionless numbers at a Stokes number."""
+        return numbers(self.scene, self.scene.speed_of(stokes), self.angle)
+
+    @property
+    def model(self) -> Model:
+        return load(choose(self.scene, self.angle > 0))
+
+    def criterion(self, stokes: float) -> float:
+        """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.
+
+        The approach is followed without reversal, so the function is smooth where a criterion is just met.
+        """
+        self.collisions += 1
+        n = self.numbers(stokes)
+        groups, model = n.groups, self.model
+        contact = max(groups["elastic_gap"], groups["rough_gap"])
+        found = None
+        if self.kernel:
+            p = model.group_values(groups | _UNMET)
+            solids = self._no_glass(groups) | _RIGID | {"roughness": _DEEP * contact * n.length}
+            found = by_kernel.approach(
+                self.scene, n, self.rtol, solids, len(model.state), lambda y: _pressures(model, y, p), _CREEPING
+            )
+        pressure, smallest = found or approach(model, groups, self.rtol)
+        glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
+        return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
+
+    def escape(self, stokes: float, reversed_: bool) -> Escape:
+        """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
+        self.collisions += 1
+        n = self.numbers(stokes)
+        groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
+        solids = {} if reversed_ else self._no_glass(n.groups) | _RIGID | {"roughness": 0.0}
+        probe = Probe(self.model, groups, self.rtol)
+        for steps in _ESCAPE_STEPS if self.kernel else ():
+            flown = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
+            if flown is None:
+                break
+            probe.y[: flown.end.size] = flown.end
+            separates = flown.separated if flown.decided else _creeps_out(probe)
+            if separates is not None:
+                return Escape(separates, _smooth(probe, flown))
+            probe.y = probe.path.y.copy()
+        return smooth_escape(self.model, n.groups, self.rtol, reversed_)
+
+    def _no_glass(self, groups: dict[str, float]) -> dict[str, float]:
+        """A glass-transition pressure that no film has."""
+        pressure = self.scene.liquid.glass_transition_pressure
+        return {"glass_transition_pressure": pressure * (_NEVER / groups["glass_number"])}
+
+
+def smooth_escape(
+    model: Model, groups: dict[str, float], rtol: float, reversed_: bool, machine_code: bool = True
+) -> Escape:
+    """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
+    if not reversed_:
+        groups = groups | WITHOUT_SOLIDS
+    probe = Probe(model, groups, rtol, machine_code=machine_code)
+    path = probe.run()
+    return Escape(path.separated, _smooth(probe, _Located(probe, path)))
+
+
+def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
+    """Largest scaled pressure and smallest gap of the approach, without any criterion.
+
+    It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
+    """
+    deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
+    unmet = _UNMET | {"elastic_gap": 0.0, "rough_gap": deep}
+    flight = Locate(model, groups | unmet, rtol, (), machine_code)
+    y, phase, p = flight.y, flight.phase, flight.p
+    pressure = _pressure(model, y, p)
+    stretch = FIRST_STRETCH
+    # the proof on strings reckons with the criteria, which are left out here
+    watch = replace(flight.watch, certificate=None) if flight.watch.certificate == "tethered" else flight.watch
+    for _ in range(10 * STRETCHES):
+        level = flight.proof.level(y, phase) if watch.certificate else None
+        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, machine_code)
+        try:
+            stop = find(y, p, stretch, CLOSING, -_NEVER if level is None else level)
+        except IntegrationFailed as error:
+            raise ComputationError(f"the approach cannot be followed ({error})", phase=str(phase)) from None
+        y = stop.y
+        pressure = max(pressure, _pressure(model, y, p))
+        if stop.event is None:
+            stretch *= GROWTH
+            if abs(y[1]) < _CREEPING:
+                break
+        elif stop.event == "tangential_edge":
+            phase = phase.with_(shear=1 - phase.shear)
+        elif stop.event != "glass":  # a maximum of the pressure is passed by
+            break
+    return pressure, float(y[0])
+
+
+def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
+    """Scaled film pressure on the axis: the glass event function is glass number minus pressure."""
+    return -model.values("events", y, p)["glass"]
+
+
+def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """Scaled film pressure on the axis at states, as columns."""
+    events = np.asarray(model.function("events")(states, p).full())
+    pressures: np.ndarray = -events[model.names("events").index("glass")]
+    return pressures
+
+
+class Probe(Locate):
+    """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
+
+    def _proved(self) -> bool:
+        return self.phase.motion == CLOSING and super()._proved()
+
+    def _level(self) -> float | None:
+        return super()._level() if self.phase.motion == CLOSING else None
+
+    def _fly(self) -> bool:
+        over = super()._fly()
+        fell_back = bool(self.path.steps) and "fell back" in self.path.steps[-1].kinds
+        return over or fell_back or self.phase.resting
+
+
+class _Located:
+    """A located flight as `Escaping` has it; it is sampled when it is asked for."""
+
+    def __init__(self, probe: Locate, path: Path) -> None:
+        self.probe, self.path = probe, path
+        self.separated = path.separated
+        self.fell_back = bool(path.ends) and "fell back" in path.steps[-1].kinds
+        self.end = path.y if path.separated or not path.ends else path.ends[-1]
+
+    @cached_property
+    def _both(self) -> tuple[np.ndarray, np.ndarray]:
+        return _sampled(self.probe, self.path)
+
+    @property
+    def times(self) -> np.ndarray:
+        return self._both[0]
+
+    @property
+    def states(self) -> np.ndarray:
+        return self._both[1]
+
+
+def _creeps_out(probe: Locate) -> bool | None:
+    """Whether a doublet that creeps past the only barrier will separate; None where that is not clear.
+
+    All but the unstable mode has died, and its side decides: outside nothing holds the doublet, inside its energy is
+    below the barrier.
+    """
+    proof, barrier = energy_proof(probe.proof), barrier_of(probe)
+    rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
+    if proof is None or barrier is None or not proof.theorem or len(proof.barriers(probe.y)) > 1 or barrier.gap >= rim:
+        return None
+    saddle = saddle_of(probe, barrier)
+    return None if saddle is None else saddle.side(probe.y)
+
+
+def _smooth(probe: Locate, flown: Escaping | _Located) -> float | None:
+    barrier = barrier_of(probe)
+    if barrier is None and energy_proof(probe.proof) is not None:
+        return None  # nothing holds the doublet at any gap
+    rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
+    if barrier is not None and barrier.gap < rim * (1 - 1e-12):
+        return _saddle_amplitude(probe, flown, barrier)
+    if flown.separated:
+        return float(flown.end[1]) ** 2
+    if not flown.fell_back:
+        return None
+    inward = probe.model.values("inward_force", flown.end, probe.p)["inward_force"]
+    return -2 * inward * (rim - float(flown.end[0]))
+
+
+def _saddle_amplitude(probe: Locate, flown: Escaping | _Located, barrier: Barrier) -> float | None:
+    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
+    saddle = saddle_of(probe, barrier)
+    if saddle is None:
+        return None
+    try:
+        times, states = flown.times, flown.states
+    except IntegrationFailed:
+        return None
+    nearest, amplitudes = saddle.nearest(states)
+    if np.sum(np.abs(amplitudes) ** 2) > barrier.gap**2 / 4:
+        return None
+    growth = saddle.rates[saddle.unstable].real * times[nearest]
+    return float(amplitudes[saddle.unstable].real * math.exp(-growth)) if growth < 500 else None
+
+
+def _sampled(probe: Locate, path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Times and states of the flight: ends of phases, and a grid over phases that do not end at rest in the gap."""
+    times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
+    before = states[0]
+    for step, end in zip(path.steps, path.ends, strict=True):
+        if step.event != "turning" and step.duration > 0:
+            flow = Flow(probe.model.choice, step.phase.region, path.extras)
+            told = tolerance(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
+            inside = plain(flow, "rosenbrock", told, _GRID)(before, path.p, step.duration)
+            times += [clock + part * step.duration for part in _GRID]
+            states += list(inside.T)
+        clock += step.duration
+        times.append(clock)
+        states.append(end)
+        before = end
+    return np.array(times), np.array(states).T

@@ -1,0 +1,198 @@
+"""Collisions looked at for boundaries: outcomes and margins of many, by the kernel, or one by one by Rosenbrock."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...generated import scaling
+from ..engines.casadi.locate import CRITERIA, Locate
+from ..engines.taylor.build import knows
+from ..engines.taylor.call import RIGID
+from ..engines.taylor.record import Purpose
+from ..errors import ComputationError, InputError
+from ..model.dimensionless import numbers, si_values
+from ..model.model import choose, load
+from ..scene.scene import Scene
+from ..settings import STEPS
+from . import by_kernel
+from .samples import OUTCOMES, SAMPLE
+
+BY_KERNEL, BY_ROSENBROCK = 100, 10  # samples a decade of the Stokes number that a line begins with
+_MARGIN = 500  # steps of a flight for a margin: one that creeps for longer shows none
+DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
+
+
+@dataclass
+class Look:
+    """Collisions of a scene, sampled. Counts those that had to be integrated, and keeps why others could not be.
+
+    Arguments:
+        rtol: relative tolerance of the integrations.
+        kernel: let the Taylor kernel integrate; default: if it can.
+    """
+
+    scene: Scene
+    rtol: float
+    kernel: bool | None = None
+    collisions: int = field(default=0, init=False)
+    reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
+    creeping: Counter[float] = field(default_factory=Counter, init=False)  # collisions handed over for it, by angle
+
+    def __post_init__(self) -> None:
+        """Ask once whether there is a kernel for the scene."""
+        self.kernel = knows(self.scene) if self.kernel is None else self.kernel
+
+    @property
+    def per_decade(self) -> int:
+        """How many samples a decade of the Stokes number a line begins with."""
+        return BY_KERNEL if self.kernel else BY_ROSENBROCK
+
+    def __call__(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where there is none to be had."""
+        found = self._by_kernel(angle, stokes) if self.kernel else None
+        if found is None:
+            self.kernel = False
+            found = self.by_rosenbrock(angle, stokes)
+        return found
+
+    def by_rosenbrock(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        """The same by Rosenbrock, one by one, which is slow; why a collision fails is in `reasons`."""
+        found = blank(stokes)
+        for k in range(stokes.size):
+            self._by_rosenbrock(found[k : k + 1], float(angle[k]))
+        return found
+
+    def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
+        """Outcomes (`outcome`, -1 for none, with its reason) and first criteria met (`reversal`) alone.
+
+        A collision may cost all steps of the budget. Chatter on which the kernel has spent them is given up; what it
+        hands over otherwise goes to Rosenbrock.
+
+        Arguments:
+            kernel_only: leave undecided what the kernel hands over; it then has the steps of a sample.
+        """
+        told = self._told(angle, stokes, by_kernel.LOOK_BUDGET if kernel_only else STEPS) if self.kernel else None
+        if told is None:
+            return self.by_rosenbrock(angle, stokes)
+        if kernel_only:
+            return told
+        for k in np.flatnonzero(told["chatters"] & (told["outcome"] < 0)).tolist():
+            self._give_up(float(angle[k]), float(stokes[k]), told[k])
+        for k in np.flatnonzero((told["outcome"] < 0) & ~told["chatters"]).tolist():
+            found = self.by_rosenbrock(angle[k : k + 1], stokes[k : k + 1])[0]
+            told["outcome"][k], told["reversal"][k] = found["outcome"], found["reversal"]
+        return told
+
+    def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
+        n = numbers(self.scene, self.scene.speed_of(stokes), angle)
+        self.reasons[angle, stokes] = (
+            f"{STEPS} steps do not decide the outcome: {told['events']} events by t = {told['time'] * n.time:.6g} s, "
+            f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
+        )
+
+    def reason(self, angle: float, low: float, high: float) -> str:
+        """Why a collision at an angle and between two Stokes numbers could not be computed."""
+        said = (text for (at, stokes), text in self.reasons.items() if at == angle and low <= stokes <= high)
+        return next(said, "no collision could be computed")
+
+    def _told(self, angle: np.ndarray, stokes: np.ndarray, budget: int) -> np.ndarray | None:
+        told = by_kernel.looked(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
+        if told is not None:
+            self.collisions += int(np.count_nonzero(~told["at_touch"]))
+            self.creeping.update(angle[told["creeps"]].tolist())
+        return told
+
+    def _whole(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
+        speed = stokes / self.scene.stokes_per_speed
+        told = self._told(angle, stokes, by_kernel.LOOK_BUDGET)
+        if told is None:
+            return None
+        found = blank(stokes)
+        for name in ("outcome", "reversal", "events", "restitution", "time"):
+            found[name] = told[name]
+        contact = contact_gap(self.scene, speed)
+        found["criterion"] = np.where(told["outcome"] == 1, _margin(told, contact), np.nan)
+        found["reach"] = np.where(told["at_touch"], np.nan, 0.0)
+        return found
+
+    def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
+        """Whole collisions; sticks once more to where they come back, bounces once more as if there were no solids."""
+        found = self._whole(angle, stokes)
+        if found is None:
+            return None
+        speed = stokes / self.scene.stokes_per_speed
+        sticks = np.flatnonzero((found["outcome"] == 0) & ~np.isnan(found["reach"]))
+        found["reach"] = np.nan
+        found["time"][found["outcome"] == 0] = np.nan
+        if sticks.size:
+            told = by_kernel.looked(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE, budget=_MARGIN)
+            if told is not None:
+                found["reach"][sticks] = np.where(told["outcome"] == 0, told["final_gap"], np.nan)
+        bounces = np.flatnonzero(found["outcome"] == 2)
+        if bounces.size:
+            contact = contact_gap(self.scene, speed[bounces])
+            told = by_kernel.looked(
+                self.scene,
+                speed[bounces],
+                angle[bounces],
+                self.rtol,
+                Purpose.APPROACH,
+                self.no_solids(contact),
+                _MARGIN,
+            )
+            if told is not None:
+                found["criterion"][bounces] = np.where(told["outcome"] >= 0, _margin(told, contact), np.nan)
+        return found
+
+    def no_solids(self, contact: np.ndarray) -> dict[str, np.ndarray]:
+        """Quantities with which an approach goes on past its contact gaps (x0), far beyond them."""
+        deep = DEEP * contact * self.scene.liquid.film_thickness
+        return {"youngs_modulus": np.full(contact.size, RIGID), "roughness": deep}
+
+    def _by_rosenbrock(self, found: np.ndarray, angle: float) -> None:
+        """Fill one sample."""
+        stokes = float(found["stokes"][0])
+        try:
+            n = numbers(self.scene, self.scene.speed_of(stokes), angle)
+            path = Locate(load(choose(self.scene, angle > 0)), n.groups, self.rtol, machine_code=True).run()
+        except (ComputationError, InputError) as error:
+            self.reasons[angle, stokes] = str(n.in_si(error)) if isinstance(error, ComputationError) else str(error)
+            return
+        self.collisions += path.time > 0
+        found["outcome"] = OUTCOMES.index(path.outcome)
+        found["reversal"] = -1 if path.reversal is None else CRITERIA.index(path.reversal)
+        found["events"] = len(path.kinds)
+        if path.separated:
+            found["restitution"] = path.model.values("outputs", path.y, path.p)["restitution"]
+            found["time"] = path.time
+
+
+def blank(stokes: np.ndarray) -> np.ndarray:
+    """Samples at Stokes numbers of which nothing is known yet."""
+    found = np.zeros(stokes.size, SAMPLE)
+    found["stokes"] = stokes
+    found["outcome"] = found["reversal"] = -1
+    found["time"] = found["criterion"] = found["reach"] = np.nan
+    return found
+
+
+def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
+    """Gap over film thickness at which the solids meet, by roughness or elastic length, at normal speeds (m/s)."""
+    values = {**si_values(scene, None, None), "speed": speed}
+    gap = np.full(speed.size, scaling.rough_gap(*(values[name] for name in scaling.ARGUMENTS["rough_gap"])))
+    if "youngs_modulus" in values:
+        elastic = scaling.elastic_gap(*(values[name] for name in scaling.ARGUMENTS["elastic_gap"]))
+        gap = np.maximum(gap, elastic)
+    return gap
+
+
+def _margin(told: np.ndarray, contact: np.ndarray) -> np.ndarray:
+    """By how much the approach meets a criterion, as a logarithm; nan where there is no approach."""
+    approached = (told["outcome"] >= 0) & ~told["at_touch"]
+    solids = np.full(contact.size, -np.inf)
+    there = approached & (contact > 0)
+    solids[there] = np.log(contact[there] / told["smallest_gap"][there])
+    return np.where(approached, np.maximum(told["glass"], solids), np.nan)

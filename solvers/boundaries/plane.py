@@ -1,0 +1,193 @@
+"""A plane of collisions as the unit square: an entry of the scene across, the logarithm of St upwards."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..engines.taylor.build import knows
+from ..engines.taylor.call import answers
+from ..engines.taylor.record import Purpose, recorded
+from ..errors import InputError
+from ..host.cores import usable_cores
+from ..many.batch import Request, checked_numbers, checked_vary
+from ..many.by_kernel import impacts_of
+from ..many.collide_many import run
+from ..scene.scene import Scene
+from ..settings import STEPS
+
+ANGLE = "impact.angle"
+# rad: a plane that begins head-on begins here, where collisions are still oblique; St* moves with the square of the
+# angle. Where nothing attracts a doublet takes the longer to separate the less oblique it is.
+LEAST_ANGLE, LEAST_UNBOUND = 1e-5, 1e-3
+_RESOLVED = 2  # collisions of a batch that Rosenbrock is asked for where the kernel hands over
+_RUN = 15  # so many neighbours in a row
+_THREADED = 20_000  # collisions that are worth several cores
+
+
+@dataclass
+class Plane:
+    """Outcomes over (x, St). Points are of the unit square, an array of n x 2.
+
+    Arguments:
+        over: dotted name of the entry x, the impact's angle among them.
+        span: of x, rad or SI.
+        stokes: lowest and highest Stokes number.
+
+    Attributes:
+        edge: the lowest x as it is given: the span begins at a small angle where that is head-on.
+        collisions: how many have been asked for.
+        kernel: whether the Taylor kernel integrates.
+    """
+
+    scene: Scene
+    over: str
+    span: tuple[float, float]
+    stokes: tuple[float, float]
+    rtol: float
+    edge: float = field(init=False)
+    collisions: int = field(default=0, init=False)
+    kernel: bool = field(default=True, init=False)
+
+    def __post_init__(self) -> None:
+        """Ask once whether there is a kernel for the scene; begin where collisions are oblique."""
+        self.kernel = knows(self.scene)
+        self.edge = self.span[0]
+        if self.over == ANGLE:
+            self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]
+
+    def x(self, points: np.ndarray) -> np.ndarray:
+        """The entry at points, rad or SI."""
+        low, high = self.span
+        across = points[..., 0]
+        return np.where(across >= 1, high, low + across * (high - low))
+
+    def shown(self, points: np.ndarray) -> np.ndarray:
+        """The entry at points; what is on the lower edge of the window is on the edge that was given."""
+        return np.where(points[..., 0] <= 0, self.edge, self.x(points))
+
+    def stokes_at(self, points: np.ndarray) -> np.ndarray:
+        """Stokes numbers at points."""
+        low, high = self.stokes
+        up = points[..., 1]
+        return np.where(up >= 1, high, low * np.exp(up * math.log(high / low)))
+
+    def points(self, x: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        """Points of the square at values of the entry and Stokes numbers."""
+        across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
+        return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.decades])
+
+    @property
+    def decades(self) -> float:
+        """Height of the window in ln St."""
+        return math.log(self.stokes[1] / self.stokes[0])
+
+    def scene_at(self, x: float) -> tuple[Scene, float]:
+        """The scene at a value of the entry, and its impact angle (rad)."""
+        if self.over == ANGLE:
+            return self.scene, x
+        return self.scene.with_entries({self.over: x}), float(self.scene.angle or 0.0)
+
+    def labels(self, points: np.ndarray) -> np.ndarray:
+        """Outcomes by their index in OUTCOMES; -1 where none is to be had, or Rosenbrock would be asked too often."""
+        return self.seen(points)[0]
+
+    def seen(self, points: np.ndarray, most: int = _RESOLVED) -> tuple[np.ndarray, np.ndarray]:
+        """Outcomes, and the first rebound criterion met (-1 for none; -2: not known), at points.
+
+        Arguments:
+            most: collisions that Rosenbrock, which may take seconds, is asked for: one amid each long run of
+                neighbours that the kernel hands over, since nothing would narrow that down.
+        """
+        request = self._request(points)
+        self.collisions += request.size
+        outcome = np.full(request.size, -1)
+        reversal = np.full(request.size, -2)
+        if self.kernel:
+            impacts, sound = impacts_of(request)
+            threads = usable_cores() if request.size > _THREADED else 1
+            told = answers(impacts, self.rtol, threads=threads)
+            if told is not None:
+                where = np.flatnonzero(sound)
+                outcome[where] = np.where(told["status"] <= 1, told["outcome"], -1)
+                reversal[where] = told["reversal"]
+        left = np.flatnonzero(outcome < 0) if not self.kernel else _middles(outcome < 0)[:most]
+        if left.size:
+            outcome[left] = run(request.part(left), True)["outcome"]
+        return outcome, reversal
+
+    def first_criterion(self, points: np.ndarray) -> np.ndarray:
+        """The rebound criterion that the first approach meets (-1 for none; -2: not known), at points.
+
+        A stick may come back and meet one later, so the whole collision does not say it.
+        """
+        found = np.full(points.shape[0], -2)
+        if self.kernel:
+            impacts, sound = impacts_of(self._request(points))
+            oblique = bool(impacts.angle[0] > 0)
+            told = recorded(impacts, oblique, self.rtol, trajectory=True, budget=STEPS, purpose=Purpose.ESCAPE,
+                            keep=False, fold=False)  # fmt: skip
+            if told is not None:
+                known = told.answers["status"] <= 1
+                found[np.flatnonzero(sound)] = np.where(known, told.answers["reversal"], -2)
+        return found
+
+    def _request(self, points: np.ndarray) -> Request:
+        x, size = self.x(points), points.shape[0]
+        angle = x if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
+        return Request(
+            scene=self.scene,
+            stokes=self.stokes_at(points),
+            speed=None,
+            angle=angle,
+            vary={} if self.over == ANGLE else {self.over: x},
+            rtol=self.rtol,
+            engine="taylor" if self.kernel else "rosenbrock",
+            of=(),
+        )
+
+
+def _middles(unknown: np.ndarray) -> np.ndarray:
+    """The middle of each long run of what is not known; a run of all there is counts as long."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
+    runs = edges.reshape(-1, 2)
+    long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]
+    middles: np.ndarray = long.sum(axis=1) // 2
+    return middles
+
+
+def _least(scene: Scene) -> float:
+    """The least angle (rad) that is looked at."""
+    bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
+    return LEAST_ANGLE if bound else LEAST_UNBOUND
+
+
+def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:
+    """A plane of a scene; InputError for what cannot be.
+
+    Arguments:
+        label: of the argument or option that `over` and `span` come from.
+    """
+    if not isinstance(over, str):
+        raise InputError(label, over, "the dotted name of an entry", "is not a name")
+    ends = _ascending("stokes", checked_numbers("impact.stokes", stokes))
+    if over == ANGLE:
+        plane = Plane(scene, over, _ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
+    else:
+        values = checked_vary(scene, {over: span}, label)[over]
+        plane = Plane(scene, over, _ascending("span", values), ends, rtol)
+        if scene.angle is None:
+            raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
+        for x in plane.span:
+            plane.scene_at(x)  # what the scene itself refuses
+    return plane
+
+
+def _ascending(name: str, ends: np.ndarray) -> tuple[float, float]:
+    if ends.shape != (2,) or not ends[0] < ends[1]:
+        raise InputError(name, ":".join(f"{end:g}" for end in ends.reshape(-1)), "LO:HI with LO below HI",
+                         "is not ascending")  # fmt: skip
+    return float(ends[0]), float(ends[1])

@@ -1,0 +1,223 @@
+"""Boundaries as a picture: the regions of each outcome filled, the curves between them, and where these meet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..collision.text import degrees, name_of, prefix
+from ..errors import InputError
+from ..formatting import ticks
+from ..host.files import save
+from ..host.outputs import PICTURES, check_file
+from ..many.plot_map import COLOURS
+from .atlas import LINES, Atlas, Curve, Point, atlas
+from .plane import ANGLE
+from .plot_labels import place_names
+from .samples import OUTCOMES
+
+if TYPE_CHECKING:
+    from ..scene.scene import Scene
+    from .trace import Boundaries
+
+_PALE = 0.45  # the map's colours, for lines and words on them
+_ROOM = 1.8  # factor of Stokes number shown beyond the outermost curves
+_INK, _NOTE = "#202020", "#6E6E6E"
+_DPI = 150
+_LETTERS = ("S", "SRS", "B")
+_MARKS = {
+    "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "corner": "D", "criterion change": "D",
+    "graze meets escape": "s", "saddle meets rim": "v",
+}  # fmt: skip
+_MOST_DOTS = 60  # lines whose changes are marked
+
+
+def plot(found: Boundaries, file: str | Path) -> None:
+    """Write the picture of boundaries: .png, .pdf or .svg.
+
+    Raises:
+        InputError: another kind of file, or boundaries that do not say whose they are.
+    """
+    check_file(file, "file", PICTURES)
+    if found.scene is None:
+        raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
+    save(draw(found.scene, found), file, dpi=_DPI)
+
+
+def draw(scene: Scene, found: Boundaries) -> Figure:
+    """The regions of each outcome, the curves between them, and where these meet.
+
+    Lines of constant angle are drawn on the atlas of their angles; a single line as what it passes.
+
+    Arguments:
+        found: as `boundary` or `atlas` returns it.
+    """
+    dots = not isinstance(found, Atlas) and len(set(found.angles)) > 1 and len(found.angles) <= _MOST_DOTS
+    whole = found if isinstance(found, Atlas) else _filled(scene, found)
+    single = whole.span[0] == whole.span[1]
+    figure = Figure(figsize=(6.4, 4.9), layout="constrained")
+    axes = figure.add_subplot()
+    name = name_of(scene, 40).replace("$", r"\$")
+    fixed = "" if whole.over == ANGLE else f" at {degrees(scene.angle)}"
+    axes.set_title(f"{name}: where the outcome changes{fixed}", fontsize=11)
+    low, high = _shown(whole)
+    factor = _frame(axes, scene, whole, low, high, single)
+    regions = whole if not single else replace(whole, span=(0.0, 1.0))
+    _fill(axes, regions, factor)
+    for one in regions.curves:
+        axes.plot(np.array(one.x) / factor, one.stokes, color=_INK, linewidth=1.5, solid_capstyle="round", zorder=3)
+    if dots:
+        _dots(axes, found)
+    handles = _handles(regions)
+    handles += _mark(axes, whole.points, factor, low, high)
+    handles += _doubts(axes, found, whole, factor)
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), fontsize=8, frameon=False)
+    place_names(figure, axes, _raster(regions, factor))
+    return figure
+
+
+def _pale(colour: str) -> tuple[float, float, float]:
+    red, green, blue = (1 - _PALE * (1 - part) for part in to_rgb(colour))
+    return red, green, blue
+
+
+_PALE_COLOURS = tuple(_pale(colour) for colour in COLOURS)
+
+
+def _filled(scene: Scene, found: Boundaries) -> Atlas:
+    """The atlas of the angles of lines; of a single one, its changes across the picture."""
+    low, high = min(found.angles), max(found.angles)
+    if low < high:
+        return atlas(scene, span=(low, high), stokes=found.window, lines=max(2, min(LINES, len(found.angles))))
+    changes = found.changes[0]
+    curves = [Curve(one.before, one.after, one.kind, (0.0, 1.0), (one.stokes, one.stokes)) for one in changes]
+    background = OUTCOMES[0]
+    if not changes:
+        background = atlas(scene, span=(max(low - 1e-6, 0.0), low + 1e-6), stokes=found.window, lines=2).background
+    return Atlas(
+        found.angles, found.changes, found.collisions, found.failures, found.resolution, scene, found.window,
+        span=(low, low), curves=tuple(curves), background=background,
+    )  # fmt: skip
+
+
+def _shown(whole: Atlas) -> tuple[float, float]:
+    """Stokes numbers between which the picture lies: the curves and some room, within the window."""
+    stokes = [value for one in whole.curves for value in one.stokes]
+    if not stokes:
+        return whole.window
+    return max(min(stokes) / _ROOM, whole.window[0]), min(max(stokes) * _ROOM, whole.window[1])
+
+
+def _frame(axes: Axes, scene: Scene, whole: Atlas, low: float, high: float, single: bool) -> float:
+    """Scales and labels; returns what x is divided by."""
+    factor, text = _across(scene, whole.over, whole.span)
+    axes.set_yscale("log")
+    axes.set_ylim(low, high)
+    ticks.plain(axes.yaxis, (1, 1.5, 2, 3, 4, 5, 7) if high / low < 8 else (1, 2, 5) if high / low < 1e3 else (1,))
+    axes.set_ylabel("normal Stokes number St")
+    if single:
+        axes.set_xlim(0, 1)
+        axes.set_xticks([])
+        axes.set_xlabel(f"at an {text.replace('(deg)', '')} of {degrees(whole.span[0])}")
+        return 1.0
+    axes.set_xlim(whole.span[0] / factor, whole.span[1] / factor)
+    axes.set_xlabel(text)
+    return factor
+
+
+def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, str]:
+    """What x is divided by, and its name with the unit that is left."""
+    unit = scene.fields[over].unit
+    if over == ANGLE or unit == "rad":
+        name = r"impact angle $\theta_0$" if over == ANGLE else over.rpartition(".")[2].replace("_", " ")
+        return math.pi / 180, f"{name} (deg)"
+    name = over.rpartition(".")[2].replace("_", " ")
+    if unit is None:
+        return 1.0, name
+    factor, letter = prefix(span[1]) if unit not in ("kg",) else (1.0, "")
+    if span[1] >= 1e6:
+        factor, letter = (1e9, "G") if span[1] >= 1e9 else (1e6, "M")
+    return factor, f"{name} ({letter.replace('u', 'µ')}{unit})"
+
+
+def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
+    """Each region in its colour: slab by slab, from curve to curve and from edge to edge."""
+    decades = math.log(whole.window[1] / whole.window[0])
+    across = whole.span[1] - whole.span[0]
+    for slab in whole.slabs():
+        edges = [np.array([[slab.low, 0.0], [slab.high, 0.0]])]
+        for arc in slab.arcs:
+            x, y = arc.points[:, 0], arc.points[:, 1]
+            inner = arc.points[(x > slab.low) & (x < slab.high)]
+            ends = [[[end, float(np.interp(end, x, y))]] for end in (slab.low, slab.high)]
+            edges.append(np.vstack([ends[0], inner, ends[1]]))
+        edges.append(np.array([[slab.low, 1.0], [slab.high, 1.0]]))
+        for label, below, above in zip(slab.labels, edges, edges[1:]):
+            outline = np.vstack([below, above[::-1]])
+            x = (whole.span[0] + outline[:, 0] * across) / factor
+            stokes = whole.window[0] * np.exp(outline[:, 1] * decades)
+            # smoothed edges of neighbours would let the background through
+            axes.fill(x, stokes, color=_PALE_COLOURS[label], linewidth=0, antialiased=False, zorder=1)
+
+
+def _raster(whole: Atlas, factor: float) -> Any:
+    """Outcomes at places of the picture: x as drawn, and Stokes numbers."""
+    return lambda x, stokes: whole.region(np.clip(x * factor, *whole.span), stokes)
+
+
+def _dots(axes: Axes, found: Boundaries) -> None:
+    """The changes on the lines that were asked for."""
+    pairs = [(math.degrees(at), one.stokes) for at, line in zip(found.angles, found.changes) for one in line]
+    if pairs:
+        axes.plot(*zip(*pairs), "o", color=_INK, markersize=2.6, zorder=4, clip_on=False)
+
+
+def _handles(whole: Atlas) -> list[Any]:
+    """Legend of the outcomes that the picture shows."""
+    seen = {label for slab in whole.slabs() for label in slab.labels}
+    return [
+        Patch(
+            facecolor=_PALE_COLOURS[label], edgecolor=_INK, linewidth=0.5, label=f"{_LETTERS[label]}: {OUTCOMES[label]}"
+        )
+        for label in sorted(seen)
+    ]
+
+
+def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
+    """Meeting points, and their legend: names of one place together."""
+    places: dict[tuple[float, float], list[str]] = {}
+    for one in points:
+        if low <= one.stokes <= high:
+            places.setdefault((one.x, one.stokes), []).append(one.kind)
+    handles: dict[str, Any] = {}
+    for (x, stokes), kinds in places.items():
+        style: Any = {
+            "marker": _MARKS[kinds[0]], "color": "white", "markeredgecolor": _INK, "markeredgewidth": 1.2,
+            "markersize": 6,
+        }  # fmt: skip
+        axes.plot(x / factor, stokes, linestyle="", zorder=5, clip_on=False, **style)
+        name = ", ".join(kinds)
+        handles[name] = Line2D([], [], linestyle="", label=name, **style)
+    return list(handles.values())
+
+
+def _doubts(axes: Axes, found: Boundaries, whole: Atlas, factor: float) -> list[Any]:
+    """What could not be traced or settled."""
+    style: Any = {"linestyle": "", "marker": "x", "color": "#C00000", "markersize": 6}
+    places = [(x / factor, stokes) for x, stokes, _ in whole.unsettled]
+    if places:
+        axes.plot(*zip(*places), zorder=6, clip_on=False, **style)
+    failed = [] if isinstance(found, Atlas) else [math.degrees(angle) for angle, _ in found.failed]
+    if failed:
+        axes.plot(failed, [0.02] * len(failed), transform=axes.get_xaxis_transform(), clip_on=False, **style)
+    return [Line2D([], [], label="not settled", **style)] if places or failed else []

@@ -1,0 +1,112 @@
+"""Roots in ln St of functions that know their sign everywhere and their value where they are smooth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..errors import ComputationError
+
+LOCATED = 1e-9  # relative width, or error estimate, at which a root is located
+_TRIES = 60
+# Bound on the secant's error over the product of its last two steps (half of f''/f'): amplitudes bend fast.
+_CURVED = 1e4
+_WIDE = 3e-3  # a bracket wider than this is halved where the secant is slow
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A function at ln St = `at`: its sign, and its value where that is smooth."""
+
+    at: float
+    positive: bool
+    value: float | None
+
+
+Function = Callable[[float], tuple[bool, float | None]]
+"""Stokes number -> (positive, value or None)."""
+
+
+def sample(function: Function, stokes: float) -> Sample:
+    """The function at a Stokes number."""
+    return Sample(math.log(stokes), *function(stokes))
+
+
+def around(function: Function, stokes: float, doubt: float, low: float, high: float) -> tuple[Sample, Sample] | None:
+    """A bracket (negative, positive) about a prediction, widened fourfold until it holds; None if it never does.
+
+    Arguments:
+        doubt: relative uncertainty of the prediction.
+        low, high: Stokes numbers not to be left.
+    """
+    first = sample(function, stokes)
+    reach = doubt
+    for _ in range(5):
+        other = math.exp(first.at - reach if first.positive else first.at + reach)
+        if not low < other < high:
+            return None
+        second = sample(function, other)
+        if second.positive != first.positive:
+            return (second, first) if first.positive else (first, second)
+        first, reach = second, 4 * reach
+    return None
+
+
+def root(function: Function, negative: Sample, positive: Sample) -> float:
+    """Stokes number of the root between a negative and a positive sample (the negative one lower).
+
+    Secant steps through the two latest values, bisection where a value is missing, a step leaves the bracket, or the
+    bracket is wide and the secant slow. It ends without a last evaluation once the secant's own error, about the
+    product of the last two steps, is below LOCATED; where the function jumps, once the bracket is.
+
+    Raises:
+        ComputationError: not located within a fixed number of evaluations.
+    """
+    a, b = negative, positive
+    recent = [a, b] if _smaller(b, a) else [b, a]
+    older: Sample | None = None
+    widths = [b.at - a.at]
+    for _ in range(_TRIES):
+        width = b.at - a.at
+        if width < LOCATED:
+            return math.exp(0.5 * (a.at + b.at))
+        trial = _secant(*recent)
+        if trial is None or not a.at < trial < b.at:
+            trial = 0.5 * (a.at + b.at)
+        else:
+            step, before = abs(trial - recent[1].at), abs(recent[1].at - recent[0].at)
+            if step < 1e-5 and _CURVED * step * before < LOCATED and _straight(older, *recent):
+                return math.exp(trial)
+            if width > _WIDE and len(widths) > 3 and width > 0.3 * widths[-4]:
+                trial = 0.5 * (a.at + b.at)
+        latest = sample(function, math.exp(trial))
+        a, b = (a, latest) if latest.positive else (latest, b)
+        widths.append(b.at - a.at)
+        if latest.value is not None and recent[1].value is not None:
+            older, recent = recent[0], [recent[1], latest]
+        else:
+            older, recent = None, [a, b]
+    raise ComputationError(
+        f"a change of outcome between St {math.exp(a.at):.10g} and {math.exp(b.at):.10g} could not be located",
+        advice="try another --rtol",
+    )
+
+
+def _straight(older: Sample | None, first: Sample, second: Sample) -> bool:
+    """Whether three samples show one slope: at a jump, where a secant's steps say nothing, they do not."""
+    if older is None or older.value is None or first.value is None or second.value is None:
+        return True  # nothing speaks against it
+    one = (first.value - older.value) * (second.at - first.at)
+    other = (second.value - first.value) * (first.at - older.at)
+    return one * other > 0 and 0.2 < one / other < 5
+
+
+def _smaller(one: Sample, other: Sample) -> bool:
+    return one.value is not None and other.value is not None and abs(one.value) < abs(other.value)
+
+
+def _secant(first: Sample, second: Sample) -> float | None:
+    if first.value is None or second.value is None or first.value == second.value:
+        return None
+    return second.at - second.value * (second.at - first.at) / (second.value - first.value)

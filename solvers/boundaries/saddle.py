@@ -1,0 +1,85 @@
+"""The saddle that an escape passes: rigid rotation at the top of the effective potential's barrier, and its modes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from casadi import Function, jacobian
+
+from ..certificates import Barrier, energy_proof
+from ..engines.casadi.locate import Locate
+from ..host.thread_caches import own_cache
+from ..model.model import Model
+from ..model.phases import Region
+
+# A doublet this near (of the barrier's gap) on the unstable mode alone, all others this much smaller, follows it.
+_NEAR, _ALONE = 0.1, 1e-3
+
+
+def barrier_of(probe: Locate) -> Barrier | None:
+    """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
+    proof = energy_proof(probe.proof)
+    if proof is None:
+        return None
+    barriers = proof.barriers(probe.y)
+    return barriers[0] if barriers else None
+
+
+@dataclass(frozen=True)
+class Saddle:
+    """Rigid rotation at the top of the barrier, and how its neighbourhood moves.
+
+    Arguments:
+        modes: left eigenvectors as rows; times a deviation they give each mode's amplitude, as its part of the gap.
+        rates: their eigenvalues.
+        unstable: index of the one that grows.
+    """
+
+    gap: float
+    state: np.ndarray
+    modes: np.ndarray
+    rates: np.ndarray
+    unstable: int
+
+    def nearest(self, states: np.ndarray) -> tuple[int, np.ndarray]:
+        """Which of the states (columns) is nearest, and its amplitudes."""
+        amplitudes = self.modes @ (states[: self.state.size] - self.state[:, None])
+        k = int(np.argmin(np.sum(np.abs(amplitudes) ** 2, axis=0)))
+        return k, amplitudes[:, k]
+
+    def side(self, state: np.ndarray) -> bool | None:
+        """Whether a doublet that creeps past is outside; None where it is not clear that it only creeps."""
+        amplitudes = np.abs(self.modes @ (state[: self.state.size] - self.state))
+        own, others = amplitudes[self.unstable], np.delete(amplitudes, self.unstable)
+        if own > _NEAR * self.gap or np.any(others > _ALONE * own):
+            return None
+        return bool(state[0] > self.gap)
+
+
+def saddle_of(probe: Locate, barrier: Barrier) -> Saddle | None:
+    """The saddle at a barrier for the flight's angular momentum; None where nothing grows."""
+    saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
+    # a doublet that escapes comes by while opening
+    film = int(barrier.gap < 1 or not probe.model.edged)
+    region = Region(film, int(barrier.gap < probe.edge), False, probe.model.cavitates)
+    matrix = np.asarray(_jacobian(probe.model, region)(saddle, probe.p).full())
+    values, vectors = np.linalg.eig(matrix)
+    unstable = int(np.argmax(values.real))
+    if values[unstable].real <= 0 or vectors[0, unstable] == 0:
+        return None
+    shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])
+    return Saddle(barrier.gap, saddle, np.linalg.inv(shapes), values, unstable)
+
+
+def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:
+    """Rigid rotation at the barrier's gap with the state's angular momentum."""
+    at_barrier = np.concatenate([[barrier.gap], y[1:]])
+    return np.array(list(probe.model.values("rigid_rotation", at_barrier, probe.p).values()))
+
+
+@own_cache(128)
+def _jacobian(model: Model, region: Region) -> Function:
+    rates = model.function("right_hand_side", **region.flags)
+    y, p = model.column, model.parameters
+    return Function("jacobian", [y, p], [jacobian(rates(y, p), y)])

@@ -1,0 +1,28 @@
+"""Proofs that a doublet never separates, so that a flight can end as soon as its outcome is decided."""
+
+from __future__ import annotations
+
+from .attraction import HeldProof
+from .base import NoProof, Proof
+from .chatter import ChatterProof
+from .choice import energy_proof, proof_for
+from .circling import comes_to
+from .energy_barrier import Barrier, BarrierProof
+from .film import FilmProof
+from .orbital_momentum import OrbitalProof
+from .strings import TetherProof
+
+__all__ = [
+    "Barrier",
+    "BarrierProof",
+    "ChatterProof",
+    "FilmProof",
+    "HeldProof",
+    "NoProof",
+    "OrbitalProof",
+    "Proof",
+    "TetherProof",
+    "comes_to",
+    "energy_proof",
+    "proof_for",
+]

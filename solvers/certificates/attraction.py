@@ -1,0 +1,39 @@
+"""An attraction that falls with the gap, and so holds a doublet for good."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model.model import Model
+from ..model.phases import Phase
+from .base import SAFETY, NoProof, Proof
+
+
+class HeldProof:
+    """Something attracts so strongly that the gap's maxima only fall from now on.
+
+    Arguments:
+        beside: another proof for the same model, tried first; it is what a flight watches for.
+    """
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof | None = None) -> None:
+        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside or NoProof()
+        self.theorem = True  # a model with a conserving arm; `beside` is then one as well, or proves nothing
+        self.watches: str | None = self.beside.watches
+        groups = dict(zip(model.groups, p, strict=True))
+        self._nearest = max(groups["elastic_gap"], groups["rough_gap"]) * (1 - self.margin)
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self.beside.level(y, phase)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return self.beside.decided(y, phase) or self._held(y)
+
+    def _held(self, y: np.ndarray) -> bool:
+        if not y[0] >= self._nearest:
+            return False  # the margins take the solids for the nearest it gets; first touch may lie inside them
+        found = self.model.values("held", y, self.p)
+        hold = found["hold"]
+        # each by more than the error of what it is made of; a NaN proves nothing
+        energy = max(float(y[1]) ** 2, 1.0)
+        return hold > 0 and found["rebound"] < -self.margin * hold and found["flight"] < -self.margin * energy

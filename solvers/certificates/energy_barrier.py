@@ -1,0 +1,174 @@
+"""By energy: too little of it for the barrier of the effective potential on the far side.
+
+Mechanical energy never increases and, without strings, angular momentum is conserved: energy below the barrier of
+U_eff = L^2/(2 I) + W_c (+ U_s) further out cannot be made up for. Beside a wall all is as head-on: nothing turns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model.model import Model
+from ..model.phases import Phase
+from .base import BEYOND, SAFETY
+from .quadrature import panels
+
+
+@dataclass(frozen=True)
+class Barrier:
+    """A maximum of the effective potential: its gap, and its height over m v0^2 (capillary work from first touch)."""
+
+    gap: float
+    height: float
+
+
+class BarrierProof:
+    """Energy below a barrier of the effective potential that lies further out.
+
+    For the surface arm angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite; there
+    the level is lowered by what the drift can still do, and the stick is not called a theorem (between equal spheres
+    `OrbitalProof` decides in its place).
+    """
+
+    watches: str | None = "energy"
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p, self.rtol = model, p, rtol
+        self.groups = dict(zip(model.groups, p, strict=True))
+        self.theorem = model.choice.law("arm") != "surface"
+        self._largest = float(sum(model.values(model.escape, model.start(p), p).values()))
+        self._known: tuple[float, tuple[Barrier, ...]] | None = None
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return self._level(y, phase, SAFETY + BEYOND)
+
+    def _level(self, y: np.ndarray, phase: Phase, safety: float) -> float | None:
+        ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
+        if not ahead:
+            return None
+        scale = self._largest + abs(
+            ahead[0].height
+        )  # the same all along the flight, or a stop would move its own level
+        return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
+            return True  # nothing moves that could part them, or changes what turns; and the force is inward
+        if phase.resting and self.rests(y):
+            return True
+        level = self._level(y, phase, SAFETY)
+        return level is not None and self.energy(y) < level
+
+    def rests(self, y: np.ndarray) -> bool:
+        """Whether a doublet at rest in its gap is held there while its slip dies away.
+
+        Its slip energy never grows, and states of one angular momentum have the energy of rigid rotation and that of
+        their deviation from it (`derive.checks.partners.slip_energy_adds`): an orbit that exceeds the rigid one by
+        more than the slip energy would take never comes. Where angular momentum drifts, twice that.
+        """
+        model, margin, orbit = self.model, SAFETY * self.rtol, self._rigid(y, float(y[0]))
+        if model.reduced:  # one slip, which falls without changing sign
+            orbit = max(float(y[2]), orbit)
+        else:
+            rigid = list(model.values("rigid_rotation", y, self.p).values())
+            deviation = np.array([y[0], 0.0, *(y[2 : len(model.state)] - rigid[2:])])
+            excess = float(np.sqrt(self._kinetic(deviation) / self._kinetic(self._turning(y, 1.0))))
+            orbit += excess if self.theorem else 2 * excess
+        held, still = (
+            model.values("inward_force", self._turning(y, each), self.p)["inward_force"] for each in (orbit, 0.0)
+        )
+        return bool(held > margin * still)
+
+    def _kinetic(self, y: np.ndarray) -> float:
+        return self.model.values("energies", y, self.p)["kinetic"]
+
+    def _turning(self, y: np.ndarray, orbit: float) -> np.ndarray:
+        """A state at rest in this gap whose orbit alone has momentum."""
+        state = np.zeros(len(self.model.state))
+        state[[0, 2]] = y[0], orbit
+        return state
+
+    def energy(self, y: np.ndarray) -> float:
+        """Mechanical energy over m v0^2."""
+        work = sum(y[y.size - len(self.model.works) :])
+        return float(sum(self.model.values(self.model.escape, y, self.p).values()) + work)
+
+    def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
+        """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
+        momentum = self._momentum(y)
+        if self._known is None or (self._known[0] != momentum and not self.theorem):
+            self._known = (momentum, self._search(y))
+        return self._known[1]
+
+    def _momentum(self, y: np.ndarray) -> float:
+        """Angular momentum as the search sees it; where it is conserved the value does not matter."""
+        return 0.0 if self.theorem else self.model.values("angular_momentum", y, self.p)["angular_momentum"]
+
+    def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
+        """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).
+
+        The arm is short by x/r of r/2, so |dL| = (x/r) |dJ|. J can still change by what keeps it from rigid rotation,
+        and while the doublet breathes by the change of the rigid share. Energy and barrier move by omega dL each,
+        where omega L/2 is the rigid rotation's energy.
+        """
+        if self.theorem:
+            return 0.0
+        orbit = y[list(self.model.state).index("orbit")]
+        rigid = self._rigid(y, float(y[0]))
+        change, reach = abs(orbit - rigid), float(y[0])
+        if not phase.resting:
+            change += self._rigid(y, barrier) - self._rigid(y, 0.0)
+            reach = barrier
+        lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
+        energy = self.model.values("effective_potential", y, self.p)["energy"]
+        # first touch is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
+        whole = self._momentum(y) * self.model.values("start", y, self.p)["orbit"]
+        return float(4 * energy * max(orbit / rigid, 1.0) * lost / whole)
+
+    def _rigid(self, y: np.ndarray, gap: float) -> float:
+        """The orbit's momentum at a gap if all turns as one body with the angular momentum of `y`."""
+        return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbit"]
+
+    def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
+        states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
+        states[0] = gaps
+        both = np.asarray(self.model.function("effective_potential")(states, self.p).full())
+        slope: np.ndarray = both[1]
+        return slope
+
+    def _search(self, y: np.ndarray) -> tuple[Barrier, ...]:
+        """Local maxima from the sign of the slope on a grid in ln(gap), refined by bisection, heights by quadrature."""
+        end = self.groups.get("rupture_gap", 1.0)
+        contact = max(self.groups["elastic_gap"], self.groups["rough_gap"])
+        start = min(max(contact, 1e-6), 0.5)
+        inside = np.geomspace(start, 1.0, 81)
+        grid = np.unique(np.concatenate([inside, np.linspace(1.0, end, 81)])) if end > 1 else inside
+        slope = self._slope(grid, y)
+        tops = [self._root(grid[k], grid[k + 1], y) for k in range(grid.size - 1) if slope[k] > 0 >= slope[k + 1]]
+        if slope[-1] > 0:
+            tops.append(float(grid[-1]))
+        at_touch = np.array([1.0, *y[1:]])
+        base = self.model.values("effective_potential", at_touch, self.p)["energy"]
+        found = [Barrier(top, base + self._rise(top, y)) for top in tops]
+        highest_after: list[Barrier] = []
+        for barrier in reversed(found):
+            if not highest_after or barrier.height > highest_after[-1].height:
+                highest_after.append(barrier)
+        return tuple(reversed(highest_after))
+
+    def _root(self, low: float, high: float, y: np.ndarray) -> float:
+        """Where the slope turns negative, by repeated division."""
+        for _ in range(3):
+            parts = np.linspace(low, high, 201)
+            slope = self._slope(parts, y)
+            last = int(np.argmax(slope[1:] <= 0))
+            low, high = parts[last], parts[last + 1]
+        # over 1e-7 of the bracket the slope is straight
+        return float(low + (high - low) * slope[last] / (slope[last] - slope[last + 1]))
+
+    def _rise(self, top: float, y: np.ndarray) -> float:
+        """Effective potential at `top` less that at first touch, by Gauss-Legendre panels in ln(gap)."""
+        edges = np.linspace(0.0, np.log(top), 2 + int(8 * abs(np.log(top))))
+        return float(np.sum(panels(lambda logs: self._slope(np.exp(logs), y) * np.exp(logs), edges)))

@@ -1,0 +1,82 @@
+"""Head-on with a film alone: its momentum integral decides."""
+
+from __future__ import annotations
+
+import numpy as np
+from casadi import SX, Function
+
+from ..host.thread_caches import own_cache
+from ..model.model import Model
+from ..model.phases import CLOSING, Phase
+from .base import SAFETY
+from .quadrature import panels
+
+
+class FilmProof:
+    """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
+
+    theorem = True
+    watches: str | None = None
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p = model, p
+        groups = dict(zip(model.groups, p, strict=True))
+        self.stokes = groups["stokes"]
+        self.contact = max(groups["elastic_gap"], groups["rough_gap"])
+        self.glass = groups["glass_number"]
+        self.margin = SAFETY * rtol
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return None
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        gap, opening = float(y[0]), float(y[1])
+        if phase.resting:
+            return True
+        if phase.motion != CLOSING:
+            return self.held(gap, opening)
+        # closing: neither the solids nor the glass pressure are met before the film stops the motion
+        grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
+        speed = self.slowed(-opening, grid)
+        if speed[-1] > -self.margin:
+            return False
+        # along a panel the speed falls and the pressure per speed rises: its ends bound the pressure from above
+        return self.clear(grid[1:], np.maximum(speed[:-1], 0.0))
+
+    def held(self, gap: float, opening: float) -> bool:
+        """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""
+        if opening == 0.0:
+            return True  # at rest nothing moves it
+        loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
+        return bool(opening - loss < -self.margin)
+
+    def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
+        """Closing speed along a falling gap; losses are negative there. Below zero: it has been stopped before."""
+        found: np.ndarray = speed + self._momentum_loss(grid)
+        return found
+
+    def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
+        """Whether no glass pressure is met at these gaps and closing speeds."""
+        beside = np.zeros((len(self.model.state) - 2, gaps.size))  # what moves across the line of centres
+        clearance = np.asarray(_glass(self.model)(np.vstack([gaps, -speeds, beside]), self.p).full())
+        return bool(np.min(clearance) > self.margin * self.glass)
+
+    def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
+        """Loss of u along a path of gaps, cumulative."""
+        losses: np.ndarray = np.concatenate([[0.0], np.cumsum(panels(self._resistance_at, grid))]) / self.stokes
+        return losses
+
+    def _resistance_at(self, gaps: np.ndarray) -> np.ndarray:
+        return np.asarray(_resistance(self.model)(gaps.reshape(1, -1), self.p).full())
+
+
+@own_cache(64)
+def _glass(model: Model) -> Function:
+    return Function("glass", [model.column, model.parameters], [model("events")["glass"]])
+
+
+@own_cache(64)
+def _resistance(model: Model) -> Function:
+    gap = SX.sym("gap")
+    more = model.extra("film", "resistance")
+    return Function("resistance", [gap, model.parameters], [model.laws.film.resistance(gap, *more)])

@@ -1,0 +1,33 @@
+"""Turning on strings: they outweigh the centrifugal force for good, and the film stops every rebound."""
+
+from __future__ import annotations
+
+import numpy as np
+from casadi import SX, Function
+
+from ..host.thread_caches import own_cache
+from ..model.model import Model
+from ..model.phases import Phase, tethered_margin
+from .base import BEYOND, SAFETY
+
+
+class TetherProof:
+    """Strings that turn, a film and no bridge: all but lubrication pulls inward for good."""
+
+    theorem = True
+    watches: str | None = "tethered"
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p, self.rtol = model, p, rtol
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return (SAFETY + BEYOND) * self.rtol
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        return float(_tethered(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0
+
+
+@own_cache(64)
+def _tethered(model: Model) -> Function:
+    margin = SX.sym("margin")
+    return Function("tethered", [model.column, model.parameters, margin], [tethered_margin(model, margin)])

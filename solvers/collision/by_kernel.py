@@ -1,0 +1,160 @@
+"""One collision by the kernel, as `collide` shows it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engines.taylor.call import Impacts
+from ..engines.taylor.record import Recorded, Steps, recorded
+from ..model.cohesion import generalised_centrifugal
+from ..model.dimensionless import Numbers
+from ..model.model import choose, load
+from ..model.phases import CLOSING, OPENING, Phase
+from ..scene.scene import Scene
+from ..settings import STEPS
+from .result import Collision, Energy, Event
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..engines.casadi.trajectory import Stretch
+
+_OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+# In the order of runtime/queue.h; a stop at a half turn or where the rotation reverses is among them.
+_KINDS = (
+    "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
+    "rotation reverses", "half turn",
+)  # fmt: skip
+TURNED, FELL_BACK = (_KINDS.index(kind) for kind in ("turned", "fell back"))
+
+
+def kind_of(answer: np.void) -> tuple[str, str | None]:
+    """Outcome of an answer, and the first criterion met."""
+    return _OUTCOMES[answer["outcome"]], _KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
+
+
+def collision(
+    scene: Scene, n: Numbers, rtol: float, ledger: bool = False, trajectory: bool = False, budget: int = STEPS
+) -> Collision | None:
+    """The collision by one call of the kernel; None if it hands it over, or there is none here.
+
+    Arguments:
+        ledger: with energies and the drift of angular momentum.
+        trajectory: with the flight, sampled from the steps' own series.
+    """
+    impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
+    told = recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
+    if told is None or told.answers["status"][0] > 1:
+        return None
+    energy = None if told.ledger is None else _energy(scene, n, told.ledger[0])
+    found = told.answers[0]
+    outcome, reversal = kind_of(found)
+    separated = bool(found["outcome"])
+    if energy is not None and separated and energy.is_open(rtol):
+        return None  # the flight is wrong, whatever else it looks like
+    happened = told.events[0, : found["events"]]
+
+    def shown(position: int, scale: float) -> float | None:
+        if not separated:
+            return None
+        return float(found["shown"][position]) * scale if n.oblique else 0.0
+
+    def partner_spin() -> float | None:
+        if scene.wall:
+            return 0.0 if separated else None
+        unequal = choose(scene, n.oblique, fold=True).structure.startswith("oblique_pair")
+        return shown(4 if unequal else 3, n.rate)
+
+    time = float(found["time"]) * n.time
+    return Collision(
+        outcome=outcome,
+        restitution=float(found["shown"][0]) if separated else 0.0,
+        tangential_restitution=shown(1, 1.0) if n.oblique else None,
+        rotation=float(found["turned"]) if separated else None,
+        contact_time=time if separated else None,
+        smallest_gap=float(found["smallest_gap"]) * n.length if separated else None,
+        final_rotation_rate=shown(2, n.rate),
+        final_spin=shown(3, n.rate),
+        final_spin_partner=None if scene.partner is None else partner_spin(),
+        stokes=n.stokes,
+        centrifugal=n.centrifugal,
+        generalised_centrifugal=generalised_centrifugal(scene, n),
+        capillary=n.capillary,
+        reynolds=n.reynolds,
+        speed=n.speed,
+        angle=n.angle,
+        reversal=reversal,
+        certified=bool(found["certified"]),
+        until=None if separated else time,
+        events=tuple(Event(_KINDS[int(each["kind"])], float(each["time"]) * n.time) for each in happened),
+        energy=energy,
+        angular_momentum_drift=None if told.ledger is None else _drift(scene, n, told.ledger[0]),
+        engine="taylor",
+        steps=int(found["steps"]),
+        scene=scene,
+        trajectory=_trajectory(scene, n, rtol, told, ledger) if trajectory else None,
+    )
+
+
+def _energy(scene: Scene, n: Numbers, book: np.void) -> Energy:
+    own: dict[str, float] = {name: float(book[name]) * n.energy for name in book.dtype.names or ()}
+    return Energy(
+        initial=own["initial"],
+        final=own["final"],
+        normal_lubrication=own["normal"],
+        tangential_lubrication=own["tangential"],
+        capillary=own["capillary"],
+        attraction=own["attraction"] if scene.attraction is not None else None,
+        dry_contact=own["dry"],
+        strings=own["lifted"] if scene.pendulum is not None else 0.0,
+    )
+
+
+def _drift(scene: Scene, n: Numbers, book: np.void) -> float | None:
+    """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
+    if scene.pendulum is not None or (scene.wall and n.oblique):
+        return None
+    return abs(float(book["momentum"]) - 1.0) if n.oblique else 0.0
+
+
+def _trajectory(scene: Scene, n: Numbers, rtol: float, told: Recorded, full: bool) -> xarray.Dataset:
+    from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
+
+    assert told.steps is not None
+    model = load(choose(scene, n.oblique, full=full, fold=True))
+    attrs = attributes(scene, _OUTCOMES[told.answers["outcome"][0]], "taylor", rtol)
+    return dataset(stretches(told.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs)
+
+
+def stretches(steps: Steps, states: int) -> list[Stretch]:
+    """The phases of one collision, each with its states at parts of its duration, the angle turned last; none at all
+    where first touch decides.
+
+    Arguments:
+        states: how many of the series are the model's own.
+    """
+    from ..engines.casadi.trajectory import Stretch
+
+    rows, found = steps.rows, []
+    if not rows.size:
+        return []  # decided at first touch
+    firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1))
+    for first, end in zip(firsts, np.append(firsts[1:], rows.size), strict=True):
+        own, row = Steps(rows[first:end], steps.turned), rows[first]
+        start = float(row["time"])
+        duration = float(rows[end - 1]["time"] + rows[end - 1]["length"]) - start
+        if duration == 0.0:
+            continue
+        phase = Phase(int(row["film"]), 0, CLOSING if row["closing"] else OPENING, bool(row["resting"]))
+        found.append(Stretch(str(phase), start, duration, _sampler(own, start, duration, states)))
+    return found
+
+
+def _sampler(steps: Steps, start: float, duration: float, states: int) -> Any:
+    def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        y = steps.states(start + parts * duration)
+        return y[:states], None if steps.turned is None else y[steps.turned]
+
+    return sample

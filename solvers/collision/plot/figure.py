@@ -1,0 +1,83 @@
+"""A collision as a figure: what it does over time, and the doublet at a few instants."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+from matplotlib.figure import Figure
+
+from ..result import Collision
+from ..text import name_of, prefix, reason, stopped
+from .frames import Frame, frames
+from .strip import draw_strip, strip_size
+from .time_panels import GREY, letter, micro, time_panels
+
+WIDTH = 9.0  # inches
+_ROW = 1.35  # inches a row of panels is high
+_STRIP = WIDTH - 0.5
+
+
+def draw(collision: Collision) -> Figure:
+    """Draw a collision.
+
+    Raises:
+        ValueError: it has no trajectory.
+    """
+    pictures = frames(collision)
+    data = collision.trajectory
+    duration = float(data["time"][-1]) if data is not None else 0.0
+    rows = 0 if duration <= 0 else 2 if not collision.angle else 4
+    across, high = strip_size(pictures)
+    strip = min(_STRIP * high / across, 2.0) + 0.45
+    figure = Figure(figsize=(WIDTH, 1.0 + strip + rows * _ROW + 0.75 * bool(rows)), layout="constrained")
+    grid = figure.add_gridspec(1 + bool(rows), 1, height_ratios=[rows * _ROW + 0.75, strip] if rows else [strip])
+    figure.suptitle(_title(collision), fontsize=11)
+    if rows:
+        time_panels(figure, grid[0], collision, rows, pictures)
+    axes = figure.add_subplot(grid[-1])
+    latest = duration or pictures[-1].time
+    draw_strip(axes, collision, pictures, [_caption(frame, collision, latest) for frame in pictures])
+    letter(axes, "c" if rows == 4 else "b" if rows else "", 0)
+    figure.supxlabel(_note(collision, pictures), fontsize=7.5, color=GREY)
+    return figure
+
+
+def _short(value: float) -> str:
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
+
+
+def _title(collision: Collision) -> str:
+    name = name_of(collision.scene).replace("$", r"\$")
+    numbers = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°, $e_n$ = {collision.restitution:.4g}"
+    parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
+    why = re.sub(r"(?<=\d )us\b", "µs", "; ".join(part for part in parts if part))
+    return f"{name}: {collision.outcome}   ({numbers})\n{why}"
+
+
+def _note(collision: Collision, pictures: Sequence[Frame]) -> str:
+    text = "Seen from above, to scale, film and liquid bridge in blue; arrows: velocities"
+    text += "; lines: marks that met at first touch."
+    if collision.scene.wall and collision.angle:
+        text += "\nBeside a wall no line of centres turns (ω = 0): the sphere slides and rolls along it."
+    if collision.contact_time == 0 or collision.until == 0:
+        text += "\nThe outcome is certain at first touch: there is no flight to follow."
+    elif pictures[-1].free:
+        strings = ", strings left out" if collision.scene.pendulum is not None else ""
+        text += f"\nLast picture: drawn on after rupture along straight lines{strings}."
+    elif collision.certified:
+        text += "\nThe outcome is certain from the last picture on: the flight was not followed further."
+    return text
+
+
+def _caption(frame: Frame, collision: Collision, latest: float) -> str:
+    factor, unit = prefix(latest)
+    time = "first touch" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
+    moved = ""
+    if collision.angle and frame.wall:
+        size, name = prefix(frame.slid)
+        moved = f"\nslid {_short(frame.slid / size)} {micro(name + 'm')}" if frame.slid else "\nslid 0"
+    elif collision.angle:
+        moved = f"\nβ = {_short(math.degrees(frame.angle))}°"
+    return f"{time}{moved}" + ("\napart" if frame.free else "")

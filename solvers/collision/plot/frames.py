@@ -1,0 +1,210 @@
+"""The doublet at a few instants, seen from above: where the spheres are, and how they have turned."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...errors import InputError
+from ...scene.scene import Scene
+from ..result import Collision
+
+_FLOWN = 5  # frames of a flight that shows something; else 3
+_APART = 0.8  # of R: how much further apart the last frame of a separated pair is
+
+Vector = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The doublet at one instant. SI units and radians; the centre of mass rests at the origin.
+
+    Arguments:
+        gap: between the surfaces.
+        angle: of the line of centres, counter-clockwise from that at first touch.
+        turned: angle by which the first sphere has turned.
+        radius: of the first sphere.
+        partner: radius of the second; infinite for a wall.
+        partner_turned: angle by which that has turned.
+        slid: distance by which a wall has moved past the sphere's centre.
+        share: part of the distance between the centres that the first is away from the centre of mass.
+        relative: velocity of the second sphere relative to the first; None where it is not shown.
+        free: after rupture, drawn on along straight lines.
+    """
+
+    time: float
+    gap: float
+    angle: float
+    turned: float
+    radius: float
+    relative: Vector | None = None
+    free: bool = False
+    partner: float = 0.0  # as the first, unless given
+    partner_turned: float | None = None
+    slid: float = 0.0
+    share: float = 0.5
+
+    @property
+    def wall(self) -> bool:
+        return math.isinf(self.partner)
+
+    @property
+    def radii(self) -> Vector:
+        return self.radius, self.partner or self.radius
+
+    @property
+    def distance(self) -> float:
+        """Distance between the centres, R_1 + R_2 + x; beside a wall, from the first's to the wall."""
+        return self.radius + self.gap if self.wall else sum(self.radii) + self.gap
+
+    @property
+    def centres(self) -> tuple[Vector, Vector]:
+        """Where the two are; of a wall, the point of it that is nearest."""
+        x, y = self.distance * math.cos(self.angle), self.distance * math.sin(self.angle)
+        if self.wall:
+            return (-x / 2, -y / 2), (x / 2, y / 2)
+        return (-self.share * x, -self.share * y), ((1 - self.share) * x, (1 - self.share) * y)
+
+    @property
+    def half_width(self) -> float:
+        if self.wall:
+            return abs(self.centres[0][0]) + self.radius
+        return max(abs(centre[0]) + radius for centre, radius in zip(self.centres, self.radii))
+
+    @property
+    def half_height(self) -> float:
+        if self.wall:
+            return abs(self.centres[0][1]) + 1.6 * self.radius
+        return max(abs(centre[1]) + radius for centre, radius in zip(self.centres, self.radii))
+
+
+def frames(collision: Collision) -> list[Frame]:
+    """Return instants equally spaced in time from first touch on, and for a separated pair one after rupture."""
+    flight = _Flight.of(collision)
+    still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.first.radius
+    instants = np.linspace(0.0, flight.time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
+    found = [flight.at(instant) for instant in (instants if flight.time[-1] > 0 else [0.0])]
+    found[0] = replace(found[0], relative=flight.approach)
+    if collision.outcome != "stick" and any(flight.parting):
+        found += [flight.apart(_wait(flight.last, *flight.parting))]
+    return found
+
+
+def sampled(collision: Collision, instants: Sequence[float]) -> list[Frame]:
+    """Return the given instants, s from first touch: straight lines before it and after rupture.
+
+    A stick has no instants after its end.
+    """
+    flight, found = _Flight.of(collision), []
+    for instant in instants:
+        if instant < 0:
+            found.append(flight.before(instant))
+        elif instant <= flight.time[-1]:
+            found.append(flight.at(instant))
+        elif collision.outcome != "stick":
+            found.append(flight.apart(instant - flight.time[-1]))
+    return found
+
+
+@dataclass(frozen=True)
+class _Flight:
+    """A trajectory, to be read at any instant."""
+
+    time: np.ndarray
+    gap: np.ndarray
+    rotation: np.ndarray
+    turned: tuple[np.ndarray, np.ndarray]  # of the two
+    slid: np.ndarray  # past a wall
+    first: Frame  # at first touch
+    approach: Vector  # relative velocity at first touch
+    parting: tuple[float, float]  # opening velocity and velocity across the line of centres at the end
+    spins: tuple[float, float]  # at the end
+
+    @classmethod
+    def of(cls, collision: Collision) -> _Flight:
+        data = collision.trajectory
+        if data is None:
+            raise InputError("trajectory", None, "trajectory=True in collide()", "is missing from the collision")
+        time, gap, rotation = (np.asarray(data[name], dtype=float) for name in ("time", "gap", "rotation"))
+        rate, spin = np.asarray(data["rotation_rate"]), np.asarray(data["spin"])
+        other = np.asarray(data["spin_partner"]) if "spin_partner" in data else spin
+        turned = orientation(time, rotation, rate, spin), orientation(time, rotation, rate, other)
+        first = _first(collision.scene, float(gap[0]))
+        sideways = collision.speed * math.tan(collision.angle)
+        approach = (-collision.speed, sideways * (1.0 if first.wall else first.distance / (first.distance - gap[0])))
+        sliding = np.asarray(data["sliding_velocity"]) if first.wall and collision.angle else np.zeros(time.size)
+        across = float(sliding[-1]) if first.wall else float(rate[-1]) * (first.distance - gap[0] + gap[-1])
+        parting = float(data["opening_velocity"][-1]), across
+        spins = float(spin[-1]), float(other[-1])
+        return cls(time, gap, rotation, turned, _integral(time, sliding), first, approach, parting, spins)
+
+    def at(self, instant: float) -> Frame:
+        known = (self.gap, self.rotation, *self.turned, self.slid)
+        gap, rotation, turned, other, slid = (float(np.interp(instant, self.time, values)) for values in known)
+        return replace(
+            self.first, time=float(instant), gap=gap, angle=rotation, turned=turned, partner_turned=other, slid=slid
+        )
+
+    @property
+    def last(self) -> Frame:
+        return self.at(float(self.time[-1]))
+
+    def before(self, instant: float) -> Frame:
+        """The pair on its way to first touch."""
+        first = self.at(0.0)
+        x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant * (not first.wall)
+        gap = math.hypot(x, y) - (first.distance - first.gap)
+        return replace(
+            first, time=float(instant), gap=gap, angle=math.atan2(y, x), turned=0.0, partner_turned=0.0,
+            slid=self.approach[1] * instant * first.wall, relative=self.approach, free=True,
+        )  # fmt: skip
+
+    def apart(self, wait: float) -> Frame:
+        """The pair on straight lines, a time after rupture."""
+        last, (opening, across) = self.last, self.parting
+        x, y = last.distance + opening * wait, across * wait * (not last.wall)
+        along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
+        relative = (opening * along[0] + across * side[0], opening * along[1] + across * side[1])
+        gap, angle = math.hypot(x, y) - (last.distance - last.gap), last.angle + math.atan2(y, x)
+        turned, other = last.turned + self.spins[0] * wait, (last.partner_turned or 0.0) + self.spins[1] * wait
+        return replace(
+            last, time=last.time + wait, gap=gap, angle=angle, turned=turned, partner_turned=other,
+            slid=last.slid + across * wait * last.wall, relative=relative, free=True,
+        )  # fmt: skip
+
+
+def _first(scene: Scene, gap: float) -> Frame:
+    """The two at first touch."""
+    radius = 2 * scene.particles.reduced_radius
+    if scene.wall:
+        return Frame(0.0, gap, 0.0, 0.0, radius, partner=math.inf, partner_turned=0.0)
+    radii, masses = scene.radius_ratio or 1.0, scene.mass_ratio or 1.0
+    return Frame(0.0, gap, 0.0, 0.0, radius, partner=radii * radius, share=masses / (1 + masses), partner_turned=0.0)
+
+
+def _wait(last: Frame, opening: float, across: float) -> float:
+    """Time after rupture until the pair is as far apart as shows: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
+    across *= not last.wall
+    speed = math.hypot(opening, across)
+    goal = last.distance + _APART * last.radius
+    lead = last.distance * opening
+    return (math.sqrt(lead**2 + speed**2 * (goal**2 - last.distance**2)) - lead) / speed**2
+
+
+def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarray, spin: np.ndarray) -> np.ndarray:
+    """Return the angle each sphere has turned, int xi dt: the doublet's own angle and the integral of the slip.
+
+    The angle of the doublet is integrated exactly; only the slip xi - omega, soon gone, is left to the trapezoids.
+    """
+    turned: np.ndarray = rotation + _integral(time, spin - rotation_rate)
+    return turned
+
+
+def _integral(time: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """From the first instant on, by trapezoids."""
+    pieces = 0.5 * (rate[1:] + rate[:-1]) * np.diff(time)
+    integral: np.ndarray = np.concatenate([[0.0], np.cumsum(pieces)])
+    return integral

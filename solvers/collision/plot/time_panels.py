@@ -1,0 +1,251 @@
+"""Gap, velocity and rotation of a collision over time.
+
+The approach takes a small part of a flight that rotates before it separates. Where it does, it has a column of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator, NullLocator
+
+from ...formatting import ticks
+from ..result import Collision
+from ..text import prefix, quantity
+from .frames import Frame
+from .strip import INK
+
+BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#6E6E6E"  # Okabe-Ito
+_ZOOM = 5.0  # the approach has a column of its own if the flight is longer than this many of it
+_NEXT = 2.6  # ... which reaches up to the next event, if that comes within this many of it
+_DECADE = 10.0  # gaps that span more are drawn on a logarithmic axis
+_LETTER = 0.078  # inches of width per character of an event's label
+_MANY, _LABELS = 50, 6  # lines and labels of events in a column, at most
+
+
+@dataclass(frozen=True)
+class Column:
+    """A stretch of time and its panels: gap, opening velocity and, oblique, rotation rates and angle."""
+
+    start: float
+    end: float
+    title: str
+    panels: Sequence[Axes]
+    width: float  # inches, about
+    shaded: float = 0.0  # up to here another column shows more
+
+    @property
+    def unit(self) -> tuple[float, str]:
+        factor, name = prefix(self.end)
+        return factor, micro(name + "s")
+
+    def shows(self, time: float) -> bool:
+        """True if an event at `time` is labelled here."""
+        return (self.shaded < time or not self.shaded) and time <= self.end
+
+
+def time_panels(figure: Figure, place: Any, collision: Collision, rows: int, pictures: Sequence[Frame]) -> None:
+    """Draw the trajectory into a cell of the figure's grid, `rows` panels high; `pictures` are marked on its angle."""
+    data = collision.trajectory
+    assert data is not None
+    time = np.asarray(data["time"])
+    duration, zoom = float(time[-1]), _zoom(collision, float(time[-1]))
+    grid = place.subgridspec(rows, 2 if zoom else 1, width_ratios=[1, 1.7] if zoom else [1])
+    panels = [[figure.add_subplot(grid[row, column]) for row in range(rows)] for column in range(grid.ncols)]
+    whole = Column(0.0, duration, "whole flight" if zoom else "", panels[-1], 5.0 if zoom else 8.0, zoom or 0.0)
+    columns = [Column(0.0, zoom, "approach", panels[0], 2.9), whole] if zoom else [whole]
+    for column in columns:
+        _fill(column, collision, rows, last=column is whole)
+        _events(column, collision)
+    _match(columns, time, np.asarray(data["opening_velocity"]))
+    for row, text in ((0, "a"), (2, "b")):
+        if row < rows:
+            letter(panels[0][row], text, -46)
+    if rows == 4 and not collision.scene.wall:
+        shown = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
+        whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
+
+
+def _zoom(collision: Collision, duration: float) -> float | None:
+    """Where the approach's own column ends, s; None if the flight is no longer than it shows."""
+    times = [event.time for event in collision.events if event.time > 0]
+    if not times or duration < _ZOOM * times[0]:
+        return None
+    end = times[0]
+    for later in times[1:]:
+        if later <= _NEXT * times[0]:
+            end = later
+    return end if duration > _ZOOM / 2 * end else None
+
+
+def _fill(column: Column, collision: Collision, rows: int, last: bool) -> None:
+    """Draw the curves of a column; the last one has the right margin to itself."""
+    data = collision.trajectory
+    assert data is not None
+    factor, unit = column.unit
+    time = np.asarray(data["time"]) / factor
+    _gap(column.panels[0], time, np.asarray(data["gap"]), collision, last)
+    velocity = column.panels[1]
+    size, name = prefix(float(np.max(np.abs(data["opening_velocity"]))))
+    velocity.plot(time, np.asarray(data["opening_velocity"]) / size, color=ORANGE)
+    velocity.axhline(0, color=GREY, linewidth=0.6)
+    velocity.set_ylabel(f"opening\nvelocity ({micro(name + 'm/s')})")
+    if rows == 4:
+        rates, angle = column.panels[2:]
+        pair, wall = "spin_partner" in data, collision.scene.wall
+        if not wall:
+            rates.plot(time, data["rotation_rate"], color=GREEN, label="ω, line of centres")
+        label = "ξ, sphere" if pair or wall else "ξ, each sphere"
+        rates.plot(time, data["spin"], color=PURPLE, linestyle=(0, (5, 1.5)), label=label)
+        if pair:
+            rates.plot(time, data["spin_partner"], color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner")
+        rates.axhline(0, color=GREY, linewidth=0.6)
+        rates.set_ylabel(f"rotation\nrate{'s' * (not wall)} (rad/s)")
+        if wall:  # no line of centres turns; the sphere's centre moves along
+            size, name = prefix(float(np.max(np.abs(data["sliding_velocity"]))))
+            angle.plot(time, np.asarray(data["sliding_velocity"]) / size, color=INK)
+            angle.set_ylabel(f"sliding\nvelocity ({micro(name + 'm/s')})")
+        else:
+            angle.plot(time, np.degrees(data["rotation"]), color=INK)
+            angle.set_ylabel("angle β (deg)")
+    margin = 0.02 * (column.end - column.start) / factor
+    for panel in column.panels:
+        after = 0.2 * margin if column.title == "approach" else margin
+        panel.set_xlim(column.start / factor - margin, column.end / factor + after)
+        panel.tick_params(labelbottom=panel is column.panels[-1], labelsize=8)
+        panel.yaxis.label.set_fontsize(8.5)
+        panel.spines[["top", "right"]].set_visible(False)
+        if panel.get_yscale() == "linear":
+            panel.yaxis.set_major_locator(MaxNLocator(4))
+        if column.shaded:
+            panel.axvspan(0, column.shaded / factor, color="#DDDDDD", linewidth=0, zorder=0)
+    column.panels[-1].set_xlabel(f"time{', ' * bool(column.title)}{column.title} ({unit})", fontsize=9)
+
+
+def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision, last: bool) -> None:
+    """The gap, and the gaps at which something changes."""
+    scene = collision.scene
+    factor, name = prefix(float(np.max(gap)))
+    film, rupture = scene.liquid.film_thickness, scene.rupture_gap
+    lines = {"$x_0 = x_f$": film} if math.isclose(film, rupture) else {"$x_0$": film, "$x_f$": rupture}
+    if collision.reversal == "rough":
+        lines["$x_b$"] = scene.particles.roughness
+    elif collision.reversal == "elastic":
+        lines["$x_r$"] = scene.elastic_length(collision.speed) or 0.0
+    far = rupture > 3 * np.max(gap)
+    if far:
+        del lines["$x_f$"]
+    axes.plot(time, gap / factor, color=BLUE)
+    everything = np.array([np.min(gap), np.max(gap), *lines.values()]) / factor
+    low, high = float(np.min(everything)), float(np.max(everything))
+    if low > 0 and high > _DECADE / 2 * low:
+        axes.set_yscale("log")
+        axes.set_ylim(low / 1.3, high * 1.35)
+        ticks.plain(axes.yaxis, (1, 2, 5) if high < 200 * low else (1,))
+        axes.yaxis.set_minor_locator(NullLocator())
+    else:
+        axes.set_ylim(0, 1.2 * high)
+    for text, value in lines.items():
+        axes.axhline(value / factor, color=BLUE, linewidth=0.8, linestyle=":")
+        axes.annotate(
+            text, (1, value / factor), (3, 0), xycoords=axes.get_yaxis_transform(), textcoords="offset points",
+            color=BLUE, fontsize=8, va="center",
+        )  # fmt: skip
+    if far and last:  # in the margin, where no curve comes
+        axes.annotate(
+            f"$x_f$ ↑\n{written(rupture, 'm')}", (1, 1), (3, 2), xycoords="axes fraction",
+            textcoords="offset points", color=BLUE, fontsize=8, va="bottom",
+        )  # fmt: skip
+    axes.set_ylabel(f"gap ({micro(name + 'm')})")
+
+
+def _events(column: Column, collision: Collision) -> None:
+    """Lines through all panels, and labels above, higher where they would overlap."""
+    factor, _ = column.unit
+    span = (column.end - column.start) * 1.04
+    marks = [(event.time, event.kind) for event in collision.events]
+    if collision.outcome == "stick" and collision.until is not None and collision.certified:
+        marks.append((collision.until, "proved to stick"))
+    lines = [time for time, _ in marks if time <= column.end * (1 + 1e-9)]
+    if len(lines) > _MANY:  # of a chatter, one per place
+        lines = list({round(200 * time / span): time for time in lines}.values())
+    for time in lines:
+        for panel in column.panels:
+            panel.axvline(time / factor, color=GREY, linewidth=0.8, linestyle="--", zorder=1)
+    taken: list[float] = []  # right end of the last label on each level, inches
+    shown, near = [mark for mark in marks if column.shows(mark[0])], 0.02 * span
+    while len(_grouped(shown, near)) > _LABELS:
+        near *= 2
+    for time, text in _grouped(shown, near):
+        at = (time - column.start + 0.02 * span) / span * column.width
+        size = _LETTER * len(text)
+        side = "left" if at < 0.5 * column.width else "right"
+        left = at if side == "left" else at - size
+        level = next((k for k, end in enumerate(taken) if end < left), len(taken))
+        taken[level:] = [left + size + 0.08, *taken[level + 1 :]]
+        column.panels[0].annotate(
+            text, (time / factor, 1), (0, 3 + 10 * level), xycoords=column.panels[0].get_xaxis_transform(),
+            textcoords="offset points", ha=side, va="bottom", fontsize=8, color=INK,
+        )  # fmt: skip
+
+
+def _grouped(marks: Sequence[tuple[float, str]], near: float) -> list[tuple[float, str]]:
+    """Events that fall on one spot share a label: what they are, and how often."""
+    groups: list[tuple[float, list[str]]] = []
+    for time, kind in marks:
+        if groups and time - groups[-1][0] < near:
+            groups[-1][1].append(kind)
+        else:
+            groups.append((time, [kind]))
+    labels = []
+    for time, kinds in groups:
+        counts = {kind: kinds.count(kind) for kind in kinds}
+        labels.append((time, ", ".join(kind + (f" (x{count})" if count > 1 else "") for kind, count in counts.items())))
+    return labels
+
+
+def _match(columns: Sequence[Column], time: np.ndarray, velocity: np.ndarray) -> None:
+    """One scale for both columns, but the velocity after the approach has its own: it is often much smaller."""
+    if len(columns[0].panels) > 2:
+        columns[-1].panels[2].legend(fontsize=7.5, frameon=False, loc="best")
+    if len(columns) == 1:
+        return
+    zoomed, whole = columns
+    for row, panel in enumerate(zoomed.panels):
+        if row == 3:  # the angle has its own scale in each, too
+            turned = np.asarray(panel.lines[0].get_ydata())[time <= zoomed.end * (1 + 1e-9)]
+            panel.set_ylim(-0.08 * turned.max(), 1.12 * turned.max())
+        elif row != 1:
+            whole.panels[row].sharey(panel)
+            whole.panels[row].tick_params(labelleft=False)
+        whole.panels[row].set_ylabel("")
+    later = velocity[time >= whole.shaded]
+    scale = prefix(float(np.max(np.abs(velocity))))[0]
+    low, high = min(float(np.min(later)), 0.0) / scale, max(float(np.max(later)), 0.0) / scale
+    room = 0.15 * (high - low) or 1.0
+    whole.panels[1].set_ylim(low - room, high + room)
+
+
+def letter(axes: Axes, text: str, offset: float) -> None:
+    """Panel letter at the upper left."""
+    axes.annotate(
+        f"({text})" if text else "", (0, 1), (offset, 2), xycoords="axes fraction", textcoords="offset points",
+        fontweight="bold", fontsize=10, ha="left", va="bottom",
+    )  # fmt: skip
+
+
+def micro(unit: str) -> str:
+    """The unit with a Greek letter for u."""
+    return "µ" + unit[1:] if unit.startswith("u") else unit
+
+
+def written(value: float, unit: str) -> str:
+    """A quantity as it is written in a figure."""
+    number, _, name = quantity(value, unit).partition(" ")
+    return f"{number} {micro(name)}"

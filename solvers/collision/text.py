@@ -1,0 +1,259 @@
+"""A collision as a short table for a person: plain ASCII but for the scene's own name, at most 88 columns."""
+
+from __future__ import annotations
+
+import math
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+from .result import Collision, Energy, Event
+
+if TYPE_CHECKING:
+    from ..scene.scene import Scene
+
+WIDTH = 88
+CUT_OFFS = {
+    "half turn": "half a turn, the strings cross",
+    "rotation reverses": "the strings turn the rotation back",
+}
+CRITERIA = {
+    "glass": "reversed by the glass criterion, the liquid's own pressure",
+    "elastic": "reversed by the elastic criterion, the spheres' deformation",
+    "rough": "reversed by contact of the surfaces' roughness",
+}
+_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+_MANY = 40  # events: more are rebound after rebound
+_LABEL = 24  # columns of the names on the left
+_FIRST, _LAST = 9, 3  # events shown of a flight that has more
+_SCALE = 100.0  # a ledger whose terms exceed the initial energy by more than this is not given in percent of it
+
+
+def prefix(size: float) -> tuple[float, str]:
+    """Return (factor, prefix) under which a quantity of this size is written: 2e-5 -> (1e-6, "u")."""
+    size = abs(size)
+    if size == 0 or not math.isfinite(size) or size < 1e-16:
+        return _PREFIXES[0]
+    # rounded to the digits shown, so that 999.96 us is 1 ms
+    size = float(f"{size:.4g}")
+    return next((entry for entry in _PREFIXES if size >= entry[0]), _PREFIXES[-1])
+
+
+def quantity(value: float | None, unit: str) -> str:
+    """Return a number with four digits and its prefixed unit; a dash for None."""
+    if value is None:
+        return "-"
+    factor, name = prefix(value)
+    return f"{value / factor:.4g} {name}{unit}"
+
+
+def plain(value: float | None, unit: str = "") -> str:
+    """Return a number with four digits, its unit as it stands; a dash for None."""
+    if value is None:
+        return "-"
+    text = f"{value:.4g}"
+    return f"{float(text):.0f} {unit}".rstrip() if 1e4 <= abs(value) < 1e7 else f"{text} {unit}".rstrip()
+
+
+def degrees(value: float | None) -> str:
+    """Return an angle given in rad in degrees; a dash for None."""
+    return plain(None if value is None else math.degrees(value), "deg")
+
+
+def name_of(scene: Scene, longest: int = 32) -> str:
+    """Return the scene's name in one line without control characters, shortened to `longest` characters."""
+    return _cut(scene.name, longest) or "unnamed scene"
+
+
+def _cut(text: str, longest: int) -> str:
+    """Return somebody's text in one line without control characters, not too long."""
+    text = " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def reason(collision: Collision) -> str:
+    """Return why the collision ended as it did, in words."""
+    if collision.outcome == "bounce":
+        return CRITERIA[collision.reversal or "glass"]
+    if collision.outcome != "stick":
+        return "escaped by centrifugal force, no criterion met"
+    return _stuck(collision)
+
+
+def stopped(collision: Collision) -> str:
+    """Return where the integration of a stick stopped because the outcome was certain; nothing if it did not."""
+    if not collision.until or _last(collision) in CUT_OFFS:
+        return ""
+    return f"integration stopped there, {quantity(collision.until, 's')} after first touch"
+
+
+def _last(collision: Collision) -> str:
+    return collision.events[-1].kind if collision.events else ""
+
+
+def _stuck(collision: Collision) -> str:
+    last, scene = _last(collision), collision.scene
+    if last in CUT_OFFS:
+        return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
+    when = "" if collision.until else " at first touch"
+    if not collision.certified and len(collision.events) > _MANY and last == "fell back":
+        return "decided, not proved: rebound after rebound, none higher than the one before"
+    if not collision.certified:
+        return f"decided{when}, not proved: energy below the barrier"
+    if scene.bridge is None and scene.pendulum is None and scene.attraction is None:
+        return f"proved{when}: the film stops it"
+    if scene.pendulum is not None and collision.angle > 0:
+        return f"proved{when}: the strings hold it for good (certificate)"
+    return f"proved{when}: energy below the barrier (certificate)"
+
+
+def table(collision: Collision) -> str:
+    """Return the short table that `wetdoublet collide` prints."""
+    lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
+    lines += [*_energy(collision.energy, collision.scene), "", *_numerics(collision)]
+    remarks = [line for said in collision.warnings for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene), *remarks])
+
+
+def _line(name: str, value: str, note: str = "") -> str:
+    text = f"{name:<{_LABEL}}{value}"
+    return f"{text:<{_LABEL + 14}} {note}" if note else text
+
+
+def _title(collision: Collision) -> list[str]:
+    groups = [f"St {plain(collision.stokes)}", f"angle {degrees(collision.angle)}"]
+    if collision.scene.bridge is not None:
+        groups += [f"Ce {plain(collision.centrifugal)}", f"Ca {plain(collision.capillary)}"]
+    if collision.scene.attraction is not None and collision.generalised_centrifugal is not None:
+        groups.append(f"Ce_F {plain(collision.generalised_centrifugal)}")
+    if collision.reynolds is not None:
+        groups.append(f"Re {plain(collision.reynolds)}")
+    numbers = ", ".join(groups)
+    return [f"{name_of(collision.scene, max(16, WIDTH - len(numbers) - 2))}: {numbers}"]
+
+
+def _outcome(collision: Collision) -> list[str]:
+    restitution = collision.restitution
+    gained = "> 1: rotation has given it energy" if restitution > 1 else ""
+    lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
+    if collision.outcome == "stick" and collision.reversal:
+        lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
+    if collision.outcome == "stick" and stopped(collision):
+        lines.append(_line("", stopped(collision)))
+    if collision.scene.partner is not None:
+        lines.append(_line("partner", _partner(collision.scene)))
+    speed = (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s")
+    lines += [
+        _line("approach speed", speed, "normal component"),
+        _line("restitution e_n", plain(restitution), gained),
+    ]
+    if collision.outcome == "stick":  # the rest is undefined
+        return lines
+    if collision.scene.wall:  # no line of centres turns
+        return [
+            *lines,
+            _line("tangential e_t", plain(collision.tangential_restitution), "of the velocity along the wall"),
+            _line("contact time", quantity(collision.contact_time, "s")),
+            _line("smallest gap", quantity(collision.smallest_gap, "m")),
+            *_spins(collision),
+        ]
+    rotation = collision.rotation
+    turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
+    return [
+        *lines,
+        _line("tangential e_t", plain(collision.tangential_restitution)),
+        _line("rotation", degrees(rotation), turns),
+        _line("contact time", quantity(collision.contact_time, "s")),
+        _line("smallest gap", quantity(collision.smallest_gap, "m")),
+        _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
+        *_spins(collision),
+    ]
+
+
+def _partner(scene: Scene) -> str:
+    if scene.wall:
+        return "a wall"
+    radius, mass = scene.radius_ratio, scene.mass_ratio
+    return f"a sphere of {plain(radius)} times the radius and {plain(mass)} times the mass"
+
+
+def _spins(collision: Collision) -> list[str]:
+    own = plain(collision.final_spin, "rad/s")
+    if collision.scene.partner is None:
+        return [_line("final spin", own, "xi, of each sphere")]
+    lines = [_line("final spin", own, "xi, of the sphere")]
+    if not collision.scene.wall:
+        lines.append(_line("", plain(collision.final_spin_partner, "rad/s"), "xi, of its partner"))
+    return lines
+
+
+def _events(events: tuple[Event, ...]) -> list[str]:
+    if not events:
+        return [_line("events", "none")]
+    lines = [_line("  " + event.kind, quantity(event.time, "s")) for event in events]
+    hidden = len(lines) - _FIRST - _LAST
+    if hidden > 1:
+        lines[_FIRST:-_LAST] = [_line("  ...", f"{hidden} more")]
+    return [_line("events", "at"), *lines]
+
+
+def _energy(energy: Energy | None, scene: Scene) -> list[str]:
+    if energy is None:
+        return [_line("energy", "-", "not integrated along")]
+    terms = [
+        ("kinetic, initial", energy.initial),
+        ("kinetic, final", energy.final),
+        ("normal lubrication", energy.normal_lubrication),
+        ("tangential lubrication", energy.tangential_lubrication),
+        ("dry contact", energy.dry_contact),
+    ]
+    if scene.bridge is not None:
+        terms.append(("capillary work", energy.capillary))
+    if energy.attraction is not None:
+        terms.append(("van der Waals work", energy.attraction))
+    if scene.pendulum is not None:
+        terms.append(("strings", energy.strings))
+    rows = [(name, _exponent(value, 3), value) for name, value in terms]
+    rows.append(("residual", _exponent(energy.residual, 1), energy.residual))
+    if max(abs(value) for _, value in terms) > _SCALE * energy.initial:
+        return [f"{'energy':<{_LABEL}}{'J':>11}", *(f"  {name:<{_LABEL - 2}}{text:>11}" for name, text, _ in rows)]
+    parts = [f"{100 * value / energy.initial:.3f}" for _, value in terms]
+    parts.append(_exponent(100 * energy.residual / energy.initial, 1))
+    lines = [f"{'energy':<{_LABEL}}{'J':>11}{'% of initial':>16}"]
+    return lines + [f"  {name:<{_LABEL - 2}}{text:>11}{part:>16}" for (name, text, _), part in zip(rows, parts)]
+
+
+def _exponent(value: float, digits: int) -> str:
+    return f"{value:.{digits}e}" if value else "0"
+
+
+def _model(scene: Scene) -> list[str]:
+    """Which variants of the equations were used, wrapped where they do not fit."""
+    used = {"arm": scene.model.arm, "tangential": scene.model.tangential, "glass": scene.model.glass}
+    used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
+    if scene.bridge is not None:
+        used["bridge"] = scene.bridge.law
+        used |= {"rupture": scene.bridge.rupture} if scene.bridge.rupture != "common" else {}
+    if scene.pendulum is not None:
+        used["strings"] = scene.pendulum.law
+    if scene.package is not None:  # laws of slots that no entry of a scene names
+        used |= {slot: scene.package.laws(slot)[0] for slot in scene.package.unnamed}
+        used |= {name.replace("_", " "): str(value) for name, value in scene.custom.items()}
+    lines = wrap(", ".join(f"{slot} {law}" for slot, law in used.items()), WIDTH - _LABEL, break_on_hyphens=False)
+    return [_line("model" if line == lines[0] else "", line) for line in lines]
+
+
+def _assumed(scene: Scene) -> list[str]:
+    """What of the scene is a guess."""
+    return [_cut(line, WIDTH) for line in scene.assumed]
+
+
+def _numerics(collision: Collision) -> list[str]:
+    drift = collision.angular_momentum_drift
+    lines = []
+    if drift is not None:
+        lines = [_line("angular momentum", _exponent(drift, 1), "relative drift")]
+    elif collision.scene.wall and collision.energy is not None:
+        lines = [_line("angular momentum", "-", "not conserved: the wall takes from it")]
+    elif collision.scene.pendulum is not None:
+        lines = [_line("angular momentum", "-", "not conserved: the strings take from it")]
+    return [*lines, _line("engine", f"{collision.engine}, {collision.steps} steps")]

@@ -1,0 +1,171 @@
+"""The command `wetdoublet`: commands are found by name, and every failure is one line and an exit status."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..errors import InputError, ModelWarning, WetDoubletError, cut, did_you_mean, one_line
+from ..host.interrupts import INTERRUPTED, handled
+from ..host.locks import sweep_temporary
+
+COMMANDS = (
+    "scenes", "collide", "sensitivity", "map", "boundary", "reproduce", "generate", "diff", "export", "verify", "bench",
+)  # fmt: skip
+"""Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
+
+_SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
+"""An option that a command may lack -> what it may have instead."""
+
+_LONGEST = 200  # characters of what the user has typed that are repeated
+BROKEN_PIPE = 141  # as a shell reports the signal
+
+
+class Commands(click.Group):
+    """A group that imports a command when it is called, and reports in one line what goes wrong."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names, in the order of the documentation."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return the command, imported now."""
+        if cmd_name not in COMMANDS:
+            return None
+        command = import_module(f".{cmd_name}", __package__).command
+        assert isinstance(command, click.Command)
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command that `args` begin with; InputError with the nearest if there is none."""
+        if args[0] not in COMMANDS and not args[0].startswith("-"):
+            hint = did_you_mean(args[0], COMMANDS)
+            raise InputError("COMMAND", args[0], ", ".join(COMMANDS), "is not known" + hint)
+        return super().resolve_command(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; an interrupt and a reader that has left are exit statuses, not errors."""
+        try:
+            with handled() as signals:
+                sweep_temporary()
+                super().invoke(ctx)
+            sys.stdout.flush()
+        except click.BadOptionUsage as error:
+            name = ctx.invoked_subcommand  # click does not say whose option it was
+            if error.ctx is None and name and (command := self.get_command(ctx, name)):
+                error.ctx = click.Context(command, parent=ctx, info_name=name)
+            raise
+        except KeyboardInterrupt as interrupt:
+            click.echo(str(interrupt) or ("terminated" if signals.terminated else "interrupted"), err=True)
+            ctx.exit(signals.status)
+        except BrokenPipeError:
+            # nothing can be written any more, not even what the interpreter flushes as it ends
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            ctx.exit(BROKEN_PIPE)
+
+    def main(  # type: ignore[override]  # click's overloads say what standalone_mode returns; this one never returns
+        self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
+    ) -> None:
+        """Run, and leave with the exit status."""
+        _settle_streams()
+        arguments = list(sys.argv[1:] if args is None else args)
+        extra["standalone_mode"] = False
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("always", ModelWarning)
+                warnings.showwarning = _remarks()
+                status = super().main(arguments, prog_name or "wetdoublet", **extra)
+        except WetDoubletError as error:
+            status = _report(str(error), error.exit_status, error, arguments)
+        except click.UsageError as error:
+            status = _report(_usage(error), 2, error, arguments)
+        except OSError as error:
+            line = f"{error.filename or 'output'}: {error.strerror or error}; accepted: a file that can be written"
+            status = _report(" ".join(line.split()), 1, error, arguments)
+        except click.Abort as error:
+            status = _report("interrupted", INTERRUPTED, error, arguments)
+        except Exception as error:  # noqa: BLE001 # a defect of ours is still one line; --debug shows the rest
+            line = " ".join(f"internal error: {type(error).__name__}: {error}".split())
+            status = _report(f"{line} (--debug shows where; please report it)", 1, error, arguments)
+        sys.exit(status or 0)
+
+
+def _settle_streams() -> None:
+    """Give closed standard streams an end that swallows, and keep matplotlib's remarks off standard error."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by the caller, as by >&-
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 # open to the end
+    # it warns of a home that cannot be written, where it works from a temporary folder, and of slow fonts
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+
+def _remarks() -> Callable[..., None]:
+    """What writes a warning as one line on standard error, each once a command, however many collisions it is of."""
+    told: set[str] = set()
+
+    def remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
+        said = "warning" if category is ModelWarning else category.__name__
+        line = f"{said}: {one_line(str(message))}"
+        if line not in told:
+            told.add(line)
+            click.echo(line, err=True)
+
+    return remark
+
+
+def _report(line: str, status: int, error: BaseException, arguments: list[str]) -> int:
+    if "--debug" in arguments:
+        traceback.print_exception(error)
+    click.echo(line, err=True)
+    return status
+
+
+def _usage(error: click.UsageError) -> str:
+    """Return click's complaint in our words: the option, the nearest known one, and what is accepted."""
+    ctx = error.ctx
+    options = [name for param in ctx.command.get_params(ctx) for name in param.opts if name[0] == "-"] if ctx else []
+    if isinstance(error, click.NoSuchOption):
+        instead = next((name for name in _SAME.get(error.option_name, ()) if name in options), None)
+        hint = f", did you mean {instead}?" if instead else did_you_mean(error.option_name, options)
+        return f"{cut(error.option_name, _LONGEST)}: no such option{hint}; accepted: {', '.join(options)}"
+    said = cut(" ".join(error.format_message().split()).removesuffix("."), _LONGEST)
+    if isinstance(error, click.BadOptionUsage):
+        return _misused(error.option_name, ctx)
+    if ctx and isinstance(ctx.command, click.Group):
+        return f"COMMAND: {said}; accepted: {', '.join(COMMANDS)}"
+    usage = " ".join(ctx.get_usage().split()).removeprefix("Usage: ") if ctx else "see --help"
+    return f"{ctx.info_name if ctx else 'wetdoublet'}: {said}; accepted: {usage}"
+
+
+def _misused(name: str, ctx: click.Context | None) -> str:
+    """Return what is wrong with an option that lacks its value, or has one that it does not take."""
+    params = ctx.command.get_params(ctx) if ctx else []
+    option = next((param for param in params if name in param.opts and isinstance(param, click.Option)), None)
+    if option is not None and option.is_flag:
+        return f"{name}: is given a value; accepted: {name} alone"
+    return f"{name}: its value is missing; accepted: {name} {(option and option.metavar) or 'VALUE'}"
+
+
+@click.command(cls=Commands, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="wetdoublet", prog_name="wetdoublet", message="%(prog)s %(version)s")
+def cli() -> None:
+    """Oblique collisions of two wet particles.
+
+    A SCENE is a TOML file or a preset's name (see `wetdoublet scenes`).
+    """
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the command line and exit."""
+    cli.main(args)

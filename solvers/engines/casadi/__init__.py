@@ -1,0 +1,1 @@
+"""The reference engines: CVODES and Rosenbrock, phases located and replayed."""

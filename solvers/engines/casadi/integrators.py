@@ -1,0 +1,276 @@
+"""CasADi integrators of a flow: a plain one over a given duration, and one that stops at the first event.
+
+Built once and cached; time is scaled so that every call runs over [0, 1] and the duration is a parameter.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
+
+from ...host.buffered import Buffered
+from ...host.captured_stderr import listening
+from ...host.interrupts import check
+from ...host.thread_caches import own_cache
+from ...model.phases import Flow, Watch, event_table, expressions, mechanical_energy
+from ...settings import STEPS
+
+_EXPECTED = "Event support is experimental"
+
+
+class IntegrationFailed(Exception):
+    """An integrator gave up; the message is CasADi's last line."""
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Keep CasADi's expected warning, and the pages it prints on a failure, out of the user's sight."""
+    with listening() as heard:
+        yield
+    for line in heard.getvalue().splitlines():
+        if line and _EXPECTED not in line:
+            sys.stderr.write(line + "\n")
+
+
+def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
+    check()
+    with listening() as heard:
+        try:
+            found = _buffered(function)(x0, p)
+        except (RuntimeError, SystemError) as error:
+            # CasADi wraps an interrupt that arrives while it works; CVODES swallows it and only prints it
+            said = str(error) + heard.getvalue()
+            if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+                raise KeyboardInterrupt from None
+            raise IntegrationFailed(_reason(str(error))) from None
+    if "KeyboardInterrupt" in heard.getvalue():  # CVODES has taken it for a step to be tried again
+        raise KeyboardInterrupt
+    if not np.isfinite(found).all():
+        raise IntegrationFailed("the state is not finite")
+    return found.reshape(function.size_out(0), order="F")
+
+
+@own_cache(1024)
+def _buffered(function: Function) -> Buffered:
+    return Buffered(function, (0, 2))  # x0 and p of an integrator
+
+
+def _reason(message: str) -> str:
+    last = message.strip().splitlines()[-1].strip()
+    return last.split(": ", 1)[-1] if ".cpp:" in last or ".hpp:" in last else last
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """Relative and absolute tolerance of an integrator."""
+
+    relative: float
+    absolute: float
+
+    @property
+    def offset(self) -> float:
+        """Where quadratures start: at 1 if the absolute tolerance is too small to control one that starts at 0."""
+        return 1.0 if self.absolute < 1e-4 * self.relative else 0.0
+
+    def options(self, plugin: str) -> dict[str, Any]:
+        """The plugin's options."""
+        options: dict[str, Any] = {
+            "reltol": self.relative,
+            "abstol": self.absolute,
+            "max_num_steps": STEPS,
+        }
+        return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
+
+
+# CVODES' global error at a given tolerance is 20 to 600 times Rosenbrock's (docs/performance.md): it is given a tighter
+# one, so that rtol means about the same for both.
+_CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
+
+
+def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
+    """What an integrator is told so that results come out at about `rtol`.
+
+    The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a
+    tiny part of x0, which must be resolved (unless strings pull harder); at very small angles without bridge or
+    strings, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both
+    in whole decades, so that integrators are shared.
+    """
+    centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
+    absolute = 1e-3
+    if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
+        absolute = 10.0 ** max(4 * math.floor(math.log10(centrifugal) / 4) - 3, -200)
+    if "weight" in groups:  # stiffness over string_ratio is at least 1
+        centrifugal -= groups["weight"] * groups["aspect"] / groups["string_ratio"]
+    if centrifugal > 1:
+        rtol = max(rtol * 10.0 ** -math.ceil(math.log10(centrifugal)), min(rtol, _TIGHTEST))
+    if plugin == "cvodes":
+        rtol = max(rtol * _CVODES_SHARE, _TIGHTEST)
+    return Tolerance(rtol, absolute * rtol)
+
+
+@dataclass(frozen=True)
+class Plain:
+    """A flow over a duration, without events. Call: (y, groups, duration) -> y at the end (columns on a grid)."""
+
+    function: Function
+    plugin: str
+
+    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
+        found = _call(self.function, y, np.append(p, duration))
+        return found.ravel() if found.shape[1] == 1 else found
+
+    @property
+    def steps(self) -> int:
+        """Steps of the last call."""
+        return _buffered(self.function).steps
+
+
+@own_cache(512)
+def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...] = (1.0,)) -> Plain:
+    """The integrator of a flow, with the solution at the parts of the duration that `grid` names."""
+    parts = expressions(flow)
+    duration = SX.sym("duration")
+    dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
+    with quiet():
+        return Plain(integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin)), plugin)
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Where a locating integrator stopped: the event's name (None: none yet), its time, the state, and whether the
+    event's function had already dipped below zero before (its true crossing is then earlier).
+    """
+
+    event: str | None
+    time: float
+    y: np.ndarray
+    dipped: bool
+
+
+@dataclass(frozen=True)
+class Locator:
+    """Integrates a flow to its first event, or to the end of the duration."""
+
+    function: Function
+    events: tuple[str, ...]
+    dips: tuple[int, ...]
+    values: Function  # event functions (y, parameters)
+    energy: Function
+
+    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> Stop:
+        parameters = np.concatenate([p, [duration, motion, level]])
+        riders = np.zeros(3 + len(self.dips))  # clock, active, number, passed minima
+        riders[1] = 1.0
+        found = _call(self.function, x0=np.concatenate([y, riders]), p=parameters).ravel()
+        after, (time, _, number) = found[: y.size], found[y.size : y.size + 3]
+        which = round(number) - 1
+        if which < 0:
+            return Stop(None, duration, after, False)
+        dipped = which >= len(self.events)
+        index = self.dips[which - len(self.events)] if dipped else which
+        return Stop(self.events[index], float(time), after, dipped)
+
+    @property
+    def steps(self) -> int:
+        """Steps of the last call; 0 where it is compiled."""
+        return _buffered(self.function).steps
+
+    def value(self, event: str, y: np.ndarray, p: np.ndarray, motion: int, level: float) -> float:
+        """An event's function at a state."""
+        column = self.values(y, np.concatenate([p, [1.0, motion, level]]))
+        return float(column[self.events.index(event)])
+
+
+@own_cache(256)
+def locator(flow: Flow, watch: Watch, tolerance: Tolerance, machine_code: bool = False) -> Locator:
+    """A Rosenbrock integrator that freezes at the first event.
+
+    A clock, a flag that freezes the flow, and the event's number ride along as states. CasADi looks at signs at the
+    ends of steps only, so a function that may dip below zero and return also stops the flow at its own minimum; the
+    stop holds only where the function is below zero there.
+
+    Arguments:
+        machine_code: compile it to C, which pays from some hundred collisions on.
+    """
+    parts, model = expressions(flow), flow.model
+    duration, motion, level = SX.sym("duration"), SX.sym("motion"), SX.sym("level")
+    table = event_table(flow, watch, motion, level)
+    minima = [k for k, event in enumerate(table) if event.dips]
+    falling = [event.function for event in table]
+    clock, active, number = SX.sym("clock"), SX.sym("active"), SX.sym("number")
+    # A minimum above zero is passed by, once a call: where a function creeps, its slope is rounding and would stop
+    # again and again.
+    passed = SX.sym("passed", len(minima))
+    turning = [
+        if_else(passed[position] > 0, 1, -jtimes(table[k].function, parts.variables, parts.rates))
+        for position, k in enumerate(minima)
+    ]
+    variables = vertcat(parts.variables, clock, active, number, passed)
+    parameters = vertcat(model.parameters, duration, motion, level)
+    index, time = SX.sym("index"), SX.sym("time")
+    holds = SX(1)
+    for position, event_index in enumerate(minima):
+        holds = if_else(index == len(table) + position, table[event_index].function < 0, holds)
+    passing = [if_else(index == len(table) + position, 1, passed[position]) for position in range(len(minima))]
+    after = vertcat(parts.variables, clock, active * (1 - holds), if_else(holds, index + 1, number), *passing)
+    none = SX(0, 1)
+    transition = Function(
+        "transition",
+        [index, time, variables, none, parameters, none],
+        [after, none],
+        ["index", "t", "x", "z", "p", "u"],
+        ["post_x", "post_z"],
+    )
+    dae = {
+        "x": variables,
+        "p": parameters,
+        "ode": vertcat(active * duration * parts.rates, active * duration, SX.zeros(2 + len(minima))),
+        "zero": vertcat(*falling, *turning),
+    }
+    options = tolerance.options("rosenbrock") | {
+        "transition": transition,
+        "event_tol": 1e-14,
+        "max_event_iter": 40,
+        "max_events": 10_000,
+    }
+    with quiet():
+        function = integrator("locate", "rosenbrock", dae, 0, 1, options)
+    if machine_code:
+        from ...host.compiled import compiled
+
+        function = compiled(function)
+    return Locator(
+        function,
+        tuple(event.name for event in table),
+        tuple(minima),
+        Function("events", [parts.variables, parameters], [vertcat(*falling)]),
+        Function("energy", [parts.variables, model.parameters], [mechanical_energy(flow)]),
+    )
+
+
+@own_cache(512)
+def landing(flow: Flow, watch: Watch, event: str) -> Function:
+    """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
+
+    dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is about zero, but its
+    derivative is the saltation, and with the second-order terms the Hessian is right as well.
+    """
+    parts, model = expressions(flow), flow.model
+    motion, level = SX.sym("motion"), SX.sym("level")
+    table = {each.name: each.function for each in event_table(flow, watch, motion, level)}
+    y, rates, g = parts.variables, parts.rates, table[event]
+    first = jtimes(g, y, rates)
+    second = jtimes(first, y, rates)
+    dt = -g / first - second * g**2 / (2 * first**3)
+    landed = y + rates * dt + jacobian(rates, y) @ rates * dt**2 / 2
+    parameters = vertcat(model.parameters, motion, level)
+    on = Function("g", [y, parameters], [g])
+    return Function("land", [y, parameters], [landed, dt, on(landed, parameters)])

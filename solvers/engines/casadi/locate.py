@@ -1,0 +1,367 @@
+"""Find the sequence of phases and events of a collision: a Rosenbrock flow per phase, frozen at its first event.
+
+What is decided by rule and not by an integrator is decided here: criteria already true on entry, the order of
+coincident ones, resting contact, the proof of a stick.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...certificates import OrbitalProof, Proof, proof_for
+from ...errors import ComputationError
+from ...model.model import Model
+from ...model.phases import CLOSING, OPENING, Flow, Phase, Watch
+from ...settings import CALL, STEPS
+from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, plain, tolerance
+
+FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
+LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from any boundary, for nothing gained
+REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
+MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
+CRITERIA = ("glass", "elastic", "rough")
+_NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
+_CHATTER = 100  # phases: as many are no approach and escape, but rebounds
+_STRONG = 1e4  # square root of a force over m v0^2/x0
+_LOOSER = 1e3  # times a tolerance that an integrator cannot meet
+
+
+@dataclass(frozen=True)
+class Step:
+    """One phase flown for a duration (x0/v0) to an event, and what is reported of it.
+
+    Arguments:
+        event: name of the event function to land on; None if the flight stops inside the phase.
+        kinds: events reported at its end, in order.
+        reverses: the solids reverse the motion at its end.
+        holds: the opening velocity is zero from here on, or until release.
+    """
+
+    phase: Phase
+    duration: float
+    event: str | None
+    kinds: tuple[str, ...]
+    reverses: bool = False
+    holds: bool = False
+
+
+@dataclass
+class Path:
+    """The located flight of a collision."""
+
+    model: Model
+    p: np.ndarray
+    watch: Watch
+    steps: list[Step] = field(default_factory=list)
+    separated: bool = False
+    certified: bool = False
+    ends: list[np.ndarray] = field(default_factory=list)  # state after each step, its reversal included
+    y: np.ndarray = field(default_factory=lambda: np.zeros(0))  # the last state, extras included
+    time: float = 0.0  # of the last state
+    smallest_gap: float = 1.0
+    extras: tuple[str, ...] = ()
+    dry_loss: float = 0.0  # taken by reversals and rests, over m v0^2
+
+    @property
+    def kinds(self) -> list[str]:
+        return [kind for step in self.steps for kind in step.kinds]
+
+    @property
+    def reversal(self) -> str | None:
+        """The first criterion met."""
+        return next((kind for kind in self.kinds if kind in CRITERIA), None)
+
+    @property
+    def outcome(self) -> str:
+        if not self.separated:
+            return "stick"
+        return "bounce" if self.reversal else "stick-rotate-separate"
+
+
+class Locate:
+    """Locates one collision; `run` returns its Path."""
+
+    def __init__(
+        self,
+        model: Model,
+        groups: dict[str, float],
+        rtol: float,
+        extras: tuple[str, ...] = (),
+        machine_code: bool = False,
+        steps: int = STEPS,
+    ) -> None:
+        rtol = min(rtol, LOOSEST)
+        self.model, self.rtol, self.machine_code = model, rtol, machine_code
+        self.tolerance = tolerance(rtol, "rosenbrock", groups)
+        self.p = model.group_values(groups)
+        self.groups = groups
+        self.proof: Proof = proof_for(model, self.p, rtol)
+        self.contact_gap = max(groups["elastic_gap"], groups["rough_gap"])
+        rupture = groups["rupture_gap"] if model.bridge else 1.0
+        more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
+        self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
+        own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
+        self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
+        works = self.proof.watches == "energy" or any(work in extras for work in model.works)
+        self.extras = tuple(name for name in extras if name not in model.works) + (model.works if works else ())
+        self.path = Path(model, self.p, self.watch, extras=self.extras)
+        self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
+        self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
+        self.spent, self.steps = 0, steps
+
+    def run(self) -> Path:
+        """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
+        if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
+            raise self._error("so oblique an impact turns within a rounding error of x0", "try a smaller angle")
+        while True:
+            if self._proved():
+                self._stop(Step(self.phase, 0.0, None, ()))
+                self.path.certified = self.proof.theorem
+                return self.path
+            if self._held_in_chatter():
+                return self.path
+            criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
+            if criterion:
+                self._reverse(criterion, 0.0)
+            elif self._fly():
+                return self.path
+            if self.path.separated:
+                return self.path
+
+    def _held_in_chatter(self) -> bool:
+        """Whether a doublet in long chatter is held by the momentum of its orbit as it is; it is then a stick."""
+        phases, proof = len(self.path.steps), self.proof
+        if phases < _CHATTER or phases % _NOW_AND_THEN or not isinstance(proof, OrbitalProof) or self.model.strings:
+            return False
+        if not (proof.holds(self.y) or proof.settles(self.y)):
+            return False
+        self._stop(Step(self.phase, 0.0, None, ()))
+        self.path.certified = proof.proves
+        return True
+
+    def _spend(self, steps: int) -> None:
+        """Count the steps of a call of an integrator."""
+        self.spent += max(steps, CALL)
+        if self.spent > self.steps:
+            phases = len(self.path.steps)
+            what = "this is chatter without end" if phases > _CHATTER else "it creeps beyond bounds"
+            raise self._error(
+                f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
+                f"{what}: try a larger --rtol, or another impact",
+            )
+
+    def _criterion_met(self) -> str | None:
+        """A criterion already true where a phase starts, by rule: glass, elastic, rough."""
+        values = self.model.values("events", self.y, self.p)
+        return next((kind for kind in CRITERIA if values[kind] <= 0), None)
+
+    def _proved(self) -> bool:
+        return self.proof.decided(self.y, self.phase)
+
+    def _level(self) -> float | None:
+        return self.proof.level(self.y, self.phase) if self.watch.certificate else None
+
+    def _stop(self, step: Step) -> None:
+        self.path.steps.append(step)
+        self.path.ends.append(self.y)
+
+    def _flow(self) -> Flow:
+        return Flow(self.model.choice, self.phase.region, self.extras)
+
+    def _fly(self) -> bool:
+        """Integrate to the next event and act on it; True if the flight is over."""
+        find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
+        flown, stretch = 0.0, self._first_stretch()
+        for _ in range(STRETCHES):
+            level = self._level()
+            stop = self._advance(find, stretch, -np.inf if level is None else level)
+            flown += stop.time
+            self.path.time += stop.time
+            self.y = self.path.y = stop.y
+            self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
+            if stop.event == "certified":
+                if self._proved():
+                    self._stop(Step(self.phase, flown, None, ()))
+                    self.path.certified = self.proof.theorem
+                    return True
+            elif stop.event is not None:
+                return self._act(stop.event, flown)
+            elif self._proved():
+                self._stop(Step(self.phase, flown, None, ()))
+                self.path.certified = self.proof.theorem
+                return True
+            else:
+                stretch *= GROWTH
+        raise self._error(
+            f"no event within {flown:.3g} x0/v0",
+            "it is within its tolerance of a boundary or creeps beyond bounds: try a smaller --rtol, or another impact",
+        )
+
+    def _first_stretch(self) -> float:
+        """No longer than 1e5 times what the force at hand takes to close the film: integrators start at a share."""
+        force = abs(self.model.values("inward_force", self.y, self.p)["inward_force"])
+        return FIRST_STRETCH * min(1.0, _STRONG / np.sqrt(force)) if force > 0 else FIRST_STRETCH
+
+    def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
+        # an unreachable level is a large negative number: infinities would spoil the integrator's arithmetic
+        level = max(level, -1e30)
+        try:
+            stop = find(self.y, self.p, stretch, self.phase.motion, level)
+            self._spend(find.steps)
+            if stop.dipped and stop.event:
+                stop = self._refined(find, stop, stop.event, level)
+            return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
+        except IntegrationFailed as error:
+            if self._loosened():
+                find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
+                return self._advance(find, stretch, level)
+            raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
+
+    def _loosened(self) -> bool:
+        """Go on with a looser tolerance, where it had been tightened for the start of a grazing flight.
+
+        Further on that may be below the rounding of what has become large.
+        """
+        if self.tolerance.relative >= self.rtol:
+            return False
+        looser = min(self.tolerance.relative * _LOOSER, self.rtol)
+        self.tolerance = Tolerance(looser, self.tolerance.absolute * looser / self.tolerance.relative)
+        return True
+
+    def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
+        """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
+
+        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. And whatever is
+        below zero where nothing was found was lost beside another function's minimum in the same step.
+        """
+        ahead = "contact" if self.phase.motion == CLOSING else "rupture"
+        crossed = [
+            self._refined(find, stop, name, level)
+            for name in (ahead, "film_edge", "tangential_edge", "half_turn")
+            if name in find.events and find.value(name, stop.y, self.p, self.phase.motion, level) < 0
+        ]
+        return min(crossed, key=lambda found: found.time, default=stop)
+
+    def _refined(self, find: Locator, stop: Stop, event: str, level: float) -> Stop:
+        """The crossing before a stop at which `event` is below zero: bisection with secant steps on a plain flow."""
+        fly = plain(self._flow(), "rosenbrock", self.tolerance)
+
+        def value(duration: float) -> tuple[float, np.ndarray]:
+            y = fly(self.y, self.p, duration)
+            self._spend(fly.steps)
+            return find.value(event, y, self.p, self.phase.motion, level), y
+
+        before, after, y_after = 0.0, stop.time, stop.y
+        g_after, g_before = find.value(event, stop.y, self.p, self.phase.motion, level), None
+        for count in range(80):
+            trial = 0.5 * (before + after)
+            if g_before is not None and count % 2:
+                trial = before + (after - before) * g_before / (g_before - g_after)
+            g, y = value(trial)
+            if g < 0:
+                after, g_after, y_after = trial, g, y
+            else:
+                before, g_before = trial, g
+            if after - before < 1e-12 * stop.time:
+                break
+        return Stop(event, after, y_after, False)
+
+    def _act(self, event: str, flown: float) -> bool:
+        """What an event does; True if it ends the flight."""
+        phase = self.phase
+        if event in ("glass", "contact"):
+            self._reverse("glass" if event == "glass" else self._contact_kind(), flown, event)
+            return False
+        if event == "turning":
+            kind = "turned" if phase.motion == CLOSING else "fell back"
+            self._next(Step(phase, flown, event, (kind,)), self._towards(-phase.motion))
+        elif event == "film_edge":
+            shear = 1 - phase.film if self.edge == 1.0 else phase.shear
+            self._next(Step(phase, flown, event, ("film edge",)), phase.with_(film=1 - phase.film, shear=shear))
+        elif event == "tangential_edge":
+            self._next(Step(phase, flown, event, ("tangential edge",)), phase.with_(shear=1 - phase.shear))
+        elif event == "release":
+            opening = self._opening(phase.with_(resting=False))
+            self._next(Step(phase, flown, event, ("released",)), opening)
+        elif event == "rupture":
+            self._stop(Step(phase, flown, event, ("rupture",)))
+            self.path.separated = True
+            return True
+        else:
+            self._stop(
+                Step(phase, flown, event, ({"half_turn": "half turn", "unwinding": "rotation reverses"}[event],))
+            )
+            return True
+        return False
+
+    def _next(self, step: Step, phase: Phase) -> None:
+        self._stop(step)
+        self.phase = phase
+
+    def _contact_kind(self) -> str:
+        elastic, rough = self.groups["elastic_gap"], self.groups["rough_gap"]
+        return "elastic" if elastic >= rough and elastic > 0 else "rough"
+
+    def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
+        """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures.
+
+        What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
+        """
+        at_touch = self.y[0] >= 1.0  # or so near that the gap has rounded to it
+        after = self.model.values("reversal", self.y, self.p)
+        self.path.dry_loss += self.model.values("reversal_loss", self.y, self.p)["dry_contact"]
+        self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
+        if at_touch and not self.model.bridge:
+            self.path.separated = True
+            self._next(Step(self.phase, flown, event, (kind, "rupture"), reverses=True), self._opening(self.phase))
+            return
+        kinds: tuple[str, ...] = (kind,)
+        inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
+        holds = inward > 0 and self._too_weak(after["opening"], inward)
+        if holds:
+            kinds += ("rests",)
+            self.path.dry_loss += float(self.y[1]) ** 2 / 2
+            self.y[1] = 0.0
+            phase = self.phase.with_(resting=True, motion=OPENING)
+        else:
+            phase = self._opening(self.phase)
+        self._next(Step(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
+
+    def _opening(self, phase: Phase) -> Phase:
+        """The phase that opens from here; from first touch, beyond the film at once."""
+        film = phase.film if self.y[0] != 1.0 or not self.model.edged else 0
+        shear = phase.shear if self.y[0] != self.edge else 0
+        return self._towards(OPENING, phase).with_(film=film, shear=shear)
+
+    def _towards(self, motion: int, phase: Phase | None = None) -> Phase:
+        """The phase, the current one unless given, going `motion`."""
+        cavitated = self.model.cavitates and motion == OPENING
+        return (phase or self.phase).with_(motion=motion, cavitated=cavitated)
+
+    def _too_weak(self, rebound: float, inward: float) -> bool:
+        """A rebound that decides nothing: slower than REST_SPEED, or rising by less than the tolerance of the gap.
+
+        Without drag it rises by u^2/(2 inward); what follows is chatter, a geometric series that dies in the same spot.
+        """
+        return rebound < REST_SPEED or rebound**2 / (2 * inward) < self.rtol * float(self.y[0])
+
+    def _error(self, message: str, advice: str) -> ComputationError:
+        state = dict(zip(self.model.state, map(float, self.y), strict=False))
+        return ComputationError(message, phase=str(self.phase), time=self.path.time, state=state, advice=advice)
+
+
+def locate(
+    model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = (), machine_code: bool = False
+) -> Path:
+    """Phases and events of a collision.
+
+    Arguments:
+        extras: what else to integrate along (`rotation`); the path's last state carries it.
+        machine_code: use integrators compiled to C.
+
+    Raises:
+        ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
+    """
+    return Locate(model, groups, rtol, extras, machine_code).run()

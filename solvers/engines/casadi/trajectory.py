@@ -1,0 +1,131 @@
+"""A flight as an xarray Dataset: gap, velocities, rates and angle over time, with units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+
+import numpy as np
+import xarray as xr
+
+from ...errors import ComputationError
+from ...model.dimensionless import Numbers
+from ...model.model import Model
+from ...scene.scene import Scene
+from .integrators import IntegrationFailed, Tolerance, plain
+from .replay import Flown, Piece
+
+# Per phase, crowded towards its ends, where the fast transients are; the integrator's steps do not depend on them.
+_POINTS = 64
+_PART = np.linspace(0, 1, _POINTS + 1)
+_GRID = _PART**3 * (10 - 15 * _PART + 6 * _PART**2)
+
+_VARIABLES: dict[str, tuple[str, str]] = {
+    "gap": ("m", "gap between the surfaces"),
+    "opening_velocity": ("m/s", "opening velocity, negative on approach"),
+    "rotation_rate": ("rad/s", "angular velocity of the line of centres"),
+    "spin": ("rad/s", "angular velocity of each sphere (of a pair: the first) about its own centre"),
+    "spin_partner": ("rad/s", "angular velocity of the partner about its own centre"),
+    "sliding_velocity": ("m/s", "tangential velocity of the sphere's centre and the wall past each other"),
+    "rotation": ("rad", "angle turned by the line of centres"),
+}
+
+
+def attributes(scene: Scene, outcome: str, engine: str, rtol: float) -> dict[str, str | float]:
+    """What a file of the flight has to say of where it comes from: enough to compute it again."""
+    release = version("wetdoublet")
+    return {
+        "title": f"Flight of an oblique wet collision: {scene.name or 'unnamed scene'}",
+        "source": f"wetdoublet {release}",
+        "scene": scene.to_toml(),
+        "outcome": outcome,
+        "engine": engine,
+        "rtol": rtol,
+        "version": release,
+    }
+
+
+Sample = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray | None]]
+"""Parts of a phase's duration, 0 to 1 -> states as columns, and the angle turned where it is known (rad)."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A flown phase: its name, start and duration (x0/v0), and its states."""
+
+    name: str
+    time: float
+    duration: float
+    sample: Sample
+
+
+def stretch(piece: Piece, model: Model, flown: Flown, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
+    """A piece of a chain, which is flown again through the times asked for; ComputationError where that fails."""
+    size, names = len(model.state), (*model.state, *flown.extras)
+    offset = flown.offset if "rotation" in flown.extras else 0.0
+
+    def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        try:
+            inside = plain(piece.flow, plugin, tolerance, tuple(parts[1:]))(piece.start, p, piece.duration)
+        except IntegrationFailed as failure:  # the located flight, by smaller steps, may have got through
+            state = dict(zip(model.state, piece.start.tolist(), strict=False))
+            message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
+            raise ComputationError(message, piece.name, piece.time, state, advice) from None
+        y = np.column_stack([piece.start, inside])
+        return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
+
+    return Stretch(piece.name, piece.time, piece.duration, sample)
+
+
+def dataset(
+    flight: Sequence[Stretch],
+    model: Model,
+    n: Numbers,
+    first: np.ndarray,
+    attrs: Mapping[str, str | float] | None = None,
+) -> xr.Dataset:
+    """A flight on a grid of _POINTS per phase; an event's time stands twice, before and after it.
+
+    Arguments:
+        first: the state at first touch, shown alone where all is decided there.
+    """
+    p, size = model.group_values(n.groups), len(model.state)
+    times: list[np.ndarray] = []
+    columns: list[np.ndarray] = []
+    angles: list[np.ndarray] = []
+    phases: list[str] = []
+    for one in flight:
+        states, angle = one.sample(_GRID)
+        times.append(one.time + one.duration * _GRID)
+        columns.append(states)
+        angles.append(np.zeros(_GRID.size) if angle is None else angle)
+        phases += [one.name] * _GRID.size
+    if not columns:  # decided at first touch
+        times, columns, phases = [np.zeros(1)], [first[:size, None]], ["first touch"]
+        angles = [np.zeros(1)]
+    y, time = np.hstack(columns), np.concatenate(times) * n.time
+    zero = np.zeros(time.size)
+    values = {"gap": y[0] * n.length, "opening_velocity": y[1] * n.speed}
+    if model.oblique:
+        outputs = dict(zip(model.names("outputs"), np.asarray(model.function("outputs")(y, p).full()), strict=True))
+        values |= {
+            "rotation_rate": outputs["final_rotation_rate"] * n.rate,
+            "spin": outputs["final_spin"] * n.rate,
+            "rotation": np.concatenate(angles),
+        }
+        if "final_spin_partner" in outputs:
+            values["spin_partner"] = outputs["final_spin_partner"] * n.rate
+        if model.wall:
+            values["sliding_velocity"] = outputs["tangential_restitution"] * n.speed * n.groups["obliquity"]
+    else:
+        values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
+    variables = {
+        name: ("time", value, {"units": _VARIABLES[name][0], "long_name": _VARIABLES[name][1]})
+        for name, value in values.items()
+    }
+    coordinates = {
+        "time": ("time", time, {"units": "s", "long_name": "time since first touch"}),
+        "phase": ("time", np.array(phases)),
+    }
+    return xr.Dataset(variables, coordinates, dict(attrs or {}))

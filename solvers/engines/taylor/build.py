@@ -1,0 +1,211 @@
+"""A kernel as a loaded library: source put together from emitted headers, compiled once into the user's cache."""
+
+from __future__ import annotations
+
+import ctypes
+import platform
+import threading
+from collections.abc import Collection
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...host.compiler import CannotCompile, compiler, key, more_flags, stop
+from ...host.compiler import library as compiled
+from ...host.cores import usable_cores
+from ...host.remarks import say_once
+from ...host.thread_caches import once
+from ...host.user_cache import has, kept, loaded
+from ...model.model import Choice, choose
+from .headers import headers, tangents
+from .layout import MOST_STEPS, RESULTS, declarations
+
+if TYPE_CHECKING:
+    from ...scene.scene import Scene
+
+# No -ffast-math: NaN and infinity are compared with. Products may be fused with sums; sqrt sets no errno.
+FLAGS = (
+    "-O2",
+    "-funroll-loops",
+    "-march=native",
+    "-fno-math-errno",
+    "-ffp-contract=fast",
+    "-fPIC",
+    "-shared",
+    "-std=gnu11",
+    "-w",
+)
+# For a few collisions: compiled in half the time, the same arithmetic, some 5 % slower (docs/kernel.md).
+FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
+_RUNTIME = Path(__file__).resolve().parent / "runtime"
+_DRIVER = (
+    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h",
+    "meeting.h", "carry.h", "tape.h", "quantities.h", "back.h", "near.h", "crawl.h", "trajectory.h", "lanes.h",
+)  # fmt: skip
+LARGEST_ORDER = 16
+_NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What a kernel is compiled for.
+
+    Arguments:
+        order: of the series, 8 to LARGEST_ORDER.
+        rotation: the angle turned is integrated along where it is no state.
+        own_rupture: the bridge ruptures where its own law says.
+        gradients: derivatives by the groups are carried along.
+        backward: those of the restitution alone are taken back along the flight instead.
+        few: few collisions will be asked of it: compiled sooner.
+        ledger: what the forces take is integrated along; the structure must keep the spin.
+        trajectory: every step is written as it was taken.
+        certificate: sticks are proved; without, flights are given up after a time (for what a proof is worth).
+    """
+
+    choice: Choice
+    order: int
+    rotation: bool = False
+    own_rupture: bool = False
+    gradients: bool = False
+    backward: bool = False
+    few: bool = False
+    ledger: bool = False
+    trajectory: bool = False
+    certificate: bool = True
+
+
+@cache
+def lanes() -> int:
+    """Doubles side by side that this machine's registers hold."""
+    flags = _processor()
+    return next((count for count, flag in _NEEDED.items() if flag in flags), 1)
+
+
+@cache
+def _processor() -> frozenset[str]:
+    """What the processor can do, as the system says it; a machine that is not asked about has SSE2 or its like."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        lines = []
+    for line in lines:
+        name, _, value = line.partition(":")
+        if name.strip() in ("flags", "Features"):
+            return frozenset(value.split())
+    return frozenset({"sse2"})
+
+
+def knows(scene: Scene) -> bool:
+    """Whether the kernel can collide a scene here: its laws have recurrences, and there is a compiler."""
+    return compiler() is not None and all(headers(choose(scene, oblique, fold=True)) for oblique in (True, False))
+
+
+def source(variant: Variant, emitted: tuple[str, ...]) -> str:
+    """C source of a kernel, from its emitted headers."""
+    slots = dict(variant.choice.laws)
+    settings = {
+        "LANES": lanes(),
+        "ORDER": variant.order,
+        "TERMS": variant.order + 1,
+        "WITH_ROTATION": int(variant.rotation),
+        "CERTIFICATE": int(variant.certificate),
+        "OWN_RUPTURE": int(variant.own_rupture),
+        "GRADIENTS": int(variant.gradients),
+        "BACKWARD": int(variant.backward),
+        "LIBRARY_LAWS": int(variant.choice.package is None),
+        "WITH_LEDGER": int(variant.ledger),
+        "WITH_TRAJECTORY": int(variant.trajectory),
+        "SURFACE_ARM": int(slots.get("arm") == "surface"),
+        "RESULTS": 1 if variant.backward else RESULTS,
+        "MOST_STEPS": MOST_STEPS,
+        "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
+    }
+    parts = [*(f"#define {name} {value}" for name, value in settings.items()), declarations(variant.ledger)]
+    first = ("vector.h", "series.h", "whole.h") if variant.gradients else ("vector.h", "series.h")
+    parts += [(_RUNTIME / name).read_text() for name in first]
+    parts += emitted
+    wanted = {
+        "ledger.h": variant.ledger,
+        "trajectory.h": variant.trajectory,
+        **dict.fromkeys(("along.h", "meeting.h", "quantities.h", "near.h"), variant.gradients),
+        "carry.h": variant.gradients and not variant.backward,
+        **dict.fromkeys(("tape.h", "back.h"), variant.backward),
+    }
+    parts += [(_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)]
+    return "\n".join(parts)
+
+
+def _emitted(variant: Variant) -> tuple[str, ...] | None:
+    """The emitted headers of a variant; None where a law has no recurrence."""
+    plain = headers(variant.choice)
+    if plain is None or not variant.gradients:
+        return plain
+    tangent = tangents(variant.choice)
+    return None if tangent is None else plain + tangent
+
+
+def _flags(variant: Variant) -> tuple[str, ...]:
+    own = FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+    return own + more_flags()
+
+
+def _stem(variant: Variant) -> str:
+    package = variant.choice.package
+    own = f"-{package.digest[:8]}" if package is not None else ""
+    return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{own}"
+
+
+def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
+    """Name of the library of a source in the cache."""
+    machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
+    return f"{_stem(variant)}-{key(text, flags, machine)}.so"
+
+
+def at_hand(variant: Variant) -> bool:
+    """Whether the library of a variant has been compiled before; nothing is derived or compiled to see."""
+    if not has(f"{_stem(variant)}-"):
+        return False  # its headers need not even have been derived
+    entry = _expected(variant, _flags(variant))
+    return entry is not None and has(entry.removesuffix("so"))
+
+
+@cache
+def _expected(variant: Variant, flags: tuple[str, ...]) -> str | None:
+    emitted = _emitted(variant)
+    return None if compiler() is None or emitted is None else _entry(variant, source(variant, emitted), flags)
+
+
+@once
+def kernel(variant: Variant) -> ctypes.CDLL | None:
+    """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
+    found, emitted = compiler(), _emitted(variant)
+    if found is None or emitted is None:
+        return None
+    text, flags = source(variant, emitted), _flags(variant)
+    try:
+        library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
+    except (CannotCompile, OSError) as error:
+        say_once(f"{found} cannot compile the Taylor kernel ({error}): other engines answer")
+        return None
+    library.collide.restype = ctypes.c_char_p
+    library.collide.argtypes = [ctypes.c_void_p]
+    return library
+
+
+def compile_all(variants: Collection[Variant]) -> None:
+    """Have the kernels of several variants, compiled side by side where they are not there yet."""
+    if len(variants) > 1:
+        threads: list[int] = []
+
+        def compiled_here(variant: Variant) -> None:
+            threads.append(threading.get_ident())
+            kernel(variant)
+
+        with ThreadPoolExecutor(usable_cores()) as pool:  # compilers are processes of their own
+            try:
+                list(pool.map(compiled_here, variants))
+            except BaseException:
+                stop(threads)
+                raise

@@ -1,0 +1,154 @@
+"""Many collisions of one scene by the kernel: quantities in SI in, answers out, on several cores.
+
+What the kernel hands over (resting too long, no budget left, beyond its range) is named by its status and is for the
+caller to compute by other means.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model.dimensionless import si_values
+from ...model.model import Choice, choose
+from ...scene.scene import Scene
+from ...settings import STEPS
+from .build import LARGEST_ORDER, Variant, kernel, knows
+from .endless import decide
+from .layout import ANSWER, Task, names
+
+_CHUNK = 4096  # collisions a thread takes at a time
+_LOOSEST = 1e-6  # as solvers/engines/casadi/locate.py has it
+RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """Collisions of one scene: angle (rad) and speed (m/s), and other quantities in SI by the vocabulary's names."""
+
+    scene: Scene
+    speed: np.ndarray
+    angle: np.ndarray
+    others: Mapping[str, np.ndarray]
+
+    def part(self, which: np.ndarray | slice) -> Impacts:
+        """Some of them."""
+        others = {name: values[which] for name, values in self.others.items()}
+        return Impacts(self.scene, self.speed[which], self.angle[which], others)
+
+
+Fly = Callable[[Impacts, np.ndarray], None]
+
+
+def order_for(rtol: float) -> int:
+    """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
+    return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
+
+
+def variant(
+    scene: Scene,
+    choice: Choice,
+    rtol: float,
+    rotation: bool,
+    ledger: bool = False,
+    trajectory: bool = False,
+    few: bool = False,
+) -> Variant:
+    """What the kernel of a scene is compiled for, at a tolerance."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(choice, order_for(rtol), rotation, own, few=few, ledger=ledger, trajectory=trajectory)
+
+
+def answers(
+    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = STEPS, few: bool = False
+) -> np.ndarray | None:
+    """An array of ANSWER, a collision each; None if there is no kernel here.
+
+    Arguments:
+        rotation: also the angle turned.
+        budget: steps after which a collision is handed over.
+        few: by a kernel that is compiled sooner and flies a little slower.
+    """
+    found = np.zeros(impacts.angle.size, ANSWER)
+    turns = impacts.angle > 0
+    for oblique, those in ((True, turns), (False, ~turns)):
+        count = int(np.count_nonzero(those))
+        if count and not _fill(
+            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, few), threads
+        ):
+            return None
+    return found
+
+
+def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fly: Fly | None, threads: int) -> bool:
+    if fly is None:
+        return False
+    whole = count == found.size  # then nothing is copied
+    which = those if whole else np.flatnonzero(those)
+
+    def chunk(first: int) -> None:
+        last = min(first + _CHUNK, count)
+        part = slice(first, last) if whole else which[first:last]
+        made = found[first:last] if whole else np.zeros(last - first, ANSWER)
+        fly(impacts.part(part), made)
+        if not whole:
+            found[part] = made
+
+    firsts = range(0, count, _CHUNK)
+    if threads == 1 or len(firsts) == 1:
+        for first in firsts:
+            chunk(first)
+    else:
+        with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
+            list(pool.map(chunk, firsts))
+    return True
+
+
+def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> Fly | None:
+    """The kernel of these impacts; None if there is none here."""
+    scene = those.scene
+    if not knows(scene):
+        return None
+    choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
+    library = kernel(variant(scene, choice, rtol, rotation, few=few))
+    if library is None:
+        return None
+    fly = calling(library, rtol, budget)
+
+    def decided(impacts: Impacts, made: np.ndarray) -> None:
+        fly(impacts, made)
+        if not impacts.others:
+            decide(made, scene, impacts.speed, impacts.angle, choice, rtol)
+
+    return decided
+
+
+def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray) -> Task:
+    """What a kernel is asked of impacts that fit it.
+
+    Arguments:
+        made: answers to be filled, zeros of ANSWER.
+    """
+    asked = Task(library, impacts.angle.size, min(rtol, _LOOSEST), budget)
+    given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
+    given |= si_values(impacts.scene, None, None)
+    given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    asked.columns(
+        [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in names(library, "quantity_names")]
+    )
+    asked.buffer("answers", made)
+    return asked
+
+
+def calling(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
+    """A kernel as a function of impacts that fit it, and answers to be filled (zeros of ANSWER)."""
+
+    def fly(impacts: Impacts, made: np.ndarray) -> None:
+        task(library, impacts, rtol, budget, made).run()
+
+    return fly

@@ -1,0 +1,65 @@
+"""Chatter that has spent the kernel's steps: whether its last state is held for good, or the limit that it nears."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...certificates import OrbitalProof, comes_to, proof_for
+from ...model.dimensionless import numbers
+from ...model.model import Choice, load
+from ...scene.scene import Scene
+
+CHATTER = 4  # status of a collision that has spent its steps in many phases (runtime/queue.h)
+_SPENT = 2  # ... or in few
+_DECIDED, _STICK = 0, 0
+
+
+def decide(
+    answers: np.ndarray, scene: Scene, speed: np.ndarray, angle: np.ndarray, choice: Choice, rtol: float
+) -> None:
+    """Make sticks of the collisions among `answers` whose last state is held by the momentum of the orbit.
+
+    A doublet that circles in and out of its film loses less with every turn: thousands of turns decide nothing that
+    the last state does not. `shown` has that state from the opening velocity on.
+    """
+    for k in np.flatnonzero(answers["status"] == CHATTER).tolist():
+        told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
+        if proof is None:
+            continue
+        y = _state(proof, told)
+        if proof.holds(y) or proof.settles(y):
+            told["status"], told["outcome"], told["certified"] = _DECIDED, _STICK, proof.proves
+            told["shown"] = 0.0
+
+
+def limits(
+    earlier: np.ndarray,
+    answers: np.ndarray,
+    scene: Scene,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    choice: Choice,
+    rtol: float,
+) -> list[bool | None]:
+    """Whether doublets that circle are held in the limit of many turns; None where that is not clear.
+
+    Arguments:
+        earlier, answers: of the same impacts after fewer steps and after more.
+    """
+    found: list[bool | None] = []
+    for k in range(answers.size):
+        both = earlier[k], answers[k]
+        circles = all(told["status"] in (_SPENT, CHATTER) for told in both)
+        proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
+        found.append(None if proof is None else comes_to(proof, *(_state(proof, told) for told in both)))
+    return found
+
+
+def _proof(scene: Scene, speed: float, angle: float, choice: Choice, rtol: float) -> OrbitalProof | None:
+    model = load(choice)
+    found = proof_for(model, model.group_values(numbers(scene, float(speed), float(angle)).groups), rtol)
+    return found if isinstance(found, OrbitalProof) and not model.strings else None  # strings may feed the slip
+
+
+def _state(proof: OrbitalProof, told: np.void) -> np.ndarray:
+    return np.array([told["final_gap"], *told["shown"][: len(proof.model.state) - 1]])

@@ -1,0 +1,132 @@
+"""Flights by the kernel with everything that was asked for written down: events, ledger, the steps' polynomials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from ...model.model import choose
+from ...settings import STEPS
+from .build import kernel, knows
+from .call import Impacts, task, variant
+from .endless import decide
+from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
+
+_ROOM = 64, 256  # events and steps of a collision
+
+
+class Purpose(IntEnum):
+    """What a flight with its steps is for: in the order of runtime/queue.h."""
+
+    WHOLE = 0
+    APPROACH = 1  # it ends where it turns or is reversed, and nothing is proved
+    ESCAPE = 2  # it ends where it falls back or rests, and is proved a stick only while it approaches
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps of flights, a row each, in order of time within a collision.
+
+    Attributes:
+        rows: time and length (x0/v0), collision, phase (counted from 0), closing, resting, film, and the series: states
+            by powers of the time since the step's start.
+        turned: which state is the angle turned; None if none is.
+    """
+
+    rows: np.ndarray
+    turned: int | None
+
+    def of(self, collision: int) -> Steps:
+        """Those of one collision."""
+        return Steps(self.rows[self.rows["collision"] == collision], self.turned)
+
+    def within(self, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Times at the same parts of every step, and the states there (a row each)."""
+        since = self.rows["length"][:, None] * parts
+        powers = since[:, None, :] ** np.arange(self.rows["series"].shape[2])[:, None]
+        states = np.moveaxis(self.rows["series"] @ powers, 1, 0)
+        return (self.rows["time"][:, None] + since).ravel(), states.reshape(states.shape[0], since.size)
+
+    def states(self, times: np.ndarray) -> np.ndarray:
+        """States (a row each) of one collision at times (x0/v0) within its flight, from the step that holds them."""
+        at = np.searchsorted(self.rows["time"], times, side="right") - 1
+        at = np.clip(at, 0, self.rows.size - 1)
+        series, since = self.rows["series"][at], times - self.rows["time"][at]
+        sums: np.ndarray = series[:, :, -1]
+        for k in range(series.shape[2] - 2, -1, -1):
+            sums = sums * since[:, None] + series[:, :, k]
+        return sums.T
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Flights: an ANSWER each, its events (the first `events` of a row), its LEDGER, the steps of all, and the largest
+    margin of the glass criterion while closing (a logarithm; -inf where none is known).
+    """
+
+    answers: np.ndarray
+    events: np.ndarray
+    ledger: np.ndarray | None
+    steps: Steps | None
+    peaks: np.ndarray | None = None
+
+
+def recorded(
+    impacts: Impacts,
+    oblique: bool,
+    rtol: float,
+    ledger: bool = False,
+    trajectory: bool = False,
+    budget: int = STEPS,
+    purpose: Purpose = Purpose.WHOLE,
+    keep: bool = True,
+    fold: bool = True,
+    peaks: bool = False,
+    events: bool = True,
+    room: tuple[int, int] = _ROOM,
+) -> Recorded | None:
+    """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
+
+    Arguments:
+        ledger: also the energy ledger; the spin is then a state of its own.
+        trajectory: also every step.
+        purpose: other than WHOLE only with a trajectory.
+        fold: a partner that equals the sphere is treated as such.
+        keep: the steps; else the same kernel flies without writing them down.
+        events: also what happened when; else answers only count it.
+        peaks: also the largest margin of the glass criterion; only with a trajectory.
+        room: events and steps of a collision that there is room for; where that is not enough, all are flown again.
+    """
+    if not knows(impacts.scene):
+        return None
+    choice = choose(impacts.scene, oblique, full=ledger, fold=fold)
+    library = kernel(variant(impacts.scene, choice, rtol, True, ledger, trajectory))
+    if library is None:
+        return None
+    size, keep = impacts.angle.size, keep and trajectory
+    margins = np.full(size, -np.inf) if peaks else None
+    log_room, step_room = room[0] * events, room[1] * size
+    while True:
+        answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
+        books = np.zeros(size if ledger else 0, LEDGER)
+        rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel fills those that it counts
+        asked = task(library, impacts, rtol, budget, answers)
+        asked.number("purpose", purpose)
+        if events:
+            asked.buffer("log", log)
+        asked.buffer("books", books)
+        if rows is not None:
+            asked.buffer("rows", rows)
+        if margins is not None:
+            asked.buffer("peaks", margins)
+        steps, most = asked.run(), int(answers["events"].max())
+        if (most <= log_room or not events) and (rows is None or steps <= rows.size):
+            break
+        log_room, step_room = max(most, log_room), max(steps, step_room)
+    if purpose == Purpose.WHOLE and not impacts.others:
+        decide(answers, impacts.scene, impacts.speed, impacts.angle, choice, rtol)
+    turned = number(library, "row_turned") if trajectory else -1
+    kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
+    return Recorded(answers, log, books if ledger else None, kept, margins)

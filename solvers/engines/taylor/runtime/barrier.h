@@ -1,0 +1,242 @@
+/* Barriers of the effective potential, and the level of energy below which a stick is proved.
+ *
+ * Any gap ahead whose potential exceeds the energy proves the stick, so a maximum that the grid steps over costs proofs
+ * and never makes a wrong one.
+ */
+
+#define ATTRACTS (BRIDGE || ATTRACTION)
+#if !defined(BY_ORBIT) /* derive/equations/certificates/orbital_momentum.py knows the model */
+#define BY_ORBIT 0
+#endif
+
+typedef struct {
+    vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
+    vec far_gap, far_height;   /* heights count the work against attractions from first touch; -infinity where there is none */
+#if SURFACE_ARM
+    vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
+#endif
+    vec largest;               /* energy at first touch */
+    vec touch;                 /* capillary work at first touch */
+} barrier;
+
+static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificates/base.py has it */
+
+static const double NODES[6] = {
+    0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
+    0.769902674194304687, 0.904117256370474857, 0.981560634246719251};
+static const double WEIGHTS[6] = {
+    0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
+    0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
+
+/* Integral over ln(gap) by Gauss-Legendre panels; the integrand takes the gap. */
+static vec integral(
+    const constants *c, const vec *y, vec low, vec high, vec (*integrand)(const constants *, const vec *, vec))
+{
+    vec whole = high - low;
+    double longest = 0.0;
+    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
+    int panels = 2 + (int)(2.0*longest);
+    vec half = whole*(0.5/panels), sum = splat(0.0);
+    for (int panel = 0; panel < panels; panel++)
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            sum += WEIGHTS[node % 6]*integrand(c, y, vec_exp(low + half*(2*panel + 1 + place)));
+        }
+    return sum*half;
+}
+
+#if defined(POTENTIAL)
+enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grids in the film and beyond, steps to a maximum */
+
+static vec slope_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return potential_slope(c, there);
+}
+
+static vec energy_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return potential_energy(c, there);
+}
+
+#if CAPILLARY_STATE
+static inline vec slope_in_logarithm(const constants *c, const vec *y, vec gap)
+{
+    return slope_at(c, y, gap)*gap;
+}
+
+static vec height_at(const constants *c, const vec *y, vec gap)
+{
+    return energy_at(c, y, splat(1.0)) + integral(c, y, splat(0.0), vec_log(gap), slope_in_logarithm);
+}
+#else
+static vec height_at(const constants *c, const vec *y, vec gap)
+{
+    vec height = energy_at(c, y, gap);
+#if ATTRACTS
+    height += capillary_work(c, gap) - capillary_work(c, splat(1.0));
+#endif
+    return height;
+}
+#endif
+
+/* Where the slope falls through zero between low and high, a few halvings from a maximum's width. */
+static vec summit(const constants *c, const vec *y, vec low, vec high)
+{
+    vec at_low = slope_at(c, y, low), at_high = slope_at(c, y, high);
+    for (int count = 0; count < HALVINGS; count++) {
+        vec middle = low + (high - low)*(at_low/(at_low - at_high));
+        middle = choose((middle > low) & (middle < high), middle, 0.5*(low + high));
+        vec slope = slope_at(c, y, middle);
+        mask rising = slope > 0.0;
+        /* Illinois: an end kept twice counts half */
+        at_high = choose(rising, 0.5*at_high, slope);
+        at_low = choose(rising, slope, 0.5*at_low);
+        low = choose(rising, middle, low);
+        high = choose(rising, high, middle);
+    }
+    return 0.5*(low + high);
+}
+
+static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *found)
+{
+    vec none = splat(-INFINITY);
+    vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
+    vec ratio = vec_exp(vec_log(start)*(-1.0/INNER)), width = (end - 1.0)*(1.0/OUTER);
+    vec low = start, slope = slope_at(c, y, start);
+    vec lower[2] = {start, start}, upper[2] = {start, start};
+    mask first = splat_mask(0), second = splat_mask(0);
+    for (int k = 1; k <= INNER + OUTER; k++) {
+        vec high = k < INNER ? low*ratio : k == INNER ? splat(1.0) : k < INNER + OUTER ? low + width : end;
+        vec next = slope_at(c, y, high);
+        mask top = (slope > 0.0) & (next <= 0.0);
+        mask own = top & ~first;
+        lower[0] = choose(own, low, lower[0]);
+        upper[0] = choose(own, high, upper[0]);
+        mask other = top & first; /* the last one met is kept */
+        lower[1] = choose(other, low, lower[1]);
+        upper[1] = choose(other, high, upper[1]);
+        first |= top;
+        second |= other;
+        low = high;
+        slope = next;
+    }
+    mask rim = slope > 0.0;
+    found->near_gap = found->far_gap = splat(0.0);
+    found->near_height = found->far_height = none;
+    if (bits(first)) {
+        found->near_gap = summit(c, y, lower[0], upper[0]);
+        found->near_height = choose(first, height_at(c, y, vec_max(found->near_gap, start)), none);
+    }
+    if (bits(second)) {
+        vec gap = summit(c, y, lower[1], upper[1]);
+        found->far_gap = gap;
+        found->far_height = choose(second, height_at(c, y, vec_max(gap, start)), none);
+    }
+    if (bits(rim)) { /* the rim is the outermost: it replaces the second maximum unless that is higher */
+        vec height = choose(rim, height_at(c, y, end), none);
+        mask higher = height > found->far_height;
+        found->far_gap = choose(higher, end, found->far_gap);
+        found->far_height = choose(higher, height, found->far_height);
+    }
+    mask hidden = ~(found->near_height > found->far_height);
+    found->near_gap = choose(hidden, found->far_gap, found->near_gap);
+    found->near_height = choose(hidden, found->far_height, found->near_height);
+#if SURFACE_ARM
+    found->near_work = found->near_height - energy_at(c, y, found->near_gap);
+    found->far_work = found->far_height - energy_at(c, y, found->far_gap);
+#endif
+}
+
+#if !SURFACE_ARM
+/* The height of the barrier ahead of a gap; -infinity if there is none. */
+static inline vec height_ahead(const vec *y, const barrier *b)
+{
+    vec none = splat(-INFINITY), gap = y[GAP];
+    return choose(b->near_gap > gap, b->near_height, choose(b->far_gap > gap, b->far_height, none));
+}
+#endif
+
+/* The work done against attractions since first touch. */
+static inline vec work_done(const constants *c, const vec *y, const barrier *b)
+{
+#if CAPILLARY_STATE
+    (void)c;
+    (void)b;
+    return y[CAPILLARY_WORK];
+#elif ATTRACTS
+    return capillary_work(c, y[GAP]) - b->touch;
+#else
+    (void)c;
+    (void)y;
+    (void)b;
+    return splat(0.0);
+#endif
+}
+
+#if SURFACE_ARM && BY_ORBIT && ATTRACTS
+/* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/equations/certificates/orbital_momentum.py). */
+static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
+{
+    vec here[ORBITAL], there[ORBITAL], beyond[STATES];
+    memcpy(beyond, y, sizeof beyond);
+    beyond[GAP] = gap;
+    orbital(c, y, here);
+    orbital(c, beyond, there);
+    vec needed = 0.5*y[OPENING]*y[OPENING] + work_done(c, y, b) - work + here[ORBIT_ENERGY] - there[ORBIT_ENERGY]
+                 + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite, and so the test false, without a barrier */
+    return (gap > y[GAP]) & (y[ORBIT] >= 16.0*y[SPIN]) & (needed < -margin);
+}
+
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    (void)rests;
+    return out_of_reach(c, y, b, b->near_gap, b->near_work, tolerance)
+           | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
+}
+#elif SURFACE_ARM && ATTRACTS
+/* The orbit's momentum at a gap if all turns as one body. */
+static inline vec rigid_at(const constants *c, const vec *y, vec gap)
+{
+    vec there[STATES];
+    memcpy(there, y, sizeof there);
+    there[GAP] = gap;
+    return rigid_orbit(c, there);
+}
+
+/* Lanes whose energy is below the height of a gap ahead, lowered by what a drifting angular momentum can still add, as
+ * solvers/certificates/energy_barrier.py `_drift` has it: no theorem. */
+static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
+{
+    vec first[STATES], rigid = rigid_orbit(c, y), reach = choose(rests, y[GAP], gap);
+    start(c, first);
+    vec change = vec_abs(y[ORBIT] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
+    vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBIT]/rigid, splat(1.0))*lost
+                /(angular_momentum(c, y)*first[ORBIT]);
+    vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
+}
+
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    return below(c, y, b, b->near_gap, b->near_work, rests, tolerance)
+           | below(c, y, b, b->far_gap, b->far_work, rests, tolerance);
+}
+#elif !SURFACE_ARM
+/* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
+static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
+{
+    vec height = height_ahead(y, b);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    (void)rests;
+    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+}
+#endif
+#endif

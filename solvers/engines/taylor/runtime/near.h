@@ -1,0 +1,189 @@
+/* How near a flight comes to a boundary between outcomes, where derivatives jump or diverge: the measures of
+ * solvers/sensitivity/boundary_distance.py, taken on the series of each step.
+ *
+ * They are looked at closely only where a bound leaves room for a value below WORTH_SAYING.
+ */
+
+static const double WORTH_SAYING = 1e-2;
+enum { PLACES = 8 };
+
+static inline vec polynomial_at(const vec *a, int order, vec t)
+{
+    vec sum = a[order];
+    for (int k = order - 1; k >= 0; k--)
+        sum = sum*t + a[k];
+    return sum;
+}
+
+/* The least part of the pressure's limit that a step leaves: the lowest of some places, then Newton's iteration to where
+ * the clearance is least. */
+static __attribute__((noinline)) vec least_spare(const fixed *f, const series *s, vec h)
+{
+    const vec(*a)[TERMS] = (const void *)s;
+    const vec *clearance = s->glass.result;
+    vec slope[TERMS], bend[TERMS], lowest = splat(INFINITY), place = splat(0.0);
+    for (int k = 0; k < ORDER; k++)
+        slope[k] = (k + 1.0)*clearance[k + 1];
+    for (int k = 0; k + 1 < ORDER; k++)
+        bend[k] = (k + 1.0)*slope[k + 1];
+    for (int k = 0; k <= PLACES; k++) {
+        vec t = h*((double)k/PLACES), here = sum_at(clearance, t);
+        mask lower = here < lowest;
+        lowest = choose(lower, here, lowest);
+        place = choose(lower, t, place);
+    }
+    for (int count = 0; count < 4; count++) {
+        vec step = polynomial_at(slope, ORDER - 1, place)/polynomial_at(bend, ORDER - 2, place);
+        vec next = place - step;
+        mask lower = (next > 0.0) & (next < h);
+        next = choose(lower, next, place);
+        lower &= sum_at(clearance, next) <= sum_at(clearance, place);
+        place = choose(lower, next, place);
+    }
+    vec y[STATES];
+    for (int state = 0; state < STATES; state++)
+        y[state] = sum_at(a[state], place);
+    return spare(&f->c, y);
+}
+
+/* How flat a step meets the glass criterion at its end: to second order, what the pressure goes beyond its limit by. */
+static double flatness(const fixed *f, const series *s, const vec *at, double h, int lane)
+{
+    double slope = 0.0, bend = 0.0;
+    vec still[STATES];
+    for (int k = ORDER; k > 0; k--)
+        slope = slope*h + k*s->glass.result[k][lane];
+    for (int k = ORDER; k > 1; k--)
+        bend = bend*h + (double)k*(k - 1)*s->glass.result[k][lane];
+    memcpy(still, at, sizeof still);
+    still[OPENING] = splat(0.0);
+    return bend > 0.0 ? slope*slope/(2.0*bend*glass_clearance(&f->c, still)[lane]) : INFINITY;
+}
+
+#if PROOF_BY_ENERGY
+/* Whether a barrier is a saddle and not the rim, and how near to it a doublet turns. */
+static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
+{
+    double gaps[2] = {f->b.near_gap[lane], f->b.far_gap[lane]};
+    double heights[2] = {f->b.near_height[lane], f->b.far_height[lane]};
+    double least = INFINITY;
+    *saddle = 0;
+    for (int k = 0; k < 2; k++)
+        if (heights[k] > -INFINITY && gaps[k] < f->end[lane]*(1.0 - 1e-12)) {
+            double off = gap/gaps[k] - 1.0;
+            *saddle = 1;
+            least = fmin(least, off*off);
+        }
+    return least;
+}
+
+/* The square of the opening velocity where it is least within a step. */
+static double slowest(const series *s, double h, int lane)
+{
+    double low = 0.0, high = h, sign = s->opening[1][lane] < 0.0 ? -1.0 : 1.0;
+    for (int count = 0; count < 40; count++) {
+        double t = 0.5*(low + high), rate = 0.0;
+        for (int k = ORDER; k > 0; k--)
+            rate = rate*t + k*s->opening[k][lane];
+        if (rate*sign > 0.0)
+            low = t;
+        else
+            high = t;
+    }
+    double t = 0.5*(low + high), speed = 0.0;
+    for (int k = ORDER; k >= 0; k--)
+        speed = speed*t + s->opening[k][lane];
+    return speed*speed;
+}
+#endif
+
+static void measure_event(carried *a, const flights *l, const fixed *f, const series *s, const vec *at, double h,
+    int event, int lane)
+{
+    double gap = at[GAP][lane], opening = at[OPENING][lane], contact = f->contact[lane];
+    int closing = l->closing[lane] != 0;
+    if (event == GLASS && h == 0.0)
+        along_near(a, lane, fabs(log(1.0 - spare(&f->c, at)[lane])), TOUCH);
+    else if (event == GLASS)
+        along_near(a, lane, flatness(f, s, at, h, lane), GLASS_GRAZE);
+    if (contact > 0.0 && (event == GLASS || (event == TURNED_KIND && closing)))
+        along_near(a, lane, fabs(log(gap/contact)), CONTACT_GRAZE);
+    if (event == ELASTIC) {
+        double slowing = s->opening[1][lane];
+        for (int k = 2; k <= ORDER; k++)
+            slowing += k*s->opening[k][lane]*pow(h, k - 1);
+        double smaller = fmin(f->c.elastic_gap[lane], f->c.rough_gap[lane]);
+        if (slowing > 0.0)
+            along_near(a, lane, opening*opening/(2.0*slowing*contact), CONTACT_GRAZE);
+        if (smaller > 0.0)
+            along_near(a, lane, log(contact/smaller), TIE);
+    }
+#if PROOF_BY_ENERGY
+    int saddle;
+    double off = near_saddle(f, gap, lane, &saddle);
+    if (event == TURNED_KIND && saddle)
+        along_near(a, lane, off, PASSAGE);
+#endif
+    if (event == RUPTURE && (BRIDGE || STRINGS || ATTRACTION))
+        along_near(a, lane, opening*opening, RIM);
+    else if (event == RUPTURE && (!OBLIQUE || WALL))
+        along_near(a, lane, opening, RIM);
+#if OBLIQUE && STRINGS
+    if (event == RUPTURE) {
+        double first = 4.0 + f->c.aspect[lane];
+        along_near(a, lane, 1.0 - at[ROTATION][lane]/M_PI, HALF_TURNED);
+        along_near(a, lane, at[ORBIT][lane]/(first*first), UNWOUND);
+    }
+#endif
+}
+
+static void measure(flights *l, const fixed *f, const series *s, vec h, mask falls, mask event)
+{
+    const vec(*a)[TERMS] = (const void *)s;
+    carried *along = &l->along;
+    mask moves = l->alive & ~l->resting;
+    mask close = moves & l->closing & ~(falls & (event == GLASS));
+    if (bits(close)) { /* the limit without motion falls with the gap, so where the start is far the end is */
+        vec start[STATES];
+        memcpy(start, l->y, sizeof start);
+        start[OPENING] = splat(0.0);
+        close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, start));
+    }
+    if (bits(close)) {
+        vec end[STATES];
+        for (int state = 0; state < STATES; state++)
+            end[state] = sum_at(a[state], h);
+        end[OPENING] = splat(0.0);
+        close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
+    }
+    if (bits(close)) {
+        vec least = vec_abs(vec_log(1.0 - least_spare(f, s, h)));
+        for (unsigned left = bits(close); left; left &= left - 1)
+            along_near(along, __builtin_ctz(left), least[__builtin_ctz(left)], GLASS_GRAZE);
+    }
+#if PROOF_BY_ENERGY
+    mask dips = moves & (choose(l->closing, -s->opening[1], s->opening[1]) < 0.0) & (vec_abs(s->opening[0]) < 0.3);
+    if (bits(dips)) {
+        vec rate = ORDER*s->opening[ORDER];
+        for (int k = ORDER - 1; k > 0; k--)
+            rate = rate*h + (double)k*s->opening[k];
+        dips &= choose(l->closing, -rate, rate) > 0.0; /* it slows first, and gains last */
+    }
+    for (unsigned left = bits(dips); left; left &= left - 1) {
+        int lane = __builtin_ctz(left), saddle;
+        near_saddle(f, 1.0, lane, &saddle);
+        if (saddle)
+            along_near(along, lane, slowest(s, h[lane], lane), PASSAGE);
+    }
+#endif
+    falls &= (event == GLASS) | (event == ELASTIC) | (event == TURNED_KIND) | (event == RUPTURE);
+    if (!bits(falls))
+        return;
+    vec at[STATES];
+    for (int state = 0; state < STATES; state++)
+        at[state] = sum_at(a[state], h);
+    for (unsigned left = bits(falls); left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        measure_event(along, l, f, s, at, h[lane], (int)event[lane], lane);
+    }
+}

@@ -1,0 +1,189 @@
+/* Which proof of a stick a model has, by the rule of solvers/certificates/choice.py `proof_for`, and in which lanes it holds. */
+
+#define TURNS (OBLIQUE && !WALL)
+#define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
+#if !TURNS && !STRINGS && !BRIDGE && !(ATTRACTION && CAPILLARY_STATE)
+#define PROOF_BY_FILM FILM_MOMENTUM
+#else
+#define PROOF_BY_FILM 0
+#endif
+
+#if PROOF_BY_FILM
+enum { DEPTHS = ATTRACTION ? 48 : 16 };
+
+/* Velocity that the film takes between two gaps. */
+#if defined(FILM_RESISTANCE_WORK)
+static inline vec film_takes(const constants *c, vec low, vec high)
+{
+    return film_momentum(c, high) - film_momentum(c, low);
+}
+#else
+static inline vec slowing_in_logarithm(const constants *c, const vec *y, vec gap)
+{
+    (void)y;
+    return film_slowing(c, gap)*gap;
+}
+
+static vec film_takes(const constants *c, vec low, vec high)
+{
+    return integral(c, NULL, vec_log(low), vec_log(high), slowing_in_logarithm);
+}
+#endif
+
+/* From `start` down to contact in steps of equal ratio: the gap after each. */
+static inline vec ratio_of_depths(vec start, vec contact)
+{
+    return vec_exp(vec_log(vec_max(contact, start*1e-40)/start)*(1.0/DEPTHS));
+}
+
+#if !ATTRACTION
+/* A film alone: velocity at every gap is known in advance. Closing, the film stops the motion at a gap before which no
+ * speed meets the glass criterion; opening, before its surface. Speed falls and pressure per speed rises on the way: the
+ * speed before a step and the gap after it bound the pressure between them. */
+static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec gap = y[GAP], speed = -y[OPENING], ratio = ratio_of_depths(gap, contact), there[STATES];
+    memcpy(there, y, sizeof there);
+#if defined(FILM_CAVITATES)
+    mask stopped = splat_mask(0);
+#else
+    mask stopped = ~closing & (y[OPENING] - film_takes(c, gap, splat(1.0)) < -margin);
+#endif
+    mask clear = closing;
+    for (int k = 0; k < DEPTHS; k++) {
+        there[OPENING] = -speed*(1.0/(1.0 - margin));
+        speed -= film_takes(c, there[GAP]*ratio, there[GAP]);
+        there[GAP] *= ratio;
+        clear &= glass_clearance(c, there) > 0.0;
+        stopped |= clear & (speed < -margin);
+    }
+    return stopped;
+}
+#else
+/* A film and an attraction without a bridge, along the line of centres alone: what closes at w under the film closes at
+ * most at w + g with the attraction, g^2/2 its work from x0 on (solvers/certificates/film_and_attraction.py). */
+static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+#if defined(FILM_CAVITATES)
+    mask held = splat_mask(0);
+#else
+    mask held = ~closing & (y[OPENING] - film_takes(c, y[GAP], splat(1.0)) < -margin);
+#endif
+    vec start = choose(closing, y[GAP], splat(1.0)); /* what opens may rise up to x0 before it falls */
+    vec speed = only(closing, -y[OPENING]), ratio = ratio_of_depths(start, contact), there[STATES];
+    vec surface = capillary_work(c, splat(1.0));
+    mask clear = splat_mask(-1);
+    memcpy(there, y, sizeof there);
+    there[GAP] = start;
+    for (int k = 0; k < DEPTHS; k++) {
+        vec next = there[GAP]*ratio, fastest = vec_max(speed, splat(0.0));
+        speed -= only(closing, film_takes(c, next, there[GAP]));
+        there[GAP] = next;
+        there[OPENING] = -(fastest + vec_sqrt(2.0*(surface - capillary_work(c, next))))*(1.0/(1.0 - margin));
+        clear &= glass_clearance(c, there) > 0.0;
+    }
+    return clear & (held | (closing & (speed < -margin)));
+}
+#endif
+#endif
+
+#if TETHERED
+/* Strings that turn and a film: lanes where the margins of derive/equations/certificates/strings.py hold by more than their error, as
+ * solvers/model/phases.py `tethered_margin` has it. */
+static mask held_by_strings(const constants *c, const vec *y, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
+    tethered_inward(c, y, &outward, &pull);
+    mask held = outward - pull + margin*(outward + pull) < 0.0;
+    if (!bits(held))
+        return held;
+    tethered_stops(c, y, &film, &recoil);
+    return held & (film + slack < 0.0) & (recoil + slack < 0.0);
+}
+#endif
+
+#if HELD
+/* What attracts holds for good by more than the error of the margins of derive/equations/certificates/attraction.py; a NaN proves nothing. They take
+ * the solids for the nearest it gets: first touch may lie inside them, and there nothing is proved. */
+static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec hold, flight, rebound;
+    held_margins(c, y, &hold, &flight, &rebound);
+    vec energy = vec_larger(y[OPENING]*y[OPENING], splat(1.0));
+    mask outside = y[GAP] >= vec_max(c->elastic_gap, c->rough_gap)*(1.0 - margin);
+    return outside & (hold > 0.0) & (rebound < -margin*hold) & (flight < -margin*energy);
+}
+#endif
+
+#define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
+#if RESTS_FOR_GOOD
+/* At rest in a gap and held there while the slip dies away: the orbit exceeds that of rigid rotation by no more than the slip
+ * energy would take, twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`). */
+static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+{
+    vec margin = splat(SAFETY*tolerance), orbit = rigid_orbit(c, y), there[STATES];
+    memset(there, 0, sizeof there);
+    there[GAP] = y[GAP];
+#if REDUCED
+    orbit = vec_larger(y[ORBIT], orbit);
+#else
+    there[ORBIT] = splat(1.0);
+    vec rigid[STATES], slip[STATES]; /* the deviation from rigid rotation, whose energy loses no digits in a difference */
+    memcpy(slip, there, sizeof slip);
+    rigid_rotation(c, y, rigid);
+    for (int state = ORBIT; state < MODEL_STATES; state++)
+        slip[state] = y[state] - rigid[state];
+    orbit += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(stored_energy(c, slip)/stored_energy(c, there));
+#endif
+    there[ORBIT] = splat(0.0);
+    vec still = inward_force(c, there);
+    there[ORBIT] = orbit;
+    return inward_force(c, there) > margin*still;
+}
+#endif
+
+/* Lanes that are proved to stick, by what is looked at all along a flight. */
+static inline mask proved_sticks(
+    const constants *c, const vec *y, const barrier *b, vec contact, mask closing, mask resting, double tolerance)
+{
+    mask proved = splat_mask(0);
+    (void)c; (void)y; (void)b; (void)contact; (void)closing; (void)resting; (void)tolerance;
+#if PROOF_BY_ENERGY
+    proved |= below_barrier(c, y, b, resting, tolerance);
+#endif
+#if RESTS_FOR_GOOD
+    if (bits(resting))
+        proved |= resting & rests_for_good(c, y, tolerance);
+#endif
+#if PROOF_BY_FILM
+    proved |= ~resting & stopped_by_film(c, y, contact, closing, tolerance);
+#endif
+#if TETHERED
+    proved |= held_by_strings(c, y, tolerance);
+#endif
+    return proved;
+}
+
+/* When to look at what holds for good: where a phase starts, and after some steps. Beside a proof by energy, which most
+ * sticks meet first, only once a flight has become long. */
+enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, EVERY = PROOF_BY_ENERGY ? 64 : 16 };
+
+static inline mask now_and_then(mask fresh, mask phases, mask steps)
+{
+    return (fresh & (phases >= EARLIEST_PHASE)) | ((steps & (EVERY - 1)) == EVERY - 1);
+}
+
+/* The same where it is looked at now and then. */
+static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
+{
+    (void)c; (void)y; (void)tolerance;
+#if HELD && CERTIFICATE
+    if (bits(asked))
+        return asked & held_by_attraction(c, y, tolerance);
+#endif
+    return splat_mask(0);
+}

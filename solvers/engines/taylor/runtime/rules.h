@@ -1,0 +1,137 @@
+/* What events do, by the rules of solvers/engines/casadi/locate.py. */
+
+static void separated(queue *q, flights *l, fixed *f, int lane)
+{
+    note(q, l->index[lane], RUPTURE, l->time[lane]);
+    finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCES : SEPARATES, 0);
+}
+
+/* The phase that opens from here; from first touch, beyond the film at once. */
+static void opens(flights *l, const fixed *f, int lane)
+{
+    l->closing[lane] = 0;
+    l->resting[lane] = 0;
+    if (!SPREAD && l->y[GAP][lane] == 1.0)
+        l->film[lane] = 0.0;
+    if (l->y[GAP][lane] == f->edge[lane])
+        l->shear[lane] = 0.0;
+}
+
+/* Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures. */
+static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
+{
+    int at_touch = l->time[lane] == 0.0 && l->phases[lane] == 0;
+    vec after[STATES];
+#if WITH_LEDGER
+    book_reversal(q->books + l->index[lane], &f->c, l->y, lane);
+#endif
+    memcpy(after, l->y, sizeof after);
+    reversal(&f->c, l->y, after);
+#if BACKWARD
+    note_on_tape(q, REVERSED, l->index[lane], lane, l->y, f);
+#elif GRADIENTS
+    along_reversed(&l->along, &f->c, l->y, lane);
+#endif
+    l->y[OPENING][lane] = after[OPENING][lane];
+    if (l->reversal[lane] < 0)
+        l->reversal[lane] = kind;
+    l->phases[lane]++;
+    l->fresh[lane] = -1;
+    note(q, l->index[lane], kind, l->time[lane]);
+    if (at_touch && !BRIDGE) {
+        separated(q, l, f, lane);
+        return;
+    }
+    double rebound = l->y[OPENING][lane], inward = inward_force(&f->c, l->y)[lane];
+    double allowed = q->rtol*l->y[GAP][lane];
+    if (!TURNS && rebound == 0.0 && inward == 0.0) { /* nothing moves it */
+        finish(q, l, f, lane, DECIDED, STICK, 1);
+        return;
+    }
+    if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
+        note(q, l->index[lane], RESTS, l->time[lane]);
+#if GRADIENTS
+        along_near(&l->along, lane, 0.0, CHATTERS);
+#endif
+#if WITH_LEDGER
+        book_rest(q->books + l->index[lane], l->y, lane);
+#endif
+        l->y[OPENING][lane] = 0.0;
+        l->resting[lane] = -1;
+        l->closing[lane] = 0;
+        if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* nothing changes what holds them */
+            finish(q, l, f, lane, DECIDED, STICK, 1);
+    } else
+        opens(l, f, lane);
+}
+
+/* A criterion already true where a closing phase starts, by rule: glass, elastic, rough. */
+static void criteria_met(queue *q, flights *l, fixed *f)
+{
+    mask asked = l->fresh & l->alive & l->closing & ~l->resting;
+    l->fresh = splat_mask(0);
+    if (!bits(asked))
+        return;
+    unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
+#if WITH_TRAJECTORY
+    glass = q->t->purpose == APPROACH ? 0 : glass;
+#endif
+    unsigned elastic = bits(asked & (l->y[GAP] <= f->c.elastic_gap));
+    unsigned rough = bits(asked & (l->y[GAP] <= f->c.rough_gap));
+    unsigned any = glass | elastic | rough;
+#if GRADIENTS
+    if (glass) {
+        vec met = vec_abs(vec_log(1.0 - spare(&f->c, l->y)));
+        for (unsigned left = glass; left; left &= left - 1)
+            along_near(&l->along, __builtin_ctz(left), met[__builtin_ctz(left)], TOUCH);
+    }
+#endif
+    EACH_LANE(lane)
+        if (any >> lane & 1)
+            reverse(q, l, f, lane, glass >> lane & 1 ? GLASS : elastic >> lane & 1 ? ELASTIC : ROUGH);
+}
+
+/* What an event does to a lane. */
+static void act(queue *q, flights *l, fixed *f, int lane, int event)
+{
+    long index = l->index[lane];
+    double now = l->time[lane];
+    if (event == GLASS) {
+        reverse(q, l, f, lane, GLASS);
+        return;
+    }
+    if (event == ELASTIC) { /* contact: whichever is met first */
+        double elastic = f->c.elastic_gap[lane], rough = f->c.rough_gap[lane];
+        l->y[GAP][lane] = f->contact[lane];
+        reverse(q, l, f, lane, elastic >= rough && elastic > 0.0 ? ELASTIC : ROUGH);
+        return;
+    }
+    if (event == RUPTURE) {
+        l->y[GAP][lane] = f->end[lane];
+        separated(q, l, f, lane);
+        return;
+    }
+    l->phases[lane]++;
+    l->fresh[lane] = -1;
+    if (event == TURNED_KIND) {
+        note(q, index, l->closing[lane] ? TURNED_KIND : FELL_BACK, now);
+        l->y[OPENING][lane] = 0.0;
+        l->closing[lane] = ~l->closing[lane];
+    } else if (event == FILM_EDGE) {
+        note(q, index, FILM_EDGE, now);
+        l->y[GAP][lane] = 1.0;
+        l->film[lane] = 1.0 - l->film[lane];
+        if (f->edge[lane] == 1.0)
+            l->shear[lane] = l->film[lane];
+    } else if (event == TANGENTIAL_EDGE) {
+        note(q, index, TANGENTIAL_EDGE, now);
+        l->y[GAP][lane] = f->edge[lane];
+        l->shear[lane] = 1.0 - l->shear[lane];
+    } else if (event == RELEASED) {
+        note(q, index, RELEASED, now);
+        opens(l, f, lane);
+    } else { /* the experiment's own cut-offs */
+        note(q, index, event, now);
+        finish(q, l, f, lane, DECIDED, STICK, 0);
+    }
+}

@@ -1,0 +1,119 @@
+"""Many collisions by the kernel with their derivatives: a direction for each group that the asked quantities move."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...host.compiler import compiler
+from ...model.model import choose
+from ...scene.scene import Scene
+from ...settings import STEPS
+from .build import Variant, kernel
+from .call import Impacts, order_for, task
+from .headers import headers, tangents
+from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
+
+COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
+CHATTERS = 5  # the boundary of a flight that rested on the solids
+DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
+    6: ("tie of roughness and elastic length", "particles.roughness"),
+    7: ("glass criterion met at first touch", "liquid.glass_transition_pressure"),
+    8: ("half turn at separation", "rotation"),
+}
+STRICTER = 4.0  # steps that no direction holds are held to a tolerance stricter by this
+_CHUNK = 1024  # collisions whose derivatives are in work at a time
+_LOOSEST = 1e-6
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Answers, and derivatives of their dimensionless results by quantities in SI.
+
+    Arguments:
+        answers: of ANSWER, a collision each.
+        slopes: (collisions, quantities, RESULTS); zero where nothing separated.
+        near: (collisions, 3); of what separated, the least measure of its nearness to a boundary, which (along.h), and
+            the least of those measures that are not in DISTANCES.
+        quantities: names in the vocabulary, in the order of `slopes`.
+        by_energy: sticks are proved by their energy, a level below a barrier.
+    """
+
+    answers: np.ndarray
+    slopes: np.ndarray
+    near: np.ndarray
+    quantities: tuple[str, ...]
+    by_energy: bool
+
+
+def carried(
+    impacts: Impacts,
+    oblique: bool,
+    rtol: float,
+    rotation: bool,
+    moved: Sequence[str] | None = None,
+    order: int | None = None,
+    budget: int = STEPS,
+    backward: bool = False,
+) -> Carried | None:
+    """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
+
+    Arguments:
+        moved: quantities that are differentiated by; None: all.
+        order: of the series; None: the cheapest for the tolerance.
+        backward: of the restitution alone, taken back along the flight: for the price of one direction. Flights of more
+            than some hundred steps are handed over.
+    """
+    library = _library(impacts.scene, oblique, order or order_for(min(rtol, _LOOSEST)), rotation, backward)
+    if library is None:
+        return None
+    if backward:
+        budget, rtol = min(budget, MOST_STEPS), min(rtol, _LOOSEST) / STRICTER
+    quantities, groups = names(library, "quantity_names"), names(library, "group_names")
+    count, results = impacts.angle.size, 1 if backward else RESULTS
+    answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(quantities), results))
+    near = np.full(count, np.inf, NEARNESS)
+    for first in range(0, count, _CHUNK):
+        part = slice(first, min(first + _CHUNK, count))
+        asked = task(library, impacts.part(part), min(rtol, _LOOSEST), budget, answers[part])
+        asked.number("asked", _asked(library, quantities, moved))
+        asked.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
+        asked.buffer("gradients", slopes[part])
+        asked.buffer("near", near[part])
+        asked.run()
+    measures = near.view("f8").reshape(count, -1)
+    return Carried(answers, slopes, measures, quantities, bool(number(library, "proved_by_energy")))
+
+
+def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool) -> ctypes.CDLL | None:
+    variant = variant_of(scene, oblique, order, rotation, backward)
+    return kernel(variant) if differentiates(scene, (oblique,)) else None
+
+
+def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False) -> Variant:
+    """What the kernel that differentiates a scene's collisions is compiled for."""
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(choose(scene, oblique), order, rotation, own, gradients=True, backward=backward)
+
+
+def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
+    """Whether the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler.
+
+    Arguments:
+        oblique: of oblique ones, of those head-on: what is not asked about is not derived.
+    """
+    choices = [choose(scene, own) for own in oblique]
+    return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
+
+
+def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None) -> int:
+    """The groups that these quantities move, as bits."""
+    bits = (ctypes.c_uint * len(quantities)).in_dll(library, "moved_groups")
+    found = 0
+    for name, own in zip(quantities, bits, strict=True):
+        if moved is None or name in moved:
+            found |= own
+    return found

@@ -1,0 +1,1 @@
+"""Equations and functions for use elsewhere, and differences between models."""

@@ -1,0 +1,92 @@
+"""The functions of a scene's model as self-contained C, by CasADi's code generation."""
+
+from __future__ import annotations
+
+from casadi import CodeGenerator, Function
+
+from ...generated.assemble import casadi_functions
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import Model, choose, load
+from ..scene.scene import Scene
+from .equations import file_name
+
+_REGIONS = (("", 1, 1), ("_beyond_film", 0, 1), ("_beyond_shear", 1, 0), ("_beyond_both", 0, 0))
+_UNITS = {"gap": "x0", "opening": "v0", "orbit": "a^2 omega0", "spin": "omega0", "rotation": "rad"}
+
+
+def texts(scene: Scene) -> dict[str, str]:
+    """NAME.c and NAME.h of a scene: every function of the smallest full structure it needs, in all regions."""
+    oblique = scene.angle is None or scene.angle > 0
+    model, name = load(choose(scene, oblique, full=True)), file_name(scene)
+    found = functions(model, name)
+    generator = CodeGenerator(f"{name}.c", {"with_header": False, "casadi_int": "long long int"})
+    for function in found:
+        generator.add(function)
+    values = None
+    if scene.speed is not None and scene.angle is not None:
+        values = numbers(scene, scene.speed, scene.angle)
+    return {
+        f"{name}.c": _comment(scene, model, values) + generator.dump(),
+        f"{name}.h": _header(scene, name, model, found, values),
+    }
+
+
+def functions(model: Model, prefix: str) -> list[Function]:
+    """The model's functions (state, groups) -> column; those that depend on the region once for each."""
+    found: dict[str, Function] = {}
+    for suffix, film, shear in _REGIONS if model.oblique else _REGIONS[:2]:
+        for name, function in casadi_functions(model.structure, model.laws, film, shear).items():
+            regional = name in (*model.structure.REGIONAL, "jacobian", "event_rates")
+            if not suffix or regional:
+                full = f"{prefix}_{name}{suffix}"
+                found[full] = _renamed(function, full)
+    return list(found.values())
+
+
+def _renamed(function: Function, name: str) -> Function:
+    inputs = function.sx_in()
+    return Function(name, inputs, [function(*inputs)], ["state", "groups"], [name])
+
+
+def _comment(scene: Scene, model: Model, values: Numbers | None) -> str:
+    """What the functions are, as the head of the file."""
+    choice = model.choice
+    lines = [
+        f"{scene.name or 'scene'}: functions of the structure `{choice.structure}`, emitted by wetdoublet.",
+        "Laws: " + ", ".join(f"{slot} {law}" for slot, law in choice.laws) + ".",
+        f"Equations sha256 {model.structure.DIGEST}",
+        "",
+        "Each function takes arg[0] = state, arg[1] = groups and fills res[0]; casadi's calling convention.",
+        "Time in x0/v0. Suffix _beyond_film: gap > x0; _beyond_shear: beyond the edge of the tangential force.",
+        "State: " + ", ".join(f"{name} [{_UNITS.get(name, '1')}]" for name in model.state) + ".",
+        "Groups: " + ", ".join(model.groups) + ".",
+        *([] if values is None else [f"  {name} = {values.groups[name]!r}" for name in model.groups]),
+        "Scene (SI): " + ", ".join(f"{name} = {value}" for name, value in scene.si),
+    ]
+    inside = "\n".join(f" * {line}".rstrip() for line in lines).replace("*/", "* /")
+    return f"/*\n{inside}\n */\n"
+
+
+def _header(scene: Scene, name: str, model: Model, found: list[Function], values: Numbers | None) -> str:
+    guard = f"WETDOUBLET_{name.upper()}_H"
+    lines = [_comment(scene, model, values), f"#ifndef {guard}", f"#define {guard}", ""]
+    lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
+    lines += [
+        f"#define {name.upper()}_STATES {len(model.state)}",
+        f"#define {name.upper()}_GROUPS {len(model.groups)}",
+        "",
+    ]
+    if values is not None:
+        numbers_ = ", ".join(f"{values.groups[group]!r}" for group in model.groups)
+        lines += [f"static const double {name}_groups[{len(model.groups)}] = {{{numbers_}}};", ""]
+    for function in found:
+        rows, columns = function.size_out(0)
+        shape = f"{rows}" if columns == 1 else f"{rows} x {columns}, column by column"
+        lines.append(f"/* {function.name()}: {shape} */")
+        lines.append(f"int {function.name()}(const double** arg, double** res, long long int* iw, double* w, int mem);")
+        lines.append(
+            f"int {function.name()}_work(long long int* sz_arg, long long int* sz_res, "
+            "long long int* sz_iw, long long int* sz_w);"
+        )
+    lines += ["", "#ifdef __cplusplus", "}", "#endif", "", "#endif", ""]
+    return "\n".join(lines)

@@ -1,0 +1,169 @@
+"""Two models side by side: the terms in which their equations differ, and what that does to a few collisions."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..boundaries.trace import boundary
+from ..collision.collide import collide
+from ..errors import ComputationError, InputError, did_you_mean
+from ..host import bounded
+from ..host.emitted import text
+from ..model.model import Choice, choose
+from ..scene.scene import Scene
+from ..scene.scenefile import PRESETS
+from ..scene.user_model import Package
+from ..scene.user_model_source import open_package
+
+if TYPE_CHECKING:
+    from ...derive.emit.compare import Change
+
+LIBRARY = "library"
+_ANGLES = (0.0, 45.0, 60.0, 75.0)
+_FACTORS = (0.5, 1.0, 2.0)
+_LINE = math.radians(45)
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of the two: texts of its emitted modules by room; its scene, if it can be computed."""
+
+    name: str
+    modules: dict[str, str]
+    scene: Scene | None
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A collision on either side, each outcome and e_n (None: it failed)."""
+
+    stokes: float
+    angle: float  # rad
+    results: tuple[tuple[str, float] | None, tuple[str, float] | None]
+
+
+@dataclass(frozen=True)
+class Differences:
+    """What differs. `boundaries` has, for either side, (change, St, Ce) along 45 deg."""
+
+    names: tuple[str, str]
+    changes: tuple[Change, ...]
+    probes: tuple[Probe, ...]
+    boundaries: tuple[tuple[tuple[str, float, float | None], ...], ...]
+
+
+def differences(one: str, other: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
+    """Compare two models.
+
+    Arguments:
+        one, other: `library`, a preset or scene file, a model's folder or file, or two folders of `generate`.
+        probe: the scene that models are put into, and whose collisions are compared.
+        changes: entries changed in the second.
+
+    Raises:
+        InputError: names what is none of these.
+    """
+    from ...derive.emit.compare import compare, equations  # imports sympy
+    from ...derive.emit.read import ReadError
+
+    sides = _sides(one, other, probe, changes or {})
+    try:
+        found = compare(*(equations(side.modules) for side in sides))
+    except ReadError as error:
+        raise InputError(
+            "diff", None, "folders as `wetdoublet generate` emits them", f"cannot be read: {error}"
+        ) from None
+    scenes = [side.scene for side in sides if side.scene is not None]
+    if len(scenes) < 2:
+        return Differences((sides[0].name, sides[1].name), found, (), ())
+    lines = tuple(tuple(_line(scene)) for scene in scenes)
+    return Differences((sides[0].name, sides[1].name), found, tuple(_probes(scenes)), lines)
+
+
+def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
+    if bounded.is_folder(one) and bounded.is_folder(other):
+        try:
+            packages = [open_package(one, "A"), open_package(other, "B")]
+        except InputError:  # the library's own, or of another version: what was emitted is compared, nothing computed
+            return Side(one, _folder(one), None), Side(other, _folder(other), None)
+        first, second = (Scene.load(probe, package) for package in packages)
+    else:
+        first, second = _scene(one, probe, "A"), _scene(other, probe, "B")
+    second = second.with_entries(changes)
+    return Side(one, _modules(first), first), Side(other, _modules(second), second)
+
+
+def _scene(source: str, probe: str, label: str) -> Scene:
+    if source == LIBRARY:
+        return Scene.load(probe)
+    if bounded.is_folder(source) or source.endswith(".py"):
+        return Scene.load(probe, open_package(source, label))
+    if source not in PRESETS and not bounded.exists(source):
+        known = (LIBRARY, *PRESETS)
+        accepted = f"{', '.join(known)}, a scene file, a folder of `generate`, or MODEL.py"
+        raise InputError(label, source, accepted, "is none of these" + did_you_mean(source, known))
+    return Scene.load(source)
+
+
+def _modules(scene: Scene) -> dict[str, str]:
+    """Emitted text of the structure and laws of a scene's oblique collisions."""
+    choice = choose(scene, oblique=True, full=True)
+    found = {"": _structure(choice)}
+    for slot, name in choice.laws:
+        found[slot] = _law(choice.package, slot, name)
+    if choice.package is not None and choice.package.manifest["scaling"]:
+        found["scaling"] = choice.package.text_of("scaling.py")
+    return found
+
+
+def _structure(choice: Choice) -> str:
+    package = choice.package
+    if package is not None and package.changes(tuple(slot for slot, _ in choice.laws)):
+        return package.structure_text(choice.structure)
+    return text(choice.structure)
+
+
+def _law(package: Package | None, slot: str, name: str) -> str:
+    if package is not None and name in package.laws(slot):
+        return package.text_of(package.law_file(slot, name))
+    return text(f"laws.{slot}_{name.replace('-', '_')}")
+
+
+def _folder(path: str) -> dict[str, str]:
+    """Texts of every law, structure and scaling in a folder that `generate` made."""
+    folder = Path(path)
+    accepted = "a folder made by `wetdoublet generate --out DIR`"
+    try:
+        listed = json.loads(bounded.text(folder / "manifest.json"))["files"]
+        names = [n for n in listed if n.endswith(".py") and not n.endswith(("__init__.py", "assemble.py", "model.py"))]
+        return {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
+    except (AttributeError, OSError, ValueError, KeyError, TypeError, bounded.NotRead):
+        raise InputError("diff", path, accepted, "holds nothing emitted") from None
+
+
+def _probes(scenes: Sequence[Scene]) -> list[Probe]:
+    own = scenes[0].stokes or 1.0
+    found = []
+    for angle in map(math.radians, _ANGLES):
+        for factor in _FACTORS:
+            pair = [_collided(scene, own * factor, angle) for scene in scenes]
+            found.append(Probe(own * factor, angle, (pair[0], pair[1])))
+    return found
+
+
+def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | None:
+    try:
+        one = collide(scene, stokes=stokes, angle=angle, ledger=False)
+    except ComputationError:
+        return None
+    return one.outcome, one.restitution
+
+
+def _line(scene: Scene) -> list[tuple[str, float, float | None]]:
+    found = boundary(scene, angle=_LINE)
+    return [(f"{one.before} -> {one.after}", one.stokes, one.centrifugal) for one in found.changes[0]]

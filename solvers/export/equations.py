@@ -1,0 +1,47 @@
+"""The equations of a scene's model in print: LaTeX and Markdown, out of the derivation (imports sympy)."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..collision.text import name_of
+from ..model.model import choose
+from ..scene.scene import Scene
+from ..scene.user_model import Package
+
+if TYPE_CHECKING:
+    from ...derive.user_model.structures import UserModel
+
+
+def texts(scene: Scene) -> dict[str, str]:
+    """NAME.tex and NAME.md of a scene's model."""
+    from ...derive.emit.document.document import document
+
+    laws = chosen_laws(scene)
+    lacking = [slot for slot, table in (("bridge", scene.bridge), ("strings", scene.pendulum)) if table is None]
+    title = f"Oblique collisions of wet particles: {name_of(scene)}"
+    made = document(title, laws, user_model(scene.package), lacking)
+    name = file_name(scene)
+    return {f"{name}.tex": made.tex(), f"{name}.md": made.markdown()}
+
+
+def chosen_laws(scene: Scene) -> dict[str, str]:
+    """Slot -> law of everything that an oblique collision of the scene has."""
+    return dict(choose(scene, oblique=True, full=True).laws)
+
+
+def user_model(package: Package | None) -> UserModel | None:
+    """The derivation's own form of a user's model, from the model file in its folder."""
+    if package is None:
+        return None
+    from ...derive.user_model.modelfile import read
+
+    return read(Path(f"{package.name}.py"), package.source, package.name)
+
+
+def file_name(scene: Scene) -> str:
+    """A file's name, and a C identifier, from the scene's."""
+    plain = re.sub(r"\W+", "_", scene.name, flags=re.ASCII).strip("_").lower() or "scene"
+    return plain if plain[0].isalpha() else f"scene_{plain}"

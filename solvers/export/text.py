@@ -1,0 +1,131 @@
+"""Differences of two models as text, Markdown or LaTeX."""
+
+from __future__ import annotations
+
+import math
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+from .differences import Differences
+
+if TYPE_CHECKING:
+    from ...derive.emit.compare import Change
+
+_SHORT = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B"}
+_HEADS = ("angle (deg)", "St", "A", "e_n A", "B", "e_n B", "B - A")
+
+
+def plain(expression: Any) -> str:
+    """An expression as text."""
+    from ...derive.emit.compare import plain  # imports sympy
+
+    return plain(expression)
+
+
+def typeset(expression: Any) -> str:
+    """An expression in LaTeX."""
+    from ...derive.emit.compare import typeset  # imports sympy
+
+    return typeset(expression)
+
+
+def as_text(found: Differences) -> str:
+    """As plain text."""
+    lines = [f"A: {found.names[0]}", f"B: {found.names[1]}", ""]
+    lines += ["no equation differs"] if not found.changes else [f"{_count(found)}:"]
+    for equation, changes in groupby(found.changes, key=lambda change: change.equation):
+        lines += ["", equation]
+        for change in changes:
+            if change.kind == "changed":
+                lines += [f"  changed  {plain(change.before)}", f"      to   {plain(change.after)}"]
+            else:
+                lines.append(f"  {change.kind:<8} {plain(_one(change))}")
+    if found.probes:
+        rows = [_HEADS, *_rows(found)]
+        widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADS))]
+        lines += ["", *("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows)]
+        lines += ["", *_lines(found)]
+    return "\n".join(lines)
+
+
+def as_markdown(found: Differences) -> str:
+    """As Markdown, formulas between dollars."""
+    lines = [f"# {found.names[0]} and {found.names[1]}", "", f"{_count(found)}.", ""]
+    if found.changes:
+        lines += ["| equation | term | A | B |", "|---|---|---|---|"]
+    lines += [
+        f"| {change.equation} | {change.kind} | {_math(change.before)} | {_math(change.after)} |"
+        for change in found.changes
+    ]
+    if found.probes:
+        lines += ["", f"| {' | '.join(_HEADS)} |", "|" + "---|" * len(_HEADS)]
+        lines += [f"| {' | '.join(row)} |" for row in _rows(found)]
+        lines += ["", *(f"* {line}" for line in _lines(found))]
+    return "\n".join(lines)
+
+
+def as_latex(found: Differences) -> str:
+    """As a LaTeX document."""
+    body = []
+    for equation, changes in groupby(found.changes, key=lambda change: change.equation):
+        body += [rf"\paragraph{{{_tex(equation)}}}", r"\begin{align*}"]
+        body.append(" \\\\\n".join(_aligned(change) for change in changes))
+        body.append(r"\end{align*}")
+    if found.probes:
+        body += [r"\begin{tabular}{rrlrlrr}", " & ".join(map(_tex, _HEADS)) + r" \\ \hline"]
+        body += [" & ".join(map(_tex, row)) + r" \\" for row in _rows(found)]
+        body += [r"\end{tabular}", "", *(rf"{_tex(line)}\\" for line in _lines(found))]
+    head = [r"\documentclass[a4paper,10pt]{article}", r"\usepackage{amsmath}", r"\usepackage[margin=2cm]{geometry}"]
+    title = rf"\section*{{{_tex(found.names[0])} and {_tex(found.names[1])}}}"
+    return "\n".join([*head, r"\begin{document}", title, *body, r"\end{document}"])
+
+
+def _count(found: Differences) -> str:
+    number = len({change.equation for change in found.changes})
+    return f"{number} equation{'s' if number != 1 else ''} differ{'s' if number == 1 else ''}"
+
+
+def _one(change: Change) -> object:
+    return change.after if change.before is None else change.before
+
+
+def _math(expression: object) -> str:
+    return "" if expression is None else f"${typeset(expression)}$".replace("|", r"\vert ")
+
+
+def _aligned(change: Change) -> str:
+    if change.kind == "changed":
+        return rf"  &\text{{changed}} & {typeset(change.before)} &\;\to\; {typeset(change.after)}"
+    return rf"  &\text{{{change.kind}}} & {typeset(_one(change))} &"
+
+
+def _rows(found: Differences) -> list[tuple[str, ...]]:
+    rows = []
+    for probe in found.probes:
+        cells = [f"{math.degrees(probe.angle):g}", f"{probe.stokes:.4g}"]
+        for result in probe.results:
+            cells += ["failed", "-"] if result is None else [_SHORT[result[0]], f"{result[1]:.6g}"]
+        one, other = probe.results
+        cells.append("-" if one is None or other is None else f"{other[1] - one[1]:.2g}")
+        rows.append(tuple(cells))
+    return rows
+
+
+def _lines(found: Differences) -> list[str]:
+    """The changes of outcome along 45 deg, one line each that either side has."""
+    rows: list[str] = []
+    sides = [{name: (stokes, ce) for name, stokes, ce in line} for line in found.boundaries]
+    for name in dict.fromkeys(name for side in sides for name in side):
+        parts = []
+        for label, side in zip("AB", sides):
+            stokes, ce = side.get(name, (None, None))
+            known = "none" if stokes is None else f"St* {stokes:.6g}" + ("" if ce is None else f", Ce* {ce:.5g}")
+            parts.append(f"{label} {known}")
+        rows.append(f"at 45 deg, {name}: {'; '.join(parts)}")
+    return rows
+
+
+def _tex(text: str) -> str:
+    for sign, instead in (("_", r"\_"), ("&", r"\&"), ("%", r"\%"), ("->", r"$\to$")):
+        text = text.replace(sign, instead)
+    return text

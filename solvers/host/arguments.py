@@ -1,0 +1,60 @@
+"""Arguments of the public functions that are no quantities: judged by type, so that what is wrong is named."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from numbers import Integral
+from typing import Any
+
+from ..errors import InputError, did_you_mean
+
+
+def check_names(asked: object, known: Sequence[str], label: str) -> tuple[str, ...]:
+    """Return names that are asked for, each once; InputError for one that is not known, with the nearest."""
+    accepted = ", ".join(known)
+    if isinstance(asked, str):
+        asked = (asked,)
+    if not isinstance(asked, Collection) or isinstance(asked, (bytes, bytearray)):
+        raise InputError(label, asked, accepted, "is not a list of names")
+    for name in asked:
+        if not isinstance(name, str) or name not in known:
+            raise InputError(label, name, accepted, "is not known" + did_you_mean(name, known))
+    return tuple(dict.fromkeys(str(name) for name in asked))
+
+
+def check_name(asked: object, known: Sequence[str], label: str) -> str:
+    """Return one of the known names; InputError for anything else, with the nearest."""
+    if not isinstance(asked, str) or asked not in known:
+        raise InputError(label, asked, ", ".join(known), "is not known" + did_you_mean(asked, known))
+    return asked
+
+
+def check_flag(value: object, label: str) -> bool:
+    """Return a truth value; InputError for anything else."""
+    if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):  # numpy's own
+        return bool(value)
+    raise InputError(label, value, "True or False", "is neither")
+
+
+def check_whole(value: object, label: str, least: int, most: int) -> int:
+    """Return a whole number from `least` to `most`; InputError for anything else."""
+    if not isinstance(value, Integral) or isinstance(value, bool) or not least <= int(value) <= most:
+        raise InputError(label, value, f"a whole number from {least} to {most}")
+    return int(value)
+
+
+def check_mapping(value: object, label: str, accepted: str) -> Mapping[str, Any]:
+    """Return a mapping of names; InputError for anything else."""
+    if not isinstance(value, Mapping):
+        raise InputError(label, value, accepted, "is not a mapping")
+    for name in value:
+        if not isinstance(name, str):
+            raise InputError(label, name, accepted, "is not a name")
+    return value
+
+
+def check_function(value: object, label: str) -> Callable[..., Any] | None:
+    """Return a function or None; InputError for anything else."""
+    if value is not None and not callable(value):
+        raise InputError(label, value, "a function, or None", "cannot be called")
+    return value

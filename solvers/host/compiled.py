@@ -1,0 +1,35 @@
+"""CasADi functions compiled to C and loaded. Without a compiler they run interpreted."""
+
+from __future__ import annotations
+
+from casadi import Function, external
+
+from .compiler import CannotCompile, compiler, key, library, more_flags
+from .remarks import say_once
+from .user_cache import kept, loaded
+
+FLAGS = ("-O1", "-fPIC", "-shared")  # -O3 takes 1.6 times as long to compile and saves a sixth (docs/performance.md)
+
+
+def compiled(function: Function) -> Function:
+    """`function` as machine code if there is a compiler, else itself; safe with several processes."""
+    found = compiler()
+    if found is None:
+        return function
+    name, source, flags = function.name(), _source(function), FLAGS + more_flags()
+    try:
+        content = kept(f"{name}-{key(source, flags)}.so", lambda: library(source, flags))
+        return loaded(content, lambda path: external(name, path))
+    except (CannotCompile, OSError, RuntimeError) as error:
+        said = " ".join(str(error).split())
+        say_once(f"{found} cannot compile {name} ({said}): it runs interpreted")
+        return function
+
+
+def _source(function: Function) -> str:
+    """C source of a function."""
+    from casadi import CodeGenerator
+
+    generator = CodeGenerator(function.name())
+    generator.add(function)
+    return str(generator.dump())

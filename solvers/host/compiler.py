@@ -1,0 +1,274 @@
+"""The machine's C compiler: found, tried, and run with a time limit.
+
+A compiler is one that has compiled a program of two lines that then runs. Without one everything runs interpreted; that
+is said once. WETDOUBLET_COMPILE_SECONDS is the time that it has for a file.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import threading
+from collections.abc import Collection, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+from ..errors import InputError
+from . import user_cache as cache
+from .remarks import say
+from .thread_caches import once
+
+_COMPILERS = ("cc", "gcc", "clang")
+_SECONDS = "WETDOUBLET_COMPILE_SECONDS"
+_LIMIT = 120.0  # s; the largest kernel takes some ten on a busy machine
+_TRIAL_LIMIT = 20.0  # s
+_LONGEST = 86400.0  # s: what a process can be waited for is not without end
+_GIVEN_UP = "WETDOUBLET_NO_COMPILER"  # set for workers too, once one has not ended
+_INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses, the second that of a shell script
+_TRIAL = """#include <math.h>
+int main(int count, char **words) { return words[0] && sqrt(8.0 + count) == 3.0 ? 42 : 1; }
+"""
+_ANSWER = 42
+_RUNNING: dict[subprocess.Popen[bytes], int] = {}  # by the threads that wait for them
+_STOPPED: set[subprocess.Popen[bytes]] = set()
+
+
+class CannotCompile(Exception):
+    """A file did not become a library; the message is the reason, in a few words."""
+
+
+class Compiler(NamedTuple):
+    """A C compiler that works.
+
+    Arguments:
+        command: what to run, a word each: `("ccache", "/usr/bin/gcc")`.
+        version: what it says of itself.
+    """
+
+    command: tuple[str, ...]
+    version: str
+
+    def __str__(self) -> str:
+        """As one would type it."""
+        return shlex.join(self.command)
+
+
+@once
+def compiler() -> Compiler | None:
+    """The machine's C compiler, $CC before others; None, said once, if there is none.
+
+    Raises:
+        InputError: WETDOUBLET_COMPILE_SECONDS is no time.
+    """
+    limit = _limit()
+    if _GIVEN_UP in os.environ:
+        return None
+    tried: set[tuple[str, ...]] = set()
+    failed: list[str] = []
+    wanted = os.environ.get("CC", "").strip()
+    for named in (*([wanted] if wanted else []), *_COMPILERS):
+        command = _command(named)
+        wrong = "there is no such program"
+        if command is not None:
+            if command in tried:
+                continue
+            tried.add(command)
+            found = _accepted(command, min(limit, _TRIAL_LIMIT))
+            if isinstance(found, Compiler):
+                return found
+            wrong = found
+            failed += [f"{named}: {wrong}"] if named != wanted else []
+        if named == wanted:
+            say(f"CC={named} is no compiler here ({wrong}): another is looked for")
+    say(
+        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): there is no Taylor kernel, "
+        "other engines answer; their integrators run interpreted, about five times slower"
+    )
+    return None
+
+
+def key(source: str, flags: Sequence[str], machine: str = "") -> str:
+    """Digest of everything that a library depends on; without a compiler there is none to name.
+
+    Arguments:
+        machine: what it is compiled for, where that is the machine it is compiled on.
+    """
+    found = compiler()
+    content = "\0".join([source, str(found), found.version if found else "", *flags, machine])
+    return hashlib.sha256(content.encode(errors="surrogateescape")).hexdigest()[:32]
+
+
+def library(source: str, flags: Sequence[str]) -> bytes:
+    """A C file compiled to a shared library.
+
+    Raises:
+        CannotCompile: it cannot be; says why in a few words.
+        KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
+    """
+    found = compiler()
+    if found is None:
+        raise CannotCompile("there is no compiler")
+    limit = _limit()
+    try:
+        with cache.room() as place:
+            (place / "source.c").write_text(source, encoding="utf-8")
+            return _compiled(found.command, flags, place, limit)
+    except subprocess.TimeoutExpired:
+        os.environ[_GIVEN_UP] = "1"
+        compiler.cache_clear()
+        why = f"it has not ended after {limit:g} s ({_SECONDS}) and is not asked again"
+        raise CannotCompile(why) from None
+    except OSError as error:
+        raise CannotCompile(error.strerror or str(error)) from None
+
+
+def more_flags() -> tuple[str, ...]:
+    """What the compiler is told besides, as WETDOUBLET_CFLAGS names it: sanitizers, debugging."""
+    return tuple(shlex.split(os.environ.get("WETDOUBLET_CFLAGS", "")))
+
+
+def stop(threads: Collection[int]) -> None:
+    """End the compilers that these threads wait for, as an interrupt does."""
+    for process, waiting in list(_RUNNING.items()):
+        if waiting in threads:
+            _STOPPED.add(process)
+            _end(process)
+
+
+def _limit() -> float:
+    """Seconds that a compiler may take."""
+    text = os.environ.get(_SECONDS, "")
+    if not text:
+        return _LIMIT
+    try:
+        limit = float(text)
+    except ValueError:
+        limit = math.nan
+    if not limit > 0:
+        raise InputError(_SECONDS, text, "a time in seconds above 0", "is no time")
+    return min(limit, _LONGEST)
+
+
+def _command(named: str) -> tuple[str, ...] | None:
+    """The words of a command, the first a path; a path with spaces may be given as it is. None if there is no such."""
+    whole = shutil.which(named)
+    if whole is not None:
+        return (whole,)
+    try:
+        words = shlex.split(named)
+    except ValueError:
+        return None
+    first = shutil.which(words[0]) if words else None
+    return None if first is None else (first, *words[1:])
+
+
+def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
+    """The compiler of a command if it compiles a program that runs, or what is wrong with it.
+
+    That it does is kept with its version, size and date, so that the next process need not try again.
+    """
+    try:
+        status, said = _run((*command, "--version"), limit)
+        version = next(iter(said.strip().splitlines()), "")
+        if status or not version:
+            return "it does not say its version"
+        content = "\0".join([*command, version, *(_identity(word) for word in command), _TRIAL])
+        name = f"compiler-{hashlib.sha256(content.encode(errors='replace')).hexdigest()[:32]}.txt"
+        if not cache.has(name.removesuffix("txt")):
+            _try(command, limit)
+            cache.kept(name, lambda: f"{shlex.join(command)}\n{version}\n".encode(errors="replace"))
+    except subprocess.TimeoutExpired:
+        return f"it has not ended after {limit:g} s"
+    except CannotCompile as error:
+        return str(error)
+    except OSError as error:
+        return error.strerror or str(error)
+    return Compiler(command, version)
+
+
+def _identity(word: str) -> str:
+    """Size and date of the program that a word of a command names."""
+    path = shutil.which(word)
+    if path is None:
+        return ""
+    found = Path(path).stat()
+    return f"{os.path.realpath(path)} {found.st_size} {found.st_mtime_ns}"
+
+
+def _try(command: tuple[str, ...], limit: float) -> None:
+    """Compile the trial and run it. CannotCompile, TimeoutExpired or OSError if that fails."""
+    with cache.room() as place:
+        (place / "source.c").write_text(_TRIAL)
+        program = _compiled(command, (), place, limit)
+        if _ran(program, place, limit)[0] != _ANSWER:
+            raise CannotCompile("what it compiles does not run")
+
+
+def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
+    try:
+        with cache.in_memory(program) as descriptor:  # the folder may be one from which nothing is run
+            return _run((f"/proc/self/fd/{descriptor}",), limit, passed=(descriptor,))
+    except OSError:
+        path = place / "trial"
+        path.write_bytes(program)
+        path.chmod(0o700)
+        return _run((str(path),), limit)
+
+
+def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
+    """What a compiler makes of `source.c` in a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+    made = place / "made"
+    status, said = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
+    if status:
+        lines = said.strip().splitlines() or ["no message"]
+        raise CannotCompile(next((line for line in lines if "error" in line), lines[-1]))
+    if not made.is_file():
+        raise CannotCompile("nothing came of it")
+    return made.read_bytes()
+
+
+def _run(
+    command: tuple[str, ...], limit: float, place: Path | None = None, passed: tuple[int, ...] = ()
+) -> tuple[int, str]:
+    """Run a command in a process group of its own; its status and what it says, errors last.
+
+    If this raises, nothing is left of the group.
+
+    Raises:
+        TimeoutExpired, OSError: it has not ended; it cannot be run.
+        KeyboardInterrupt: it was interrupted, or this process was meanwhile.
+    """
+    environment = os.environ | {"LC_ALL": "C"} | ({"TMPDIR": str(place)} if place else {})
+    process = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        env=environment, pass_fds=passed, process_group=0 if os.name == "posix" else None,
+    )  # fmt: skip
+    _RUNNING[process] = threading.get_ident()
+    try:
+        out, err = process.communicate(timeout=limit)
+    except BaseException:
+        _end(process)
+        with suppress(subprocess.TimeoutExpired):  # what it has started elsewhere may keep its output open
+            process.communicate(timeout=1)
+        raise
+    finally:
+        _RUNNING.pop(process, None)
+        stopped = process in _STOPPED
+        _STOPPED.discard(process)
+    if stopped or process.returncode in _INTERRUPTED:
+        raise KeyboardInterrupt
+    return process.returncode, (out + b"\n" + err).decode(errors="replace")
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Kill a process and those that it has started."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except (AttributeError, OSError):
+        process.kill()

@@ -1,0 +1,151 @@
+"""Emitted modules by name: the library's, held against their manifest; what is not committed is derived on first use.
+
+What is derived goes to the user's cache, addressed by the derivation's sources and versions, so that sympy is loaded
+once and never again. `generated/` and the cache are the only places that this imports from.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import threading
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..errors import CheckFailed
+
+_PACKAGE = f"{__package__.rsplit('.', 2)[0]}.generated"
+_FOLDER = Path(__file__).resolve().parents[2] / "generated"
+_DERIVE = _FOLDER.with_name("derive")
+DERIVING = threading.RLock()  # held by whoever uses sympy: it is not for several threads
+
+
+@cache
+def manifest() -> dict[str, Any]:
+    """The library's manifest."""
+    found: dict[str, Any] = json.loads(_manifest_text())
+    return found
+
+
+@cache
+def _manifest_text() -> str:
+    return (_FOLDER / "manifest.json").read_text(encoding="utf-8")
+
+
+@cache
+def library_digest() -> str:
+    """Digest of the library's equations: of its manifest, which has those of every law and structure."""
+    return hashlib.sha256(_manifest_text().encode()).hexdigest()
+
+
+def structure(name: str) -> ModuleType:
+    """The module of a structure: committed, or derived on first use."""
+    return module(name)
+
+
+def law(slot: str, name: str) -> ModuleType:
+    """The module of a law of the library."""
+    return module(f"laws.{slot}_{name.replace('-', '_')}")
+
+
+@cache
+def module(name: str) -> ModuleType:
+    """An emitted module of the library.
+
+    Arguments:
+        name: dotted, below `generated`; a structure that is not committed is derived.
+
+    Raises:
+        CheckFailed: the file is not the one that was emitted; says what to run.
+    """
+    path = name.replace(".", "/") + ".py"
+    if not committed(path):
+        return executed(f"{_PACKAGE}.{name}", text(name).encode())
+    for each in (path, "assemble.py", "scaling.py"):
+        _verified(each)
+    return import_module(f"{_PACKAGE}.{name}")
+
+
+def text(name: str) -> str:
+    """Text of an emitted module of the library, which is never run. Errors: see `module`."""
+    path = name.replace(".", "/") + ".py"
+    if committed(path):
+        _verified(path)
+        return (_FOLDER / path).read_text(encoding="utf-8")
+    if "." in name:  # all laws are committed
+        raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
+    return derived_once(f"{name}.py", lambda: _derived_structure(name))
+
+
+def header(path: str) -> str:
+    """Text of an emitted C header of the kernel, a path below `generated`, verified; derived where not committed."""
+    if committed(path):
+        _verified(path)
+        return (_FOLDER / path).read_text(encoding="utf-8")
+    name, tangent = Path(path).stem, "tangent" in Path(path).parts
+    kind = "tangent" if tangent else "kernel"
+    return derived_once(f"{kind}-{name}.h", lambda: _derived_header(name, tangent))
+
+
+def committed(path: str) -> bool:
+    """Whether a file is among the emitted ones of the package."""
+    return path in manifest()["files"]
+
+
+@cache
+def _verified(path: str) -> None:
+    file = _FOLDER / path
+    if not file.is_file() or hashlib.sha256(file.read_bytes()).hexdigest() != manifest()["files"][path]:
+        raise CheckFailed(
+            f"{file} is not what was emitted (edited, or from another version); run `wetdoublet generate`"
+        )
+
+
+def executed(name: str, source: bytes) -> ModuleType:
+    """A module of a source that has been verified: what is run is what was read."""
+    made = ModuleType(name)
+    exec(compile(source, f"<{name}>", "exec", dont_inherit=True), made.__dict__)
+    return made
+
+
+@cache
+def derivation() -> str:
+    """Digest of what emitted code comes from: the derivation's sources, and the versions that matter."""
+    from importlib.metadata import version
+
+    found = hashlib.sha256()
+    for name in ("wetdoublet", "sympy", "casadi"):
+        found.update(f"{name} {version(name)}\n".encode())
+    for path in sorted(_DERIVE.rglob("*.py")):
+        found.update(path.relative_to(_DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return found.hexdigest()
+
+
+def derived_once(name: str, derived: Callable[[], str]) -> str:
+    """A text that is derived where the cache has none of that name from this derivation."""
+    from .user_cache import kept
+
+    stem, _, suffix = name.rpartition(".")
+    return kept(f"emitted-{derivation()[:32]}-{stem}.{suffix}", lambda: _alone(derived).encode()).decode()
+
+
+def _alone(derived: Callable[[], str]) -> str:
+    """What is derived, by one thread at a time."""
+    with DERIVING:
+        return derived()
+
+
+def _derived_structure(name: str) -> str:
+    from ...derive.emit.one import structure_text  # imports sympy
+
+    return structure_text(name)
+
+
+def _derived_header(name: str, tangent: bool) -> str:
+    from ...derive.emit.one import structure_header_text, structure_tangent_text  # imports sympy
+
+    return structure_tangent_text(name) if tangent else structure_header_text(name)

@@ -1,0 +1,76 @@
+"""Names of files and folders to be written: judged before anything is computed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import InputError
+from . import bounded
+
+PICTURES = (".png", ".pdf", ".svg")
+_LONGEST = 200  # bytes of a name: file systems take 255, and what is being written has a longer one
+
+
+def check_file(path: object, label: str, suffixes: Sequence[str] = (), *, replaced: bool = False) -> Path:
+    """Return the path of a file to be written; InputError naming `label` if it cannot be, or has another suffix.
+
+    Arguments:
+        replaced: it is written beside and then moved into place, so that its folder must take files as well.
+    """
+    accepted = "a file name" + (f" ending in {', '.join(suffixes)}" if suffixes else "") + " in a folder that exists"
+    text = _text(path, label, accepted)
+    file = Path(text)
+    if suffixes and file.suffix.lower() not in suffixes:
+        raise InputError(label, text, accepted, "has an unsupported suffix")
+    if len(os.fsencode(file.name)) > _LONGEST:
+        raise InputError(label, text, f"{accepted}, of at most {_LONGEST} bytes", "is too long a name")
+    meant = Path(os.path.realpath(file))  # a link may lead nowhere
+    if not (bounded.is_folder(file.parent) and bounded.is_folder(meant.parent)):
+        raise InputError(label, text, accepted, "is in a folder that does not exist")
+    if bounded.is_folder(file):
+        raise InputError(label, text, accepted, "is a folder")
+    there = bounded.exists(file)
+    if (there and not os.access(file, os.W_OK)) or ((replaced or not there) and not _takes_files(meant.parent)):
+        raise InputError(label, text, accepted, "cannot be written")
+    return file
+
+
+def check_folder(path: object, label: str) -> Path:
+    """Return the folder to write into, which may not exist yet; InputError naming `label` if it never could."""
+    accepted = "a folder that exists or can be made"
+    text = _text(path, label, accepted)
+    folder = Path(text)
+    if any(len(os.fsencode(part)) > _LONGEST for part in folder.parts):
+        raise InputError(label, text, accepted, "is too long a name")
+    there = next(parent for parent in (folder, *folder.absolute().parents) if bounded.exists(parent))
+    if not bounded.is_folder(there):
+        problem = "is a file" if there == folder else f"cannot be made: {there} is a file"
+        raise InputError(label, text, accepted, problem)
+    if not _takes_files(there):
+        problem = "cannot be written to" if there == folder else f"cannot be made: {there} cannot be written to"
+        raise InputError(label, text, accepted, problem)
+    return folder
+
+
+def _text(path: object, label: str, accepted: str) -> str:
+    text = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
+    if not isinstance(text, str) or not text.strip() or "\0" in text:
+        raise InputError(label, path, accepted, "is not a file name")
+    try:
+        os.fsencode(text)
+    except UnicodeEncodeError:
+        raise InputError(label, text, accepted, "is not a file name") from None
+    return text
+
+
+def _takes_files(folder: Path) -> bool:
+    """Whether a file can be made in a folder: tried, because permissions say nothing of /proc and its like."""
+    import tempfile  # takes its time
+
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False

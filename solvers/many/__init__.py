@@ -1,0 +1,1 @@
+"""Many collisions: batches and regime maps."""

@@ -1,0 +1,198 @@
+"""What `collide_many` is asked for: scenes, impacts and what else varies, checked and brought to one length."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..host.arguments import check_mapping, check_names
+from ..scene.scene import Scene
+from ..scene.schema import unknown_entry
+from ..scene.user_model import Package, fields, unknown
+from ..scene.values import array
+from ..settings import bulk_engine, check_engine, check_rtol
+
+QUANTITIES: dict[str, tuple[str, str]] = {
+    "restitution": ("1", "normal restitution e_n"),
+    "tangential_restitution": ("1", "tangential restitution r_f omega_f/(r_0 omega_0)"),
+    "rotation": ("rad", "angle turned by the line of centres until separation"),
+    "contact_time": ("s", "time from first touch to separation"),
+    "smallest_gap": ("m", "smallest gap until separation"),
+}
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to collide: a scene, impacts, other entries that vary, and what to keep. Arrays of one length, SI."""
+
+    scene: Scene
+    stokes: np.ndarray | None
+    speed: np.ndarray | None
+    angle: np.ndarray
+    vary: dict[str, np.ndarray]
+    rtol: float
+    engine: str
+    of: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        return int(self.angle.size)
+
+    def scene_of(self, k: int) -> Scene:
+        """The scene of collision k; InputError if what varies makes it impossible."""
+        if not self.vary:
+            return self.scene
+        return _varied(self.scene, tuple((name, float(values[k])) for name, values in self.vary.items()))
+
+    def impact(self, k: int) -> tuple[Scene, float, float]:
+        """Scene, speed (m/s) and angle (rad) of collision k."""
+        scene = self.scene_of(k)
+        if self.speed is not None:
+            return scene, float(self.speed[k]), float(self.angle[k])
+        assert self.stokes is not None
+        return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
+
+    def part(self, which: np.ndarray) -> Request:
+        """The request of these collisions alone."""
+        return replace(
+            self,
+            stokes=None if self.stokes is None else self.stokes[which],
+            speed=None if self.speed is None else self.speed[which],
+            angle=self.angle[which],
+            vary={name: values[which] for name, values in self.vary.items()},
+        )
+
+
+@lru_cache(maxsize=64)
+def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
+    return scene.with_entries(dict(entries))
+
+
+def requested(
+    scene: Scene | str | Path,
+    stokes: Any,
+    speed: Any,
+    angle: Any,
+    vary: Mapping[str, Any],
+    rtol: float,
+    engine: str | None,
+    of: Sequence[str],
+) -> Request:
+    """A validated Request, everything brought to one length."""
+    loaded = Scene.load(scene)
+    kept = check_of(of)
+    arrays = checked_impact(loaded, stokes, speed, angle) | checked_vary(loaded, vary)
+    lengths = {name: array.size for name, array in arrays.items() if array.ndim and array.size != 1}
+    size = next(iter(lengths.values()), 1)
+    for name, length in lengths.items():
+        if length != size:
+            raise InputError(name, f"{length} values", f"{size} values, or one", "differs in length from the others")
+    full = {
+        name: array.reshape(-1).copy() if array.size == size else np.full(size, array.item())
+        for name, array in arrays.items()
+    }
+    request = Request(
+        scene=loaded,
+        stokes=full.pop("impact.stokes", None),
+        speed=full.pop("impact.speed", None),
+        angle=full.pop("impact.angle"),
+        vary=full,
+        rtol=check_rtol(rtol),
+        engine=bulk_engine(check_engine(engine), size, loaded),
+        of=kept,
+    )
+    check_some_scene(request)
+    return request
+
+
+def check_of(of: Sequence[str]) -> tuple[str, ...]:
+    """The quantities to keep; InputError for one that there is not."""
+    return check_names(of, (*QUANTITIES, "outcome", "certified", "reason"), "of")
+
+
+def checked_impact(scene: Scene, stokes: Any, speed: Any, angle: Any) -> dict[str, np.ndarray]:
+    """Impacts by dotted name, SI; what is not given is the scene's. InputError if that has none."""
+    if stokes is not None and speed is not None:
+        raise InputError("speed", speed, "only one of stokes, speed", "is given together with stokes")
+    if stokes is None and speed is None:
+        stokes, speed = scene.impact.stokes, scene.impact.speed
+        if stokes is None and speed is None:
+            raise InputError("stokes", None, "Stokes numbers, or speed, or an [impact] in the scene")
+    angle = scene.angle if angle is None else angle
+    if angle is None:
+        raise InputError("angle", None, "angles in rad, or an [impact] in the scene")
+    given = {"impact.stokes": stokes, "impact.speed": speed, "impact.angle": angle}
+    return {name: checked_numbers(name, values) for name, values in given.items() if values is not None}
+
+
+def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> dict[str, np.ndarray]:
+    """Other entries that vary, SI; InputError for a name that cannot."""
+    vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
+    for name, values in vary.items():
+        check_varies(name, values, label, scene.package)
+        if "." in name and name.partition(".")[0] not in {given.partition(".")[0] for given, _ in scene.given}:
+            accepted = ", ".join(given for given, _ in scene.given if not given.startswith("impact."))
+            raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
+    return {name: checked_numbers(name, values, scene.package) for name, values in vary.items()}
+
+
+def check_varies(name: str, values: object, label: str = "vary", package: Package | None = None) -> None:
+    """InputError unless an entry of this name may vary: a number that is none of the impact's."""
+    known = fields(package)
+    if name not in known:
+        raise unknown(name, values, package) or unknown_entry(name, values)
+    if name.startswith("impact."):
+        raise InputError(label, name, "entries that are not of the impact", "has an argument of its own")
+    if known[name].choices:
+        raise InputError(label, name, "entries that are numbers", "is a choice")
+
+
+def check_some_scene(request: Request) -> None:
+    """InputError if what varies makes every single collision impossible; where it spoils a few, they are marked."""
+    first: InputError | None = None
+    for k in range(request.size if request.vary else 0):
+        try:
+            request.scene_of(k)
+        except InputError as error:
+            first = first or error
+        else:
+            return
+    if first is not None:
+        raise first
+
+
+def checked_numbers(name: str, values: Any, package: Package | None = None) -> np.ndarray:
+    """An array of SI numbers, in one dimension or none, each acceptable for its field; text carries its unit.
+
+    Raises:
+        InputError: as `values.array`, and numbers outside the field's range.
+    """
+    entry = fields(package)[name]
+    found = array(values, entry, name)
+    if found.ndim > 1:
+        raise InputError(name, f"{found.ndim} dimensions", "one dimension, or a single number", "is not accepted")
+    # every range is an interval: the values between two ends that it holds need not be asked
+    ends = (float(found.min()), float(found.max())) if found.size else ()  # NaN if any is
+    if not all(math.isfinite(end) and entry.range.holds(end) for end in ends):
+        for value in np.unique(found):
+            entry.number(float(value))
+    return found
+
+
+def checked_span(name: str, values: Any) -> tuple[float, float]:
+    """Two SI numbers that are ascending; InputError for anything else."""
+    found = checked_numbers(name, values)
+    accepted = "(LO, HI) with LO below HI"
+    if found.shape != (2,):
+        raise InputError(name, values, accepted, "is not a pair of numbers")
+    low, high = found.tolist()
+    if not low < high:
+        raise InputError(name, f"{low}:{high}", accepted, "is not ascending")
+    return low, high

@@ -1,0 +1,154 @@
+"""A request for many collisions, through the kernel: columns of SI quantities in, columns of results out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...generated import scaling
+from ..engines.taylor.call import Impacts, answers
+from ..errors import InputError
+from ..model.dimensionless import formulas, si_values
+from ..settings import FEW
+from .batch import Request
+
+Block = dict[str, np.ndarray]
+_STRETCH = 65536  # collisions between two signs of life; memory stays flat
+# Entries that are a quantity of the model as they stand, and those that are twice one.
+_PLAIN = {
+    "particles.reduced_radius": 1.0,
+    "particles.radius": 0.5,
+    "particles.reduced_mass": 1.0,
+    "particles.mass": 0.5,
+    **dict.fromkeys(("particles.roughness", "particles.dry_restitution"), 1.0),
+    **dict.fromkeys(("particles.youngs_modulus", "particles.poisson_ratio"), 1.0),
+    **dict.fromkeys(("liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure"), 1.0),
+    **dict.fromkeys(("bridge.surface_tension", "bridge.volume", "bridge.contact_angle"), 1.0),
+    **dict.fromkeys(("pendulum.length", "pendulum.gravity", "attraction.hamaker"), 1.0),
+}
+_RENAMED = {
+    "radius": "reduced_radius",
+    "mass": "reduced_mass",
+    "length": "string_length",
+}
+_MOST = 1e30  # magnitude of an SI quantity, and its inverse the least
+_NEVER = ("glass_transition_pressure", "youngs_modulus")  # so large that a criterion is never met
+_NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall judge
+
+
+def collided(
+    request: Request, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
+) -> np.ndarray:
+    """Collide the collisions `which` of a request, in that order; returns those that are for other engines to do.
+
+    Arguments:
+        finished: told of every block that is done.
+    """
+    left = [which[:0]]
+    for first in range(0, which.size, _STRETCH):
+        part = which[first : first + _STRETCH]
+        whole = part.size == request.size and bool((part == np.arange(part.size)).all())
+        impacts, sound = impacts_of(request if whole else request.part(part))
+        found = answers(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
+        if found is None:
+            return which
+        kept = found["status"] <= 1
+        if part.size == kept.size and kept.all():  # nearly always: then nothing is copied
+            finished(part, _block(request, found, impacts))
+            continue
+        done = sound.copy()
+        done[sound] = kept
+        finished(part[done], _block(request, found[kept], impacts.part(kept)))
+        left.append(part[~done])
+    return np.concatenate(left)
+
+
+def impacts_of(request: Request) -> tuple[Impacts, np.ndarray]:
+    """The impacts of a request in SI, and which collisions they are: the others are bad input, or may be."""
+    scene = request.scene
+    values: dict[str, np.ndarray] = {}
+    with np.errstate(all="ignore"):  # what leaves a double's range is not usual
+        if request.vary:
+            values, sound = _quickly(request) if _plain(request) else _one_by_one(request)
+            unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+        else:
+            sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
+        speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
+        for name, column in (values or si_values(scene, None, None)).items():
+            sound &= _usual(column, name)
+        sound &= _usual(speed)
+    impacts = Impacts(scene, speed, request.angle, values)
+    return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
+
+
+def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
+    """Where an SI quantity is of a magnitude with which nothing leaves a double's range; else `numbers` shall judge."""
+    size = np.abs(values)
+    most = 1e200 if name in _NEVER else _MOST
+    usual: np.ndarray = (size == 0) | ((size >= 1 / _MOST) & (size <= most))
+    return usual
+
+
+def _plain(request: Request) -> bool:
+    """Whether every entry that varies is a quantity by itself, and judged by itself."""
+    scene = request.scene
+    own = {f"custom.{name}" for name in scene.package.quantities} if scene.package is not None else set()
+    if not all(name in _PLAIN or name in own for name in request.vary) or scene.partner is not None:
+        return False
+    bare = scene.attraction is not None and "particles.roughness" in request.vary  # it keeps the gap open
+    return not bare and not any(given == "particles.density" for given, _ in scene.given)
+
+
+def _quickly(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    values = {name: np.full(request.size, value) for name, value in si_values(request.scene, None, None).items()}
+    for name, column in request.vary.items():
+        own = name.partition(".")[2]
+        values[_RENAMED.get(own, own)] = column * _PLAIN.get(name, 1.0)
+    film = values["film_thickness"]
+    sound = values["roughness"] < film * (1 - _NEAR)
+    rupture = film
+    if request.scene.bridge is not None:
+        formula, arguments = formulas(request.scene)["rupture_gap"]
+        gap = np.asarray(formula(*(values[name] for name in arguments)))
+        sound &= (gap > 1 + _NEAR) & np.isfinite(gap)
+        rupture = gap * film
+    if request.scene.pendulum is not None:
+        sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
+    return values, sound
+
+
+def _one_by_one(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """By way of the scene of every collision: entries that others are made of."""
+    rows, sound = [], np.ones(request.size, bool)
+    for k in range(request.size):
+        try:
+            rows.append(si_values(request.scene_of(k), None, None))
+        except InputError:
+            sound[k] = False
+            rows.append(rows[-1] if rows else si_values(request.scene, None, None))
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}, sound
+
+
+def _block(request: Request, found: np.ndarray, impacts: Impacts) -> Block:
+    """Answers as the columns of a result: those that are asked for."""
+    separated = found["outcome"] > 0
+
+    def thickness() -> np.ndarray | float:
+        return impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
+
+    def where(defined: np.ndarray, values: np.ndarray) -> np.ndarray:
+        return np.where(defined, values, np.nan)
+
+    columns: dict[str, Callable[[], np.ndarray]] = {
+        "tangential_restitution": lambda: where(separated & (impacts.angle > 0), found["shown"][:, 1]),
+        "contact_time": lambda: where(separated, found["time"] * thickness() / impacts.speed),
+        "smallest_gap": lambda: where(separated, found["smallest_gap"] * thickness()),
+        "rotation": lambda: where(separated, found["turned"]),
+    }
+    block: Block = {
+        "outcome": found["outcome"].astype(np.int8),
+        "certified": found["certified"] != 0,
+        "restitution": np.where(separated, found["shown"][:, 0], 0.0),
+    }
+    return block | {name: column() for name, column in columns.items() if name in request.of}

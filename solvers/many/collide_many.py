@@ -1,0 +1,258 @@
+"""Many collisions at once: the building block of maps and everything else that scans.
+
+Each collision is located with CasADi's Rosenbrock integrator compiled to C; blocks of them go to the machine's cores.
+A collision that fails is marked with its reason and the rest go on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engines.casadi.locate import Path, locate
+from ..errors import ComputationError, WetDoubletError
+from ..formatting.labelled import Column, labelled
+from ..host.compiler import compiler
+from ..host.cores import usable_cores
+from ..host.workers import undisturbed, workers
+from ..model.dimensionless import Numbers, numbers
+from ..model.model import choose, load
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..settings import FEW, RTOL
+from .batch import QUANTITIES, Request, requested
+from .by_kernel import collided
+
+if TYPE_CHECKING:
+    import xarray
+
+OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+FAILED = -1
+_BLOCK = 50  # collisions a worker takes at a time
+_ALONE = FEW  # fewer collisions are not worth starting workers for
+_SLOW_ALONE = 20  # nor are fewer of those that the kernel has handed over: they take up to seconds each
+
+Block = dict[str, np.ndarray]
+Finished = Callable[[np.ndarray, Block], None]
+Slow = Callable[[int], None]
+
+
+def collide_many(
+    scene: Scene | str | FilePath,
+    *,
+    stokes: Any = None,
+    speed: Any = None,
+    angle: Any = None,
+    vary: Mapping[str, Any] | None = None,
+    rtol: float = RTOL,
+    engine: str | None = None,
+    of: Sequence[str] = ("outcome", "restitution"),
+) -> xarray.Dataset:
+    """Many collisions of one scene.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name.
+        stokes, speed: Stokes numbers, or normal speeds in m/s: 1-D or a single number; default the scene's.
+        angle: impact angles in rad, 1-D or a single number; default the scene's.
+        vary: other entries by dotted name (SI numbers), 1-D of the same length.
+        rtol: relative tolerance, 1e-13..1e-3.
+        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
+        of: what to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap.
+
+    Returns:
+        Dataset over `collision`: outcome (int8: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 failed), restitution,
+        certified, reason (of a failure, else ""), and what `of` names; NaN where a stick leaves a quantity undefined.
+
+    Raises:
+        InputError: a name, length or value that cannot be; a collision that fails is no error, it is marked.
+
+    Example:
+        >>> from wetdoublet.solvers import collide_many
+        >>> collide_many("granulation", stokes=[0.01, 0.02], angle=1.3).outcome.values
+        array([0, 1], dtype=int8)
+    """
+    request = requested(scene, stokes, speed, angle, {} if vary is None else vary, rtol, engine, of)
+    warn(request.scene)
+    results = empty(request.size, request.of)
+    compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
+    return as_dataset(request, results)
+
+
+def empty(size: int, of: Sequence[str]) -> Block:
+    """Result columns, nothing computed yet: outcome -2."""
+    columns: Block = {"outcome": np.full(size, -2, dtype=np.int8)}
+    columns["certified"] = np.zeros(size, dtype=bool)
+    columns["reason"] = np.empty(size, dtype=object)  # None: nothing has failed
+    for name in dict.fromkeys(("restitution", *of)):
+        if name in QUANTITIES:
+            columns[name] = np.full(size, np.nan)
+    return columns
+
+
+def fill(results: Block, where: np.ndarray, block: Block) -> None:
+    """Put a finished block where it belongs."""
+    for name, values in block.items():
+        results[name][where] = values
+
+
+def compute(request: Request, which: np.ndarray, finished: Finished, slow: Slow = lambda _count: None) -> None:
+    """Collide the collisions `which`, on all cores if they are many; `finished` is told of every block.
+
+    What it has been told stays told, whatever interrupts the rest.
+
+    Arguments:
+        slow: told how many collisions the kernel has handed over, before they are done one after another.
+    """
+    size, alone = _BLOCK, _ALONE
+    if request.engine == "taylor":
+        left = collided(request, which, usable_cores() if which.size > _ALONE else 1, finished)
+        if 0 < left.size < which.size:
+            slow(left.size)
+            size, alone = max(1, min(_BLOCK, left.size // (4 * usable_cores()))), _SLOW_ALONE
+        which = left
+    blocks = [which[k : k + size] for k in range(0, which.size, size)]
+    cores = min(len(blocks), usable_cores())
+    many = which.size > _ALONE
+    if which.size <= alone or cores == 1:
+        for block in blocks:
+            finished(block, run(request.part(block), many))
+        return
+    for block, result in _in_parallel(request, blocks, cores, many):
+        finished(block, result)
+
+
+def _in_parallel(
+    request: Request, blocks: list[np.ndarray], cores: int, machine_code: bool
+) -> Iterator[tuple[np.ndarray, Block]]:
+    """Results in the order in which they are finished; a worker is sent the part of the request it is to do."""
+    from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
+
+    if request.engine != "cvodes":
+        compiler()  # what is missing is said here
+    if machine_code:
+        run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
+    waiting: dict[Any, np.ndarray] = {}
+    left = iter(blocks)
+    try:
+        with workers(cores) as pool:
+            while True:
+                with undisturbed():  # an interrupt is for this process, which then stops its workers
+                    for block in left:
+                        waiting[pool.submit(run, request.part(block), machine_code)] = block
+                        if len(waiting) > 2 * cores:
+                            break
+                if not waiting:
+                    return
+                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                    yield waiting.pop(future), future.result()
+    except BrokenExecutor as error:
+        raise ComputationError(
+            f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
+        ) from None
+
+
+def run(request: Request, machine_code: bool) -> Block:
+    """Collide everything that is requested, one after another."""
+    block = empty(request.size, request.of)
+    for k in range(request.size):
+        for name, value in _one(request, k, machine_code).items():
+            block[name][k] = value
+    return block
+
+
+def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
+    try:
+        scene, speed, angle = request.impact(k)
+        if request.engine == "cvodes":
+            return _chained(request, scene, speed, angle)
+        n = numbers(scene, speed, angle)
+        model = load(choose(scene, n.oblique, fold=True))
+        turns = model.has("turning_rate") and not model.strings
+        quadrature = ("rotation",) if "rotation" in request.of and turns else ()
+        try:
+            path = locate(model, n.groups, request.rtol, quadrature, machine_code)
+        except ComputationError as error:
+            raise n.in_si(error) from None
+        return _kept(request.of, path, n)
+    except WetDoubletError as error:
+        return {"outcome": FAILED, "reason": str(error)}
+    except Exception as error:  # noqa: BLE001 # a defect of ours spoils one collision, not the others
+        return {"outcome": FAILED, "reason": " ".join(f"internal error: {type(error).__name__}: {error}".split())}
+
+
+def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:
+    found: dict[str, Any] = {"outcome": OUTCOMES.index(path.outcome), "certified": path.certified, "restitution": 0.0}
+    if not path.separated:
+        return found
+    outputs = path.model.values("outputs", path.y, path.p)
+    found["restitution"] = outputs["restitution"]
+    values = {
+        "tangential_restitution": outputs.get("tangential_restitution", math.nan),
+        "contact_time": path.time * n.time,
+        "smallest_gap": path.smallest_gap * n.length,
+        "rotation": 0.0,
+    }
+    names = (*path.model.state, *path.extras)
+    if "rotation" in names:
+        values["rotation"] = float(path.y[names.index("rotation")])
+    return found | {name: value for name, value in values.items() if name in of}
+
+
+def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
+    """One collision by the reference engine."""
+    from ..collision.collide import by_casadi
+
+    n = numbers(scene, speed, angle)
+    one = by_casadi(scene, n, request.rtol, "cvodes", ledger=False, trajectory=False).to_dict()
+    found = {name: math.nan if one[name] is None else one[name] for name in QUANTITIES if name in request.of}
+    return found | {
+        "outcome": OUTCOMES.index(one["outcome"]),
+        "certified": one["certified"],
+        "restitution": one["restitution"],
+    }
+
+
+def as_dataset(request: Request, results: Block) -> xarray.Dataset:
+    """Results as a labelled Dataset over `collision`, its impacts and varied entries as coordinates."""
+    along = ("collision",)
+    coordinates: dict[str, Column] = {}
+    if request.stokes is not None:
+        coordinates["stokes"] = along, request.stokes, {"units": "1", "long_name": "Stokes number"}
+    if request.speed is not None:
+        coordinates["speed"] = along, request.speed, {"units": "m/s", "long_name": "normal approach speed"}
+    coordinates["angle"] = along, request.angle, {"units": "rad", "long_name": "impact angle"}
+    for name, values in request.vary.items():
+        coordinates[name] = along, values, {"units": request.scene.fields[name].unit or "1"}
+    variables: dict[str, Column] = {
+        "outcome": (along, results["outcome"], outcome_attributes()),
+        "certified": (along, results["certified"], {"long_name": "the stick is proved"}),
+        "reason": (along, as_text(results), {"long_name": "why it failed"}),
+    }
+    for name, (unit, meaning) in QUANTITIES.items():
+        if name in results:
+            variables[name] = along, results[name], {"units": unit, "long_name": meaning}
+    attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
+    if request.scene.package is not None:
+        attributes["model"] = request.scene.package.text
+    return labelled(variables, coordinates, attributes)
+
+
+def as_text(results: Block) -> np.ndarray:
+    """The reasons as numpy's own text, empty where nothing failed."""
+    failed = results["outcome"] == FAILED
+    if not failed.any():
+        return np.zeros(failed.size, "<U1")
+    return np.where(failed, results["reason"], "").astype(str)
+
+
+def outcome_attributes() -> dict[str, Any]:
+    """CF flag attributes of an outcome variable."""
+    return {
+        "long_name": "outcome",
+        "flag_values": np.array([FAILED, 0, 1, 2], dtype=np.int8),
+        "flag_meanings": "failed " + " ".join(name.replace("-", "_") for name in OUTCOMES),
+    }

@@ -1,0 +1,151 @@
+"""Finished blocks of a scan on disk, so that an interrupted run computes only what is missing.
+
+A journal is a text file, a line a block, each under the key of the request that it belongs to and with its own
+checksum: a line that was torn, or is another request's, is passed over.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..host.files import write, write_all
+from ..host.locks import take
+from .collide_many import Block
+
+
+class Journal:
+    """The journal of one request.
+
+    Arguments:
+        path: the file; it need not exist yet.
+        request: everything that the results depend on, as JSON values; None: `under` says it later.
+    """
+
+    def __init__(self, path: Path, request: Mapping[str, Any] | None = None) -> None:
+        self.path = path
+        self.key = b""
+        self._held: int | None = None
+        if request is not None:
+            self.under(request)
+
+    def under(self, request: Mapping[str, Any]) -> None:
+        """Make this the journal of a request."""
+        self.key = hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:32].encode()
+
+    @contextmanager
+    def held(self, label: str = "journal", file: Path | None = None) -> Iterator[None]:
+        """Keep the journal, and the file that it is kept for, to this run; nothing of it is left if it stays empty.
+
+        The lock is one on the journal's file, and ends with this process, however that ends.
+
+        Arguments:
+            label: option or argument that names the file.
+            file: what the journal is kept for; None: the journal itself is what was named.
+
+        Raises:
+            InputError: another run has it, or the journal cannot be written.
+        """
+        if self._held is not None:  # by the caller
+            yield
+            return
+        named = str(file or self.path)
+        try:
+            self._held = self._locked()
+        except InputError:
+            raise
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise InputError(
+                label, named, "a file in a folder that can be written to", f"cannot be kept ({reason})"
+            ) from None
+        if self._held is None:
+            problem = "is being written by another run"
+            raise InputError(label, named, "a file of its own for each run, or this one when that has ended", problem)
+        try:
+            yield
+        finally:
+            if self.path.is_file() and self.path.stat().st_size == 0:
+                self.path.unlink(missing_ok=True)
+            os.close(self._held)
+            self._held = None
+
+    def _locked(self) -> int | None:
+        """The journal's file, open and locked; None if it is locked by another run."""
+        while True:
+            if self.path.exists() and not self.path.is_file():
+                raise InputError("journal", str(self.path), "a file", "is none")
+            opened = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NONBLOCK", 0), 0o666)
+            try:
+                if not take(opened):
+                    os.close(opened)
+                    return None
+                if self.path.exists() and os.path.samestat(os.fstat(opened), self.path.stat()):
+                    return opened
+            except BaseException:
+                os.close(opened)
+                raise
+            os.close(opened)  # the run that had it has removed it meanwhile
+
+    def read(self) -> list[tuple[np.ndarray, Block]]:
+        """The blocks of this request that are done."""
+        return [_block(record) for key, record in self._records() if key == self.key and record is not None]
+
+    def count(self) -> int:
+        """Collisions of this request that are done."""
+        return sum(len(record["where"]) for key, record in self._records() if key == self.key and record is not None)
+
+    def others(self) -> tuple[int, int]:
+        """How much of the file is not this request's: collisions of others, and lines that are no collisions."""
+        strange = [record for key, record in self._records() if key != self.key]
+        return sum(len(one["where"]) for one in strange if one is not None), sum(one is None for one in strange)
+
+    def _records(self) -> Iterator[tuple[bytes, dict[str, Any] | None]]:
+        """Key and content of every line, None for a line that is not whole."""
+        if not self.path.is_file():
+            return
+        with self.path.open("rb") as file:
+            for line in file:
+                key, checksum, text = (*line.rstrip(b"\n").split(b" ", 2), b"", b"")[:3]
+                if line.strip():
+                    yield key, json.loads(text) if text and checksum == _checksum(text) else None
+
+    def add(self, where: np.ndarray, block: Block) -> None:
+        """Put down a block, in a single write."""
+        columns = {name: values.tolist() for name, values in block.items()}
+        text = json.dumps({"where": where.tolist(), "columns": columns}).encode()
+        try:
+            with self.path.open("ab", buffering=0) as file:
+                # begins a line of its own, should the last one be torn
+                write_all(file.fileno(), b"\n%s %s %s\n" % (self.key, _checksum(text), text))
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(self.path)) from error
+
+    def remove(self) -> None:
+        """Remove what is kept of this request; the file too, unless another request's work is in it."""
+        if not self.path.is_file():
+            return
+        lines = self.path.read_bytes().split(b"\n")
+        others = [line for line in lines if line and not line.startswith(self.key + b" ")]
+        if not others:
+            self.path.unlink(missing_ok=True)
+            return
+        write(self.path, b"\n".join(others) + b"\n")
+
+
+def _checksum(text: bytes) -> bytes:
+    return hashlib.sha256(text).hexdigest()[:16].encode()
+
+
+def _block(record: Mapping[str, Any]) -> tuple[np.ndarray, Block]:
+    kinds: dict[str, Any] = {"outcome": np.int8, "certified": bool, "reason": object}
+    columns = {name: np.array(values, dtype=kinds.get(name, float)) for name, values in record["columns"].items()}
+    return np.array(record["where"], dtype=int), columns

@@ -1,0 +1,298 @@
+"""A regime map: outcome and what else is asked for over a grid of impacts and of entries that vary."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...generated import scaling
+from ..errors import InputError
+from ..host import files
+from ..host.arguments import check_function
+from ..model.dimensionless import si_values
+from ..model.validity import warn
+from ..scene.ranges import MOST
+from ..scene.scene import Scene
+from ..scene.user_model import Package
+from ..settings import RTOL, bulk_engine, check_engine, check_rtol
+from .batch import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
+from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
+from .journal import Journal
+
+if TYPE_CHECKING:
+    import xarray
+
+Progress = Callable[[int, int], None]
+_UNKNOWN = -2  # outcome of a collision that has not been computed
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Axes of a map, SI: impact angles, Stokes numbers or speeds, and entries that vary."""
+
+    scene: Scene
+    angle: np.ndarray
+    impact: str  # "stokes" or "speed"
+    values: np.ndarray
+    vary: dict[str, np.ndarray]
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return ("angle", self.impact, *self.vary)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return (self.angle.size, self.values.size, *(values.size for values in self.vary.values()))
+
+    @cached_property
+    def order(self) -> np.ndarray:
+        """Flat indices as they are computed: collisions of one scene one after another."""
+        indices = np.arange(np.prod(self.shape, dtype=int)).reshape(self.shape)
+        return np.moveaxis(indices, [0, 1], [-2, -1]).ravel()
+
+    def request(self, rtol: float, engine: str, of: Sequence[str]) -> Request:
+        """All collisions of the grid, as a list."""
+        full = np.meshgrid(self.angle, self.values, *self.vary.values(), indexing="ij")
+        angle, values, *varied = (axis.ravel() for axis in full)
+        return Request(
+            scene=self.scene,
+            stokes=values if self.impact == "stokes" else None,
+            speed=values if self.impact == "speed" else None,
+            angle=angle,
+            vary=dict(zip(self.vary, varied, strict=True)),
+            rtol=rtol,
+            engine=engine,
+            of=tuple(of),
+        )
+
+
+def regime_map(
+    scene: Scene | str | Path,
+    *,
+    stokes: Any = None,
+    speed: Any = None,
+    angle: Any = None,
+    vary: Mapping[str, Any] | None = None,
+    rtol: float = RTOL,
+    engine: str | None = None,
+    of: Sequence[str] = tuple(QUANTITIES),
+    progress: Progress | None = None,
+    journal: str | Path | Journal | None = None,
+    slow: Slow = lambda _count: None,
+) -> xarray.Dataset:
+    """Outcomes over a grid.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name.
+        stokes, speed: Stokes numbers, or normal speeds in m/s: an axis, or a single number; default the scene's.
+        angle: impact angles in rad, an axis or a single number; default the scene's.
+        vary: other entries by dotted name (SI), each an axis of its own.
+        rtol: relative tolerance, 1e-13..1e-3.
+        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
+        of: restitution, tangential_restitution, rotation, contact_time, smallest_gap; by default all.
+        progress: told of (collisions done, collisions in all) from time to time.
+        journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
+            removes it.
+        slow: told how many collisions are left to slower engines, once the kernel has done all others.
+
+    Returns:
+        Dataset over (angle, stokes or speed, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
+        2 bounce, -1 failed), certified, reason (of a failure, else "") and what `of` names; NaN where a stick leaves
+        a quantity undefined. The Stokes number or speed that is no axis and, with a bridge, the centrifugal number
+        are coordinates as well. The scene is among the attributes.
+
+    Raises:
+        InputError: a name or value that cannot be; a collision that fails is no error, it is marked.
+
+    Example:
+        >>> from wetdoublet.solvers import regime_map
+        >>> regime_map("granulation", stokes=[0.01, 0.02, 0.2], angle=["30 deg", "75 deg"]).outcome.values
+        array([[0, 0, 2],
+               [0, 1, 2]], dtype=int8)
+    """
+    told = (check_function(progress, "progress"), check_function(slow, "slow"))
+    grid = _grid(Scene.load(scene), stokes, speed, angle, {} if vary is None else vary)
+    by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
+    request = grid.request(check_rtol(rtol), by, check_of(of))
+    check_some_scene(request)
+    warn(grid.scene)
+    kept = _journal(journal)
+    if kept is None:
+        return _computed(grid, request, None, *told)
+    kept.under(_identity(grid, request))
+    with kept.held():
+        return _computed(grid, request, kept, *told)
+
+
+def _journal(journal: object) -> Journal | None:
+    if journal is None or isinstance(journal, Journal):
+        return journal
+    if not isinstance(journal, (str, os.PathLike)) or not str(journal).strip():
+        raise InputError("journal", journal, "a file name, or None", "is not a file name")
+    return Journal(Path(journal))
+
+
+def _computed(
+    grid: Grid, request: Request, kept: Journal | None, progress: Progress | None, slow: Slow | None
+) -> xarray.Dataset:
+    results = empty(request.size, request.of)
+    for where, block in kept.read() if kept else ():
+        fill(results, where, block)
+    total = request.size
+
+    def tell() -> None:
+        if progress is not None:
+            progress(int(np.count_nonzero(results["outcome"] != _UNKNOWN)), total)
+
+    def finished(where: np.ndarray, block: Block) -> None:
+        if kept is not None:
+            kept.add(where, block)
+        fill(results, where, block)
+        tell()
+
+    tell()
+    missing = grid.order[results["outcome"][grid.order] == _UNKNOWN]
+    compute(request, missing, finished, slow or (lambda _count: None))
+    return _dataset(grid, request, results)
+
+
+def _grid(scene: Scene, stokes: Any, speed: Any, angle: Any, vary: Mapping[str, Any]) -> Grid:
+    impact = checked_impact(scene, stokes, speed, angle)
+    axes = {name: array.reshape(-1) for name, array in (impact | checked_vary(scene, vary)).items()}
+    if math.prod(axis.size for axis in axes.values()) > MOST:
+        longest = max(axes, key=lambda name: axes[name].size)
+        sizes = " x ".join(str(axis.size) for axis in axes.values())
+        raise InputError(longest, None, f"at most {MOST} collisions in all", f"makes {sizes} collisions")
+    for name, axis in axes.items():
+        if np.unique(axis).size != axis.size:
+            raise InputError(name, axis, "an axis without repetitions", "has a value twice")
+    angles = axes.pop("impact.angle")
+    kind = "stokes" if "impact.stokes" in axes else "speed"
+    values = axes.pop(f"impact.{kind}")
+    return Grid(scene, angles, kind, values, axes)
+
+
+def _identity(grid: Grid, request: Request) -> dict[str, Any]:
+    """Everything that the results depend on."""
+    axes = {"angle": grid.angle, grid.impact: grid.values} | {f"vary {name}": axis for name, axis in grid.vary.items()}
+    return {
+        "scene": [entry for entry in grid.scene.si if not entry[0].startswith("impact.")],
+        "axes": {name: axis.tolist() for name, axis in axes.items()},
+        "rtol": request.rtol,
+        "engine": request.engine,
+        "of": sorted(set(request.of)),
+        "version": _version(),
+        "equations": Path(scaling.__file__).with_name("manifest.json").read_text(),
+        "model": grid.scene.package and grid.scene.package.digest,
+    }
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("wetdoublet")
+
+
+def _dataset(grid: Grid, request: Request, results: Block) -> xarray.Dataset:
+    import xarray as xr
+
+    def shaped(values: np.ndarray) -> np.ndarray:
+        return values.reshape(grid.shape)
+
+    variables: dict[str, Any] = {
+        "outcome": (grid.dims, shaped(results["outcome"]), outcome_attributes()),
+        "certified": (grid.dims, shaped(results["certified"]), {"long_name": "the stick is proved"}),
+        "reason": (grid.dims, shaped(as_text(results)), {"long_name": "why it failed"}),
+    }
+    for name, (unit, meaning) in QUANTITIES.items():
+        if name in results:
+            variables[name] = (grid.dims, shaped(results[name]), {"units": unit, "long_name": meaning})
+    attributes = {
+        "Conventions": "CF-1.11",
+        "title": f"Outcomes of oblique wet collisions: {grid.scene.name or 'unnamed scene'}",
+        "source": f"wetdoublet {_version()}",
+        "scene": grid.scene.to_toml(),
+        "rtol": request.rtol,
+        "engine": request.engine,
+        "version": _version(),
+    }
+    if grid.scene.package is not None:
+        attributes["model"] = grid.scene.package.text
+    return xr.Dataset(variables, _coordinates(grid), attributes)
+
+
+def _coordinates(grid: Grid) -> dict[str, Any]:
+    labels = {
+        "stokes": {"units": "1", "long_name": "Stokes number"},
+        "speed": {"units": "m/s", "long_name": "normal approach speed"},
+        "angle": {"units": "rad", "long_name": "impact angle"},
+    }
+    coordinates: dict[str, Any] = {
+        "angle": ("angle", grid.angle, labels["angle"]),
+        grid.impact: (grid.impact, grid.values, labels[grid.impact]),
+    }
+    for name, values in grid.vary.items():
+        field = grid.scene.fields[name]
+        coordinates[name] = (name, values, {"units": field.unit or "1", "long_name": name.replace(".", ", ", 1)})
+    other = "speed" if grid.impact == "stokes" else "stokes"
+    shape = grid.shape[2:]
+    converted = np.full((grid.values.size, *shape), np.nan)
+    centrifugal = np.full(grid.shape, np.nan)
+    for index in np.ndindex(*shape):
+        entries = {name: float(axis[k]) for (name, axis), k in zip(grid.vary.items(), index, strict=True)}
+        try:
+            scene = grid.scene.with_entries(entries) if entries else grid.scene
+        except InputError:  # its collisions are marked as failed
+            continue
+        with np.errstate(all="ignore"):  # collisions out of range are marked as failed
+            speeds = grid.values if grid.impact == "speed" else grid.values / scene.stokes_per_speed
+            converted[(slice(None), *index)] = speeds if other == "speed" else speeds * scene.stokes_per_speed
+        if scene.bridge is not None:
+            centrifugal[(slice(None), slice(None), *index)] = _centrifugal(scene, speeds, grid.angle)
+    coordinates[other] = (grid.dims[1:], converted, labels[other])
+    if grid.scene.bridge is not None:
+        coordinates["centrifugal"] = (
+            grid.dims,
+            centrifugal,
+            {"units": "1", "long_name": "centrifugal number m omega0^2/sigma"},
+        )
+    return coordinates
+
+
+def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> list[list[float]]:
+    known = si_values(scene, None, None)
+    fixed = {name: known[name] for name in scaling.ARGUMENTS["centrifugal"] if name in known}
+
+    def one(speed: float, angle: float) -> float:
+        try:
+            return float(scaling.centrifugal(**fixed, speed=speed, angle=angle))
+        except (OverflowError, ZeroDivisionError):
+            return math.inf
+
+    return [[one(speed, angle) for speed in speeds.tolist()] for angle in angles.tolist()]
+
+
+def scene_of(data: xarray.Dataset) -> Scene:
+    """The scene of a map, with its model as far as a description goes."""
+    model = data.attrs.get("model")
+    return Scene.from_toml(data.attrs["scene"], package=None if model is None else Package(str(model)))
+
+
+def write(data: xarray.Dataset, path: str | Path) -> None:
+    """Write a map as NetCDF4, complete or not at all. OSError if it cannot be written."""
+    from h5netcdf import File
+    from xarray.backends import H5NetCDFStore
+
+    made = io.BytesIO()  # a disk that is full ends HDF5, and this process with it
+    with File(made, "w") as file:
+        encoding = {name: {"zlib": True} for name in QUANTITIES if name in data}
+        data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
+    files.write(path, made.getbuffer())

@@ -1,0 +1,99 @@
+"""A regime map as characters for a terminal: outcomes over impact angle and Stokes number, at most 88 columns."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..collision.text import WIDTH, name_of, quantity
+from .collide_many import FAILED, OUTCOMES
+from .regime_map import scene_of
+
+if TYPE_CHECKING:
+    import xarray
+
+CHARACTERS = "SRB!"  # in the order of the outcomes; the last is FAILED, -1
+_LABEL = 10  # columns to the left of the map
+_ROWS, _MAPS = 32, 4
+_TICK = 10  # columns from one label of the angle to the next
+
+
+def table(data: xarray.Dataset) -> str:
+    """The map as text, subsampled where it is too large; several where more than the impact varies."""
+    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", "stokes", "speed")]
+    legend = "   ".join(f"{letter} {name}" for letter, name in zip(CHARACTERS, (*OUTCOMES, "failed"), strict=True))
+    lines = [f"{name_of(scene_of(data))}: {data['outcome'].size} collisions", legend]
+    sizes = [data.sizes[name] for name in varied]
+    chosen = _some(math.prod(sizes), _MAPS)
+    for number in chosen:
+        index = [int(k) for k in np.unravel_index(number, sizes)] if varied else []
+        part = data.isel(dict(zip(varied, index, strict=True)))
+        lines += ["", *([", ".join(_value(part, name) for name in varied)] if varied else []), *_map(part)]
+    notes = _subsampled(data, len(chosen), math.prod(sizes))
+    return "\n".join([*lines, *notes])
+
+
+def _map(data: xarray.Dataset) -> list[str]:
+    impact = "stokes" if "stokes" in data["outcome"].dims else "speed"
+    outcome = data["outcome"].transpose(impact, "angle").values
+    rows, columns = _some(outcome.shape[0], _ROWS), _some(outcome.shape[1], WIDTH - _LABEL)
+    values, angles = data[impact].values, np.degrees(data["angle"].values)
+    head = "St" if impact == "stokes" else "m/s"
+    lines = [f"{head:>{_LABEL - 2}}"]
+    for row in rows[::-1]:
+        text = "".join(CHARACTERS[outcome[row, column]] for column in columns)
+        lines.append(f"{values[row]:>{_LABEL - 2}.3g}  {text}")
+    ticks = range(0, len(columns), _TICK)
+    marks, labels = "", ""
+    for tick in ticks:
+        marks += " " * (_LABEL + tick - len(marks)) + "|"
+        labels += " " * (_LABEL + tick - len(labels)) + f"{angles[columns[tick]]:.3g}"
+    name = f"{'deg':>{_LABEL - 2}}"
+    return [*lines, marks, name + labels[len(name) :]]
+
+
+def _some(size: int, most: int) -> list[int]:
+    """All indices, or `most` of them spread evenly, both ends included."""
+    return sorted({round(k) for k in np.linspace(0, size - 1, min(size, most)).tolist()})
+
+
+def _value(part: xarray.Dataset, name: str) -> str:
+    unit = part[name].attrs.get("units", "1")
+    value = float(part[name])
+    if unit == "rad":
+        return f"{name} = {math.degrees(value):.4g} deg"
+    return f"{name} = {value:.4g}" if unit == "1" else f"{name} = {quantity(value, unit)}"
+
+
+def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
+    impact = "stokes" if "stokes" in data["outcome"].dims else "speed"
+    parts = []
+    for count, size, what in (
+        (min(data.sizes[impact], _ROWS), data.sizes[impact], "rows"),
+        (min(data.sizes["angle"], WIDTH - _LABEL), data.sizes["angle"], "columns"),
+        (shown, total, "maps"),
+    ):
+        if count < size:
+            parts.append(f"{count} of {size} {what}")
+    if not parts:
+        return []
+    return ["", f"shown: {', '.join(parts)}", "-o FILE.nc keeps all, --plot FILE.png draws them"]
+
+
+def failures(data: xarray.Dataset) -> str | None:
+    """How many failed, and why, in one line; None if none did."""
+    failed = data["outcome"].values == FAILED
+    count = int(np.count_nonzero(failed))
+    if not count:
+        return None
+    kinds: dict[str, list[str]] = {}
+    for reason in data["reason"].values[failed].tolist():
+        kinds.setdefault(re.sub(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", "#", reason.partition("; state ")[0]), []).append(
+            reason
+        )
+    said = [f"{len(alike)} x {alike[0]}" for alike in sorted(kinds.values(), key=len, reverse=True)]
+    more = f", and {len(said) - 3} other reasons" if len(said) > 3 else ""
+    return f"{count} of {failed.size} collisions failed: {' | '.join(said[:3])}{more}"

@@ -1,0 +1,1 @@
+"""The emitted modules of a scene, its phases and its dimensionless groups."""

@@ -1,0 +1,204 @@
+"""A collision in dimensionless numbers: the groups its model takes, and the scales that lead back to SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ...generated import scaling
+from ..errors import ComputationError, InputError
+from ..host import emitted
+
+if TYPE_CHECKING:
+    from ..scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Groups by name, and the SI scales of length, time, angular velocity and energy.
+
+    `centrifugal` and `capillary` are None without a bridge, `reynolds` without the liquid's density.
+    """
+
+    groups: dict[str, float]
+    angle: float  # rad
+    speed: float  # m/s
+    length: float  # x0, m
+    time: float  # x0/v0, s
+    rate: float  # omega0, rad/s; beside a wall v0 tan(theta0)/a
+    energy: float  # m v0^2, J
+    stokes: float
+    centrifugal: float | None
+    capillary: float | None
+    reynolds: float | None
+
+    @property
+    def oblique(self) -> bool:
+        return self.groups["obliquity"] > 0
+
+    def in_si(self, error: ComputationError) -> ComputationError:
+        """A failure in dimensionless time and state, in SI units."""
+        state = dict(error.state)
+        shown: dict[str, float] = {}
+        if "gap" in state:
+            shown |= {"gap": state["gap"] * self.length, "opening velocity": state["opening"] * self.speed}
+        if "orbit" in state:
+            ratio = self.groups.get("radius_ratio", 1.0)
+            distance = (1 + ratio) ** 2 / ratio + self.groups["aspect"] * state["gap"]
+            shown["rotation rate"] = state["orbit"] / distance**2 * self.rate
+        for name, label in (("spin", "spin"), ("partner_spin", "partner's spin")):
+            if name in state:
+                shown[label] = state[name] * self.rate
+        if "decay" in state:
+            shown["e-foldings of sliding"] = state["decay"]
+        time = None if error.time is None else error.time * self.time
+        return ComputationError(error.message, error.phase, time, shown, error.advice)
+
+
+def si_values(scene: Scene, speed: float | None, angle: float | None) -> dict[str, float]:
+    """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
+    particles, liquid = scene.particles, scene.liquid
+    values = {
+        "reduced_radius": scene.reduced_radius,
+        "reduced_mass": scene.reduced_mass,
+        "roughness": particles.roughness,
+        "dry_restitution": particles.dry_restitution,
+        "viscosity": liquid.viscosity,
+        "film_thickness": liquid.film_thickness,
+        "glass_transition_pressure": liquid.glass_transition_pressure,
+    }
+    values |= {name: value for name, value in (("speed", speed), ("angle", angle)) if value is not None}
+    if particles.youngs_modulus is not None and particles.poisson_ratio is not None:
+        values |= {"youngs_modulus": particles.youngs_modulus, "poisson_ratio": particles.poisson_ratio}
+    if liquid.density is not None:
+        values["density"] = liquid.density
+    if scene.bridge is not None:
+        bridge = scene.bridge
+        values |= {
+            "surface_tension": bridge.surface_tension,
+            "volume": bridge.volume,
+            "contact_angle": bridge.contact_angle,
+        }
+    if scene.attraction is not None:
+        values["hamaker"] = scene.attraction.hamaker
+    if scene.radius_ratio is not None and scene.mass_ratio is not None:
+        values |= {"radius_ratio": scene.radius_ratio, "mass_ratio": scene.mass_ratio}
+    if scene.pendulum is not None:
+        values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
+    if scene.package is not None:
+        own = {f"custom.{name}": name for name in scene.package.quantities}
+        values |= {own[entry]: float(value) for entry, value in scene.si if entry in own}
+    return values
+
+
+def _as_given(scene: Scene, speed: float, stokes: float) -> float:
+    """The Stokes number as the impact says it, if it does: not rounded on its way through the speed."""
+    given = scene.impact.stokes
+    return given if given is not None and scene.speed_of(given) == speed else stokes
+
+
+Formula = tuple[Callable[..., Any], tuple[str, ...]]
+# Ranges of groups and scales, for products and quotients of several to stay within a double's; lower ends for those
+# that others are divided by.
+_RANGES = (
+    dict.fromkeys(("adhesion", "weight", "obliquity"), (0.0, 1e100))
+    | dict.fromkeys(("stokes", "aspect", "capillary", "string_ratio", "rupture_gap"), (1e-100, 1e100))
+    | dict.fromkeys(("time", "energy"), (1e-300, 1e300))
+)
+_SCALES: dict[str, Formula] = {
+    "time": (lambda film_thickness, speed: film_thickness / speed, ("film_thickness", "speed")),
+    "energy": (lambda mass, speed: mass * speed * speed, ("reduced_mass", "speed")),
+}
+_VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "generalised_centrifugal")
+
+
+def formulas(scene: Scene) -> dict[str, Formula]:
+    """Group or scale -> its emitted formula and the names of what that takes, for the scene's partner and laws.
+
+    A formula takes floats or CasADi expressions.
+    """
+    found: dict[str, Formula] = {
+        name: (getattr(scaling, name), arguments)
+        for name, arguments in scaling.ARGUMENTS.items()
+        if name not in _VARIANTS
+    }
+    if scene.wall:
+        found["initial_rate"] = scaling.initial_rate_wall, scaling.ARGUMENTS["initial_rate_wall"]
+        found["centrifugal"] = _nothing, ("surface_tension",)
+    elif scene.partner is not None:
+        for name in ("initial_rate", "centrifugal"):
+            found[name] = getattr(scaling, f"{name}_pair"), scaling.ARGUMENTS[f"{name}_pair"]
+    if scene.bridge is not None and scene.bridge.rupture == "own":
+        law = law_module(scene, "bridge", scene.bridge.law)
+
+        def own(reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any) -> Any:
+            return 2 * reduced_radius * law.rupture_distance(volume, contact_angle) / film_thickness
+
+        found["rupture_gap"] = own, scaling.ARGUMENTS["rupture_gap"]
+    if scene.package is not None:
+        found |= {name: (function, arguments) for name, (arguments, function) in scene.package.groups.items()}
+    return found
+
+
+def _nothing(surface_tension: Any) -> Any:
+    """Ce beside a wall: nothing turns."""
+    return 0 * surface_tension
+
+
+def law_module(scene: Scene, slot: str, name: str) -> Any:
+    """The emitted module of a law, the library's or the scene's own."""
+    if scene.package is not None and name in scene.package.laws(slot):
+        return scene.package.law(slot, name)
+    return emitted.law(slot, name)
+
+
+def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
+    """A group or scale by its formula; InputError where it leaves the range that can be computed with."""
+    function, arguments = formula
+    given = [values[argument] for argument in arguments]
+    try:
+        value = float(function(*given))
+    except (OverflowError, ZeroDivisionError):
+        value = math.inf
+    least, most = _RANGES.get(name, (0.0, math.inf))
+    if least <= abs(value) <= most and math.isfinite(value):
+        return value
+    entry = "impact.speed" if "speed" in arguments else arguments[0]
+    shown = dict(zip(arguments, given, strict=True)).get("speed", given[0])
+    kind = "scale" if name in _SCALES else "number"
+    span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
+    raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
+
+
+def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
+    """Dimensionless numbers of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
+
+    A group exists where the scene has what it is made of; an absent elastic criterion has elastic_gap 0.
+    """
+    values = si_values(scene, speed, angle)
+    plain = ("dry_restitution", "volume", "contact_angle", "radius_ratio", "mass_ratio")
+    groups: dict[str, float] = {name: values[name] for name in plain if name in values}
+    if scene.package is not None:
+        scene.package.demand(scene.entries)
+        groups |= {name: values[name] for name in scene.package.plain}
+    groups["elastic_gap"] = 0.0
+    for name, formula in formulas(scene).items():
+        if all(argument in values for argument in formula[1]):
+            groups[name] = _finite(name, formula, values)
+    x0 = scene.liquid.film_thickness
+    scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
+    return Numbers(
+        groups=groups,
+        angle=angle,
+        speed=speed,
+        length=x0,
+        time=scales["time"],
+        rate=groups["initial_rate"],
+        energy=scales["energy"],
+        stokes=_as_given(scene, speed, groups["stokes"]),
+        centrifugal=groups.get("centrifugal"),
+        capillary=groups.get("capillary"),
+        reynolds=groups.get("reynolds"),
+    )

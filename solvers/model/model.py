@@ -1,0 +1,248 @@
+"""The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from casadi import SX, Function, densify, fmax, fmin, vertcat
+
+from ...generated.assemble import Laws, symbols, vector
+from ..host import emitted
+from ..host.buffered import Buffered
+from ..host.thread_caches import own_cache
+from ..scene.user_model import Package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from ..scene.scene import Scene
+
+# Solutions never come below the contact gap; this keeps trial stages of a step out of x <= 0.
+_FLOOR = 0.5
+_SMALLEST_GAP = 1e-12
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Which structure module, with which law in each slot; laws may be those of a user's model."""
+
+    structure: str
+    laws: tuple[tuple[str, str], ...]
+    package: Package | None = None
+
+    def law(self, slot: str) -> str | None:
+        return dict(self.laws).get(slot)
+
+
+def choose(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) -> Choice:
+    """The smallest structure that has what the scene has.
+
+    Arguments:
+        oblique: the impact angle is not zero.
+        full: keep the spin as a state even where angular momentum would eliminate it (for the ledger).
+        fold: treat a partner that equals the sphere as such; not for derivatives along the partner's size.
+    """
+    equal = scene.partner is None or (fold and scene.radius_ratio == 1 and scene.mass_ratio == 1)
+    partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
+    reduced = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap" and not full
+    spread = scene.model.film == "constant-volume"
+    words = {
+        "bridge": scene.bridge is not None,
+        "strings": scene.pendulum is not None,
+        "attraction": scene.attraction is not None,
+        "spread": spread,
+        "reduced": reduced,
+    }
+    parts = ["oblique" if oblique else "head_on", *([partner] if partner else [])]
+    parts += [word for word, there in words.items() if there]
+    laws = [("film", scene.model.film), ("glass", scene.model.glass)]
+    if oblique:
+        laws.append(("shear", scene.model.tangential))
+        if not reduced and partner != "wall":
+            laws.append(("arm", scene.model.arm))
+    if scene.bridge is not None:
+        laws.append(("bridge", scene.bridge.law))
+    if scene.pendulum is not None:
+        laws.append(("strings", scene.pendulum.law))
+    if scene.attraction is not None:
+        laws.append(("attraction", "van-der-waals"))
+    if scene.package is None:
+        return Choice("_".join(parts), tuple(laws))
+    return Choice("_".join(parts), own_laws(scene.package, laws), scene.package)
+
+
+def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """The laws of a choice, with the model's where no entry of the scene could have named it."""
+    return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
+
+
+def _structure(choice: Choice) -> ModuleType:
+    slots = tuple(slot for slot, _ in choice.laws)
+    if choice.package is not None and choice.package.changes(slots):
+        return choice.package.structure(choice.structure)
+    return emitted.structure(choice.structure)
+
+
+def _law(package: Package | None, slot: str, name: str) -> Any:
+    if package is None:
+        return emitted.law(slot, name)
+    if name in package.laws(slot):
+        return package.law(slot, name)
+    return _Narrow(emitted.law(slot, name), package, slot)
+
+
+class _Narrow:
+    """A law of the library where a user's model calls its slot with more arguments: it takes no notice of them."""
+
+    def __init__(self, law: ModuleType, package: Package, slot: str) -> None:
+        self._law, self._package, self._slot = law, package, slot
+
+    def __getattr__(self, function: str) -> Any:
+        found, more = getattr(self._law, function), len(self._package.extra(self._slot, function))
+        return (lambda *arguments: found(*arguments[: len(arguments) - more])) if more else found
+
+
+class Model:
+    """A structure with its laws: expressions in shared symbols `state` and `groups`.
+
+    Use `load`, which caches.
+    """
+
+    def __init__(self, choice: Choice) -> None:
+        self.choice = choice
+        self.structure: ModuleType = _structure(choice)
+        self.laws = Laws(**{slot: _law(choice.package, slot, name) for slot, name in choice.laws})
+        self.state: dict[str, SX] = symbols(self.structure.STATES)
+        self.groups: dict[str, SX] = symbols(self.structure.GROUPS)
+        self._functions: dict[tuple[str, int, int], Function] = {}
+        self._fast: dict[tuple[str, int, int], Buffered] = {}
+        self._names: dict[tuple[str, int, int], tuple[str, ...]] = {}
+
+    @property
+    def oblique(self) -> bool:
+        return "orbit" in self.state or self.wall
+
+    @property
+    def wall(self) -> bool:
+        return "decay" in self.state
+
+    @property
+    def reduced(self) -> bool:
+        return "orbit" in self.state and "spin" not in self.state
+
+    @property
+    def cavitates(self) -> bool:
+        """Whether the film does not resist opening."""
+        return hasattr(self.laws.film, "suction")
+
+    @property
+    def edged(self) -> bool:
+        """Whether the film ends at x = x0, and not with the bridge."""
+        return not self.bridge or "film_edge" in self.names("events")
+
+    @property
+    def escape(self) -> str:
+        """The function that has the energies which can part the two."""
+        return "escape_energy" if self.wall else "energies"
+
+    @cached_property
+    def works(self) -> tuple[str, ...]:
+        """Works of attractions, by their names in the ledger."""
+        return tuple(
+            work for work, slot in (("capillary", "bridge"), ("attraction", "attraction")) if self.choice.law(slot)
+        )
+
+    @property
+    def bridge(self) -> bool:
+        return self.choice.law("bridge") is not None
+
+    @property
+    def strings(self) -> bool:
+        return self.choice.law("strings") is not None
+
+    @cached_property
+    def contact_gap(self) -> SX:
+        """Gap at which the solids touch: elastic length or roughness, whichever is met first."""
+        return fmax(self.groups["elastic_gap"], self.groups["rough_gap"])
+
+    @cached_property
+    def guarded(self) -> dict[str, SX]:
+        """The state with its gap kept positive, for rates; equal to the state wherever a solution goes."""
+        floor = fmax(_FLOOR * fmin(self.contact_gap, 1), _SMALLEST_GAP)
+        return {**self.state, "gap": fmax(self.state["gap"], floor)}
+
+    @cached_property
+    def column(self) -> SX:
+        return vector(self.state)
+
+    @cached_property
+    def parameters(self) -> SX:
+        return vector(self.groups)
+
+    def __call__(
+        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int] | None = None
+    ) -> dict[str, SX]:
+        """A function of the structure module as named expressions."""
+        found: dict[str, SX] = getattr(self.structure, name)(
+            self.state if state is None else state, self.groups, self.laws, **(region or {})
+        )
+        return found
+
+    def extra(self, slot: str, function: str) -> list[SX]:
+        """What a slot's function takes beside its own arguments, in a user's model: groups, as symbols."""
+        package = self.choice.package
+        names = () if package is None else package.extra(slot, function)
+        return [self.groups[name] if name in self.groups else self.state[name] for name in names]
+
+    def has(self, name: str) -> bool:
+        return name in self.structure.FUNCTIONS
+
+    def function(self, name: str, film: int = 1, shear: int = 1) -> Function:
+        """A function of the structure module as a CasADi Function (state, groups) -> column."""
+        key = (name, film, shear)
+        if key not in self._functions:
+            self._functions[key] = self._built(name, film, shear)
+        return self._functions[key]
+
+    def _built(self, name: str, film: int, shear: int) -> Function:
+        values = self(name, region=self._region(name, film, shear))
+        column = densify(vertcat(*(SX(value) for value in values.values())))
+        return Function(name, [self.column, self.parameters], [column])
+
+    def values(self, name: str, y: np.ndarray, p: np.ndarray, film: int = 1, shear: int = 1) -> dict[str, float]:
+        """A function's named values at a state (leading entries of `y`) and groups `p`."""
+        numbers = self._buffered(name, film, shear)(y[: len(self.state)], p)
+        return dict(zip(self.names(name, film, shear), numbers.tolist(), strict=True))
+
+    def _buffered(self, name: str, film: int, shear: int) -> Buffered:
+        key = (name, film, shear)
+        if key not in self._fast:
+            self._fast[key] = Buffered(self.function(*key), (0, 1))
+        return self._fast[key]
+
+    def names(self, name: str, film: int = 1, shear: int = 1) -> tuple[str, ...]:
+        key = (name, film, shear)
+        if key not in self._names:
+            self._names[key] = tuple(self(name, region=self._region(*key)))
+        return self._names[key]
+
+    def _region(self, name: str, film: int, shear: int) -> dict[str, int]:
+        return {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
+
+    def group_values(self, groups: Mapping[str, float]) -> np.ndarray:
+        """The structure's groups as a vector."""
+        return np.array([groups[name] for name in self.groups])
+
+    def start(self, p: np.ndarray) -> np.ndarray:
+        """State at first touch."""
+        return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
+
+
+@own_cache(None)  # never evicted: expressions are cached in the symbols of their model
+def load(choice: Choice) -> Model:
+    """The model of a choice, built once."""
+    return Model(choice)

@@ -1,0 +1,69 @@
+"""Ranges on the command line: `LO:HI:N`, or `log:LO:HI:N`, both ends included."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+
+from ..errors import InputError
+
+MOST = 10_000_000  # values, or collisions of a map, which takes 130 bytes for each: more is a slip of the hand
+
+
+def parse_range(
+    text: str, label: str, read: Callable[[str], float], *, unit: str = "", most: int = MOST
+) -> list[float]:
+    """Return the values of a range, evenly spaced, or evenly in the logarithm.
+
+    Arguments:
+        text: `LO:HI:N` or `log:LO:HI:N`; N = 1 only with LO = HI.
+        label: option that the range belongs to, for the error.
+        read: turns one end into an SI number, or raises InputError.
+        unit: said of LO and HI in the error (`in degrees`).
+        most: values there may be.
+
+    Raises:
+        InputError: not a range, LO above HI, a count that is no whole number, too large or does not fit.
+    """
+    accepted = f"LO:HI:N or log:LO:HI:N{' ' + unit if unit else ''}, LO < HI and N >= 2 (or LO = HI and N = 1)"
+    parts = text.split(":")
+    logarithmic = parts[0].strip() == "log"
+    if logarithmic:
+        parts = parts[1:]
+    if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,30}\s*", parts[2], re.ASCII):
+        raise InputError(label, text, accepted, "is not a range")
+    low, high, count = read(parts[0]), read(parts[1]), int(parts[2])
+    if count > most:
+        raise InputError(label, text, f"{accepted}, N at most {most}", "has too many values")
+    if low > high or count < 1 or (count == 1) != (low == high):
+        raise InputError(label, text, accepted, "is not a range")
+    if logarithmic and low <= 0:
+        raise InputError(label, text, accepted + ", LO > 0 for log", "has no logarithm")
+    if count == 1:
+        return [low]
+    steps = (i / (count - 1) for i in range(1, count - 1))
+    if logarithmic:
+        log_low, log_high = math.log(low), math.log(high)
+        inner = [math.exp(log_low + s * (log_high - log_low)) for s in steps]
+    else:
+        inner = [low + s * (high - low) for s in steps]
+    return [low, *inner, high]  # the ends exactly as they were given
+
+
+def check_cells(ranges: Mapping[str, str | None]) -> None:
+    """InputError if ranges have more values together than a map can hold, before any of them is written out.
+
+    Arguments:
+        ranges: option -> its range; what is wrong with one by itself is for `parse_range` to say.
+    """
+    cells, sizes = 1, []
+    for label, text in ranges.items():
+        count = re.search(r":\s*([0-9]{1,9})\s*$", text or "", re.ASCII)
+        if text is None or count is None:
+            continue
+        cells *= max(1, int(count[1]))
+        sizes.append(count[1])
+        if cells > MOST >= int(count[1]):
+            problem = f"makes {' x '.join(sizes)} collisions"
+            raise InputError(label, text, f"at most {MOST} collisions in all", problem)

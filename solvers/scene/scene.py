@@ -1,0 +1,340 @@
+"""A scene: two spheres, their film, and what holds them; immutable, and right as soon as it exists."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from pathlib import Path
+from typing import Any, Self
+
+from ..errors import InputError
+from ..host.arguments import check_mapping
+from . import entry_rules as rules
+from . import scenefile
+from .schema import FIELDS, TABLES, Field, Raw
+from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
+from .user_model import Package, fields
+from .user_model_source import open_package
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What collides, in SI units and radians.
+
+    A scene *is* its entries, as the file or the caller gave them; the tables are read from those, so that
+    one never contradicts the other. Two scenes are equal if their names and SI entries are.
+
+    Arguments:
+        name: any text, may be empty.
+        given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
+        comments: (dotted name, `assumed ...`) for entries that are guesses.
+        package: a user's model, whose quantities and laws the entries may name.
+
+    Raises:
+        InputError: names the first entry that is wrong, its value, and what is accepted.
+
+    >>> scene = Scene.load("granulation").with_entries({"liquid.viscosity": "3 Pa s"})
+    >>> scene.liquid.viscosity
+    3.0
+    """
+
+    name: str
+    given: tuple[tuple[str, Raw], ...] = field(compare=False, repr=False)
+    comments: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
+    package: Package | None = field(default=None, repr=False)
+
+    particles: Particles = field(init=False, compare=False)
+    partner: Partner | None = field(init=False, compare=False)
+    liquid: Liquid = field(init=False, compare=False)
+    bridge: Bridge | None = field(init=False, compare=False)
+    attraction: Attraction | None = field(init=False, compare=False)
+    pendulum: Pendulum | None = field(init=False, compare=False)
+    model: Model = field(init=False, compare=False)
+    impact: Impact = field(init=False, compare=False)
+    si: tuple[tuple[str, float | str], ...] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Read the tables and hold them against the rules."""
+        rules.check_name(self.name)
+        rules.check_pairs(self.given, "given")
+        rules.check_pairs(self.comments, "comments")
+        rules.check_package(self.package)
+        given = rules.grouped(dict(self.given))
+        if self.package is not None:
+            given = self.package.completed(given)
+        rules.check_entries(given, self.package)
+        values = {name: self.fields[name].read(raw) for name, raw in given.items()}
+        rules.check_complete(given)
+        kept = {
+            "given": tuple((name, self._kept(name, raw)) for name, raw in given.items()),
+            "comments": tuple((name, text) for name, text in self.comments if name in given),
+            "si": tuple(values.items()),
+            "particles": Particles(**rules.spheres(values)),
+            "partner": rules.partner(values),
+            **{
+                table.name: rules.table(table, values)
+                for table in (Liquid, Bridge, Attraction, Pendulum, Model, Impact)
+            },
+        }
+        for name, value in kept.items():
+            object.__setattr__(self, name, value)
+        rules.check_together(self)
+
+    # ---- where scenes come from and go to
+
+    @classmethod
+    def load(cls, source: str | Path | Scene, model: str | Path | Package | None = None) -> Scene:
+        """Return the scene of a file, of a preset's name, or the scene that it is already.
+
+        Arguments:
+            model: folder of a user's model (`wetdoublet generate MODEL.py --out DIR`), or the model file.
+
+        Raises:
+            InputError: no such file or preset (the nearest is named), broken TOML (file and line), bad entry.
+        """
+        if isinstance(source, Scene):
+            loaded = source if model is None else source.with_model(model)
+            if loaded.package is not None:
+                loaded.package.demand(loaded.entries)
+            return loaded
+        text, origin = scenefile.read_text(source)
+        if model is None:
+            return _read(text, origin)
+        package = open_package(model, "model")
+        return cls.from_toml(text, origin, package).with_model(package)
+
+    @classmethod
+    def from_toml(cls, text: str, origin: str = "scene", package: Package | None = None) -> Self:
+        """Return the scene written in TOML; `origin` names the text in errors."""
+        tables = scenefile.parse(text, str(origin))
+        return cls.from_dict(tables, from_file=True, comments=scenefile.assumptions(text), package=package)
+
+    @classmethod
+    def from_dict(
+        cls,
+        tables: Mapping[str, Any],
+        *,
+        from_file: bool = False,
+        comments: Mapping[str, str] | None = None,
+        package: Package | None = None,
+    ) -> Self:
+        """Return the scene of nested tables, `{"liquid": {"viscosity": "2 Pa s", ...}, ...}`.
+
+        Plain numbers are SI and radians, unless they come from a file, where a quantity must carry its unit.
+        """
+        rules.check_package(package)
+        check_mapping(tables, "tables", "{'liquid': {'viscosity': '2 Pa s', ...}, ...}")
+        check_mapping({} if comments is None else comments, "comments", "texts by dotted name")
+        entries = scenefile.flatten(tables, package)
+        rules.check_entries(entries, package, from_file=from_file)
+        rules.check_complete(entries, tables)
+        return cls(tables.get("name", ""), tuple(entries.items()), tuple((comments or {}).items()), package)
+
+    def to_toml(self) -> str:
+        """Return the scene file: units as they were given, and the comments on what is assumed."""
+        return self._written
+
+    @cached_property
+    def _written(self) -> str:
+        """The scene file, for all results that carry it; equal scenes may have been given in other units."""
+        return scenefile.write(self.name, dict(self.given), dict(self.comments))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the nested tables as a scene file has them (text carries units)."""
+        tables: dict[str, Any] = {"name": self.name} if self.name else {}
+        for entry, value in self.given:
+            table, _, key = entry.partition(".")
+            tables.setdefault(table, {})[key] = scenefile.written(entry, value)
+        return tables
+
+    @property
+    def fields(self) -> Mapping[str, Field]:
+        """What this scene may say: dotted name -> entry."""
+        return fields(self.package)
+
+    @property
+    def custom(self) -> Mapping[str, Raw]:
+        """What a user's model declares: name -> value with its unit, as it was given or by default."""
+        return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
+
+    def _kept(self, name: str, raw: object) -> Raw:
+        """A value in the form a scene keeps it; of a model's own quantity with its unit."""
+        entry = self.fields[name]
+        kept = entry.kept(raw)
+        own = name not in FIELDS and entry.unit and not isinstance(kept, str)
+        return f"{kept!r} {entry.unit}" if own else kept
+
+    @property
+    def entries(self) -> Mapping[str, float | str]:
+        """Dotted name -> SI number or choice, of what was given only, in the order of the file."""
+        return dict(self.si)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What in this scene is a guess, one line each."""
+        given = dict(self.given)
+        return tuple(f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.comments)
+
+    # ---- the same scene, but
+
+    def with_model(self, model: str | Path | Package) -> Self:
+        """Return the scene with a user's model: its laws take their slots, its quantities their defaults.
+
+        What is changed afterwards (`with_entries({"bridge.law": "willett"})`) stands.
+
+        Raises:
+            InputError: no such model, a stale one, or a scene that lacks what a law acts in.
+        """
+        package = open_package(model, "model")
+        given = {
+            name: value for name, value in self.given if name.partition(".")[0] != "custom" or package == self.package
+        }
+        entries = {**given, **package.chosen(given)}
+        return type(self)(self.name, tuple(entries.items()), self.comments, package)
+
+    def with_entries(self, changes: Mapping[str, Any]) -> Self:
+        """Return the scene with entries replaced or added, by dotted name; text carries its unit."""
+        changes = dict(check_mapping(changes, "changes", "entries by dotted name, {'liquid.viscosity': '3 Pa s'}"))
+        name = changes.pop("name", self.name)
+        rules.check_entries(changes, self.package)
+        rules.check_replaced(dict(self.given), changes)
+        comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
+        return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments, self.package)
+
+    def with_impact(
+        self, stokes: float | str | None = None, speed: float | str | None = None, angle: float | str | None = None
+    ) -> Self:
+        """Return the scene with another impact; `stokes` or `speed` replaces whichever it had.
+
+        Plain numbers are SI and radians. InputError if both are given.
+        """
+        impact = {"impact.stokes": stokes, "impact.speed": speed, "impact.angle": angle}
+        changes = {name: value for name, value in impact.items() if value is not None}
+        if not changes:
+            return self
+        rules.check_entries(changes, self.package)
+        replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
+        kept = {name: value for name, value in self.given if name not in replaced}
+        entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
+        return type(self)(self.name, tuple(entries), self.comments, self.package)
+
+    # ---- the pair
+
+    @property
+    def wall(self) -> bool:
+        """Whether the partner is a wall."""
+        return self.partner is not None and self.partner.wall is not None
+
+    @property
+    def radius_ratio(self) -> float | None:
+        """R_2/R_1: 1 without a partner, None for a wall."""
+        if self.partner is None:
+            return 1.0
+        return None if self.partner.radius is None else self.partner.radius / (2 * self.particles.reduced_radius)
+
+    @property
+    def mass_ratio(self) -> float | None:
+        """M_2/M_1: 1 without a partner, None for a wall."""
+        if self.partner is None:
+            return 1.0
+        return None if self.partner.mass is None else self.partner.mass / (2 * self.particles.reduced_mass)
+
+    @property
+    def reduced_radius(self) -> float:
+        """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 beside a wall."""
+        return self.particles.reduced_radius * _shared(self.radius_ratio)
+
+    @property
+    def reduced_mass(self) -> float:
+        """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 beside a wall."""
+        return self.particles.reduced_mass * _shared(self.mass_ratio)
+
+    # ---- lengths, and the impact both ways
+
+    @property
+    def rupture_gap(self) -> float:
+        """x_f in m: of the bridge, or without one of the film."""
+        if self.bridge is None:
+            return self.liquid.film_thickness
+        return _scaled("rupture_gap", self) * self.liquid.film_thickness
+
+    def elastic_length(self, speed: float) -> float | None:
+        """Return x_r in m, the gap at which the spheres' own elasticity stops `speed` (m/s); None without it."""
+        if self.particles.youngs_modulus is None:
+            return None
+        return _scaled("elastic_gap", self, speed) * self.liquid.film_thickness
+
+    @property
+    def stokes_per_speed(self) -> float:
+        """m/(6 pi mu a^2) in s/m: a Stokes number over its normal speed."""
+        return _scaled("stokes", self, speed=1.0)
+
+    def stokes_of(self, speed: float) -> float:
+        """Return the Stokes number of a normal speed (m/s)."""
+        return speed * self.stokes_per_speed
+
+    def speed_of(self, stokes: float) -> float:
+        """Return the normal speed (m/s) of a Stokes number."""
+        return stokes / self.stokes_per_speed
+
+    @property
+    def stokes(self) -> float | None:
+        """Normal Stokes number of the impact, None if it has none."""
+        return self.impact.stokes if self.impact.speed is None else self.stokes_of(self.impact.speed)
+
+    @property
+    def speed(self) -> float | None:
+        """Normal approach speed v0 of the impact in m/s, None if it has none."""
+        return self.impact.speed if self.impact.stokes is None else self.speed_of(self.impact.stokes)
+
+    @property
+    def angle(self) -> float | None:
+        """Impact angle in rad, None if the impact has none."""
+        return self.impact.angle
+
+    def need_impact(self) -> tuple[float, float]:
+        """Return (normal speed in m/s, angle in rad); InputError if the scene leaves them open."""
+        if self.speed is None:
+            accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed'
+            raise InputError("impact.stokes", None, accepted)
+        if self.angle is None:
+            raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
+        return self.speed, self.angle
+
+
+@lru_cache(maxsize=32)
+def _read(text: str, origin: str) -> Scene:
+    """The scene of a text: read once, since scenes do not change."""
+    return Scene.from_toml(text, origin)
+
+
+def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[str, Raw]]:
+    """Return the entries with their tables in the order of `tables` (dotted names), and [impact] in the schema's."""
+    order = list(dict.fromkeys(name.partition(".")[0] for name in tables))
+    impact = TABLES["impact"]
+
+    def place(entry: tuple[str, Raw]) -> tuple[int, int]:
+        name = entry[0]
+        return order.index(name.partition(".")[0]), impact.index(name) if name in impact else 0
+
+    return sorted(entries.items(), key=place)
+
+
+def _shared(ratio: float | None) -> float:
+    """A reduced quantity over that of two equal spheres; exactly 1 for a ratio of 1."""
+    return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
+
+
+@lru_cache(maxsize=64)
+def _scaled(group: str, scene: Scene, speed: float | None = None) -> float:
+    """Return a group by its emitted formula; inf where a double overflows."""
+    from ..model.dimensionless import formulas, si_values
+
+    values = si_values(scene, speed, None)
+    formula, arguments = formulas(scene)[group]
+    try:
+        return float(formula(*(values[name] for name in arguments)))
+    except (OverflowError, ZeroDivisionError):
+        return math.inf

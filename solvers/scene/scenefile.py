@@ -1,0 +1,138 @@
+"""Scene files: TOML text to entries and back, and the presets that ship with the package."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError, did_you_mean
+from ..host import bounded
+from . import user_model as custom
+from .schema import FIELDS, TABLES, Raw
+
+if TYPE_CHECKING:
+    from .user_model import Package
+
+PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
+_FOLDER = Path(__file__).with_name("presets")
+_LARGEST = 200_000  # bytes: no scene is longer, and /dev/zero has no end
+_HEADER = re.compile(r"\s*\[\s*([A-Za-z_]+)\s*\]")
+_ASSUMED = re.compile(r"\s*([A-Za-z_]+)\s*=.*#\s*(assumed\b.*)")
+
+
+def read_text(source: str | Path) -> tuple[str, str]:
+    """Return the text of a preset (by name) or a file, and the name to use for it in errors."""
+    if isinstance(source, str) and source in PRESETS:
+        return (_FOLDER / f"{source}.toml").read_text(encoding="utf-8"), source
+    accepted = "a scene file (TOML) or a preset: " + ", ".join(PRESETS)
+    if not isinstance(source, (str, os.PathLike)):
+        raise InputError("scene", source, f"a Scene, {accepted}", "is not the name of a file")
+    if isinstance(source, str) and not source.strip():  # Path("") would be the folder we are in
+        raise InputError("scene", source, accepted, "is an empty name")
+    try:
+        content = bounded.read(Path(source), _LARGEST)
+    except FileNotFoundError:
+        is_name = isinstance(source, str) and not re.search(r"[/\\]|\.toml$", source)
+        hint = did_you_mean(source, PRESETS) if is_name else ""
+        raise InputError("scene", str(source), accepted, "is neither a file nor a preset" + hint) from None
+    except bounded.NotRead as reason:
+        raise InputError("scene", str(source), accepted, str(reason)) from None
+    try:
+        return content.decode("utf-8-sig"), str(source)
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise InputError(f"{source}, line {line}", None, accepted, "is not UTF-8 text") from None
+
+
+def description(preset: str) -> str:
+    """Return what a preset is, in a line: the comment that its file begins with."""
+    return read_text(preset)[0].partition("\n")[0].removeprefix("#").strip()
+
+
+def parse(text: str, origin: str) -> dict[str, Any]:
+    """Return the tables of TOML `text`; InputError with file and line if it is broken."""
+    import tomllib
+
+    if not isinstance(text, str):
+        raise InputError(origin, text, "a scene in TOML", "is not text")
+    if len(text) > _LARGEST:
+        raise InputError(origin, None, "a scene in TOML", f"is larger than {_LARGEST} characters")
+    if bounded.too_deep(text):
+        raise InputError(origin, None, "a scene in TOML: [TABLE] and KEY = VALUE", "is nested too deeply")
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # ValueError: TOMLDecodeError, and integers of 5000 digits
+        said = str(error)
+        at = re.search(r"\s*\(at (?:line (\d+), column \d+|end of document)\)", said)
+        lines = text.splitlines() or [""]
+        line = int(at[1]) if at and at[1] else len(lines)
+        problem = said[: at.start()] if at else said
+        where = f"{origin}, line {line}" if at else origin
+        value = lines[min(line, len(lines)) - 1].strip() if at else None
+        raise InputError(where, value, "a scene in TOML", f"is broken TOML ({' '.join(problem.split())})") from None
+
+
+def assumptions(text: str) -> dict[str, str]:
+    """Return the `# assumed ...` comments behind the entries of valid TOML: dotted name -> comment."""
+    found, table = {}, ""
+    for line in text.splitlines():
+        if header := _HEADER.match(line):
+            table = header[1]
+        elif comment := _ASSUMED.match(line):
+            found[f"{table}.{comment[1]}"] = comment[2].strip()
+    return found
+
+
+def flatten(tables: Mapping[str, Any], package: Package | None = None) -> dict[str, Any]:
+    """Return entries by dotted name, tables kept together, `name` left out; InputError for what is no table."""
+    entries: dict[str, Any] = {}
+    for table, content in tables.items():
+        if table == "name":
+            continue
+        if table == custom.TABLE and isinstance(content, Mapping):
+            entries.update({f"{table}.{key}": value for key, value in content.items()})
+            if not content and package is None:
+                raise custom.unknown(table, content, None) or AssertionError
+            continue
+        if table not in TABLES:
+            homes = [f"[{home}]" for home in TABLES if f"{home}.{table}" in FIELDS]
+            hint = f", belongs in {' or '.join(homes)}" if homes else did_you_mean(table, (*TABLES, "name"))
+            raise InputError(str(table), content, "name, " + ", ".join(TABLES), "has an unknown name" + hint)
+        if not isinstance(content, Mapping):
+            raise InputError(table, content, f"a table [{table}]", "is not a table")
+        entries.update({f"{table}.{key}": value for key, value in content.items()})
+    return entries
+
+
+def write(name: str, entries: Mapping[str, Raw], comments: Mapping[str, str]) -> str:
+    """Return a scene as TOML: units as they were given, SI where a plain number was."""
+    lines = [f"name = {_text(name)}"] if name else []
+    table = ""
+    for entry, value in entries.items():
+        if entry.partition(".")[0] != table:
+            table = entry.partition(".")[0]
+            lines += ["", f"[{table}]"] if lines else [f"[{table}]"]
+        comment = f"  # {comments[entry]}" if entry in comments else ""
+        lines.append(f"{entry.partition('.')[2]} = {_value(entry, value)}{comment}")
+    return "\n".join(lines) + "\n"
+
+
+def written(entry: str, value: Raw) -> Raw:
+    """Return a kept value as a scene file has it: text with its unit, or a plain number."""
+    unit = FIELDS[entry].unit if entry in FIELDS else None  # a model's own carry theirs
+    return f"{value!r} {unit}" if unit and not isinstance(value, str) else value
+
+
+def _value(entry: str, value: Raw) -> str:
+    value = written(entry, value)
+    if isinstance(value, bool):
+        return "true"
+    return _text(value) if isinstance(value, str) else repr(value)
+
+
+def _text(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

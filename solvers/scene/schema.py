@@ -1,0 +1,206 @@
+"""Every entry a scene file may have: its meaning, unit, range and whether it must be there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from numbers import Real
+
+from ..errors import InputError, did_you_mean
+from . import units
+
+Raw = float | int | str
+"""An entry as a scene keeps it: text with its unit, a choice, or a plain number."""
+BRIDGE_LAWS = (
+    "mikami",
+    "mikami-log10",
+    "willett",
+    "willett-simple",
+    "rabinovich",
+    "lambert",
+    "soulie",
+    "constant",
+)
+FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
+
+
+@dataclass(frozen=True)
+class Range:
+    """The numbers an entry may take, in words (for people) and as a test (SI)."""
+
+    text: str
+    holds: Callable[[float], bool]
+
+
+POSITIVE = Range("> 0", lambda v: v > 0)
+NOT_NEGATIVE = Range(">= 0", lambda v: v >= 0)
+FRACTION = Range("from 0 to 1", lambda v: 0 <= v <= 1)
+POISSON = Range("> -1 and <= 0.5", lambda v: -1 < v <= 0.5)
+IMPACT_ANGLE = Range(">= 0 deg and < 90 deg", lambda v: 0 <= v < math.pi / 2)
+WETTING_ANGLE = Range("from 0 deg to 90 deg", lambda v: 0 <= v <= math.pi / 2)
+
+
+@dataclass(frozen=True)
+class Field:
+    """One entry: a quantity (with `unit`), a plain number (without), a choice (with `choices`) or a `flag`.
+
+    A flag is there, as true, or left out.
+    """
+
+    name: str
+    what: str
+    example: str
+    range: Range = POSITIVE
+    unit: str | None = None
+    choices: tuple[str, ...] = ()
+    required: bool = False
+    flag: bool = False
+
+    @property
+    def accepts(self) -> str:
+        """What is accepted, in words."""
+        if self.flag:
+            return f"true, for {self.what}, or no such entry"
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        with_unit = " with its unit" if self.unit else ""
+        return f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
+
+    def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
+        """Return the SI number, or the choice, that `raw` stands for.
+
+        Arguments:
+            raw: text with a unit, a number (SI), or a choice.
+            label: name in the error, when it is not the field's own (an option).
+            from_file: TOML tells numbers from text and has no default unit: a quantity must be text, a number not.
+
+        Raises:
+            InputError: anything else, and a number outside the range.
+        """
+        label = label or self.name
+        if self.flag:
+            if raw is not True and (from_file or not isinstance(raw, str) or raw != "true"):
+                raise InputError(label, raw, self.accepts)
+            return "true"
+        if self.choices:
+            if not isinstance(raw, str) or raw not in self.choices:
+                raise InputError(label, raw, self.accepts, "is not known" + did_you_mean(raw, self.choices))
+            return raw
+        value = self._number(raw, label, from_file)
+        if not math.isfinite(value):
+            raise InputError(label, raw, self.accepts, "is not finite")
+        if not self.range.holds(value):
+            if self.unit == "rad" and not isinstance(raw, str) and self.range.holds(math.radians(value)):
+                problem = f'is out of range: plain numbers are radians, did you mean "{raw} deg"?'
+                raise InputError(label, raw, self.accepts, problem)
+            raise InputError(label, raw, self.accepts, "is out of range")
+        return value
+
+    def number(self, raw: object, *, label: str | None = None) -> float:
+        """Return what `read` does, for a field that is no choice."""
+        value = self.read(raw, label=label)
+        assert isinstance(value, float)
+        return value
+
+    def _number(self, raw: object, label: str, from_file: bool) -> float:
+        if isinstance(raw, str):
+            if self.unit:
+                return units.quantity(raw, self.unit, label, self.accepts)
+            if from_file:
+                raise InputError(label, raw, self.accepts, "is text, not a number")
+            return units.number(raw, label, self.accepts)
+        if not isinstance(raw, Real):
+            from .values import scalar  # imports numpy
+
+            raw = scalar(raw, self, label)
+        if not isinstance(raw, Real) or isinstance(raw, bool):
+            kind = "a number with its unit, as text" if self.unit else "a number"
+            raise InputError(label, raw, self.accepts, f"is not {kind}")
+        if self.unit and from_file:
+            raise InputError(label, raw, self.accepts, "has no unit")
+        try:
+            return float(raw)
+        except OverflowError:
+            return math.inf
+
+    def kept(self, raw: object) -> Raw:
+        """Return a value that `read` took, in the form a scene keeps it: text as it was given, numbers plain."""
+        if self.flag:
+            return True
+        if isinstance(raw, str):
+            return raw.strip() if self.unit or self.choices else self.number(raw)
+        return self.number(raw)
+
+
+def _table(*fields: Field) -> dict[str, Field]:
+    return {field.name: field for field in fields}
+
+
+FIELDS: dict[str, Field] = _table(
+    Field("particles.reduced_radius", "a reduced radius a = R/2", '"50 um"', unit="m"),
+    Field("particles.radius", "a radius R", '"100 um"', unit="m"),
+    Field("particles.reduced_mass", "a reduced mass m = M/2", '"5.2e-6 g"', unit="kg"),
+    Field("particles.mass", "the mass M of one sphere", '"1.04e-5 g"', unit="kg"),
+    Field("particles.density", "the density of the spheres", '"2500 kg/m^3"', unit="kg/m^3"),
+    Field("particles.roughness", "a roughness", '"0.2 um"', NOT_NEGATIVE, unit="m", required=True),
+    Field("particles.dry_restitution", "a number", "0.99", FRACTION, required=True),
+    Field("particles.youngs_modulus", "a Young's modulus", '"70 GPa"', unit="Pa"),
+    Field("particles.poisson_ratio", "a number", "0.2", POISSON),
+    Field("liquid.viscosity", "a viscosity", '"2 Pa s"', unit="Pa s", required=True),
+    Field("liquid.film_thickness", "a film thickness", '"8 um"', unit="m", required=True),
+    Field("liquid.glass_transition_pressure", "a pressure", '"20 MPa"', unit="Pa", required=True),
+    Field("liquid.density", "a density", '"1000 kg/m^3"', unit="kg/m^3"),
+    Field("bridge.surface_tension", "a surface tension", '"0.025 N/m"', unit="N/m", required=True),
+    Field("bridge.volume", "a number V/R^3", "0.1", required=True),
+    Field("bridge.contact_angle", "an angle", '"0 deg"', WETTING_ANGLE, unit="rad", required=True),
+    Field("bridge.law", "a law", "mikami", choices=BRIDGE_LAWS),
+    Field("bridge.rupture", "a rupture distance", "common", choices=("common", "own")),
+    Field("attraction.hamaker", "a Hamaker constant", '"1e-19 J"', NOT_NEGATIVE, unit="J", required=True),
+    Field("partner.radius", "the radius R of the partner", '"200 um"', unit="m"),
+    Field("partner.mass", "the mass M of the partner", '"8.3e-5 g"', unit="kg"),
+    Field("partner.density", "the density of the partner", '"2500 kg/m^3"', unit="kg/m^3"),
+    Field("partner.wall", "a wall", "true", flag=True),
+    Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True),
+    Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2"),
+    Field("pendulum.law", "a law", "exact", choices=("exact", "small-angle")),
+    Field("model.arm", "an arm", "midgap", choices=("midgap", "surface")),
+    Field("model.tangential", "a logarithm", "immersed", choices=("immersed", "film")),
+    Field("model.glass", "a criterion", "literal", choices=("literal", "film-corrected")),
+    Field("model.film", "a film", "finite", choices=FILM_LAWS),
+    Field("impact.stokes", "a Stokes number", "0.03"),
+    Field("impact.speed", "a normal approach speed", '"0.54 m/s"', unit="m/s"),
+    Field("impact.angle", "an impact angle", '"60 deg"', IMPACT_ANGLE, unit="rad"),
+)
+"""Dotted name -> what it is, in the order of the documentation."""
+
+TABLES: dict[str, tuple[str, ...]] = {
+    table: tuple(name for name in FIELDS if name.startswith(table + "."))
+    for table in ("particles", "partner", "liquid", "bridge", "attraction", "pendulum", "model", "impact")
+}
+"""Table -> dotted names of its entries."""
+
+REQUIRED_TABLES = ("particles", "liquid")
+ONE_OF_EACH = (*REQUIRED_TABLES, "partner")
+"""Tables, where they are there, that need one of each of their alternatives."""
+
+ALTERNATIVES: tuple[tuple[str, ...], ...] = (
+    ("particles.reduced_radius", "particles.radius"),
+    ("particles.reduced_mass", "particles.mass", "particles.density"),
+    ("impact.stokes", "impact.speed"),
+    ("partner.radius", "partner.wall"),
+    ("partner.mass", "partner.density", "partner.wall"),
+)
+"""Entries of which one at most may be given."""
+
+
+def unknown_entry(name: str, value: object) -> InputError:
+    """Return the error for an entry that no scene has, with the nearest that it may have."""
+    table, _, key = name.partition(".")
+    here = TABLES.get(table, ())
+    if here and not key:
+        return InputError(name, value, ", ".join(here), "is given to a table, not to one of its entries")
+    elsewhere = [known for known in FIELDS if known.endswith("." + (key or table))]
+    hint = f", did you mean {elsewhere[0]}?" if elsewhere else did_you_mean(name, here) or did_you_mean(name, FIELDS)
+    accepted = ", ".join(here) if here else "entries TABLE.KEY of the tables " + ", ".join(TABLES)
+    return InputError(name, value, accepted, "has an unknown name" + hint)

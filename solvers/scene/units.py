@@ -1,0 +1,236 @@
+"""A number with its unit, read as an SI float of the dimension that is demanded.
+
+The commonest spellings stand in a table of exact decimal factors, so that a preset never waits for pint
+(0.4 s) and its numbers are correctly rounded. Everything else goes to pint, which also judges the dimension; what it
+has said of a unit is kept in our cache. Pint's own cache, a pickle in a folder that nobody checks, is not used.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from decimal import Context, Decimal
+from functools import cache
+from tokenize import TokenError
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError, did_you_mean, nearest
+
+if TYPE_CHECKING:
+    import pint
+
+Powers = dict[str, float]
+
+DIMENSIONS = {
+    "m": "a length",
+    "kg": "a mass",
+    "s": "a time",
+    "rad": "an angle",
+    "m/s": "a speed",
+    "m/s^2": "an acceleration",
+    "kg/m^3": "a density",
+    "Pa": "a pressure",
+    "Pa s": "a viscosity",
+    "N/m": "a surface tension",
+}
+"""SI unit that names a dimension here -> that dimension in words."""
+
+_WORDS = {
+    **DIMENSIONS,
+    "": "a plain number",
+    "m^2": "an area",
+    "m^3": "a volume",
+    "1/s": "a frequency",
+    "rad/s": "an angular velocity",
+    "N": "a force",
+    "J": "an energy",
+    "W": "a power",
+    "kg m/s": "a momentum",
+    "m^2/s": "a kinematic viscosity",
+    "kg/s": "a mass per time",
+    "kg m^2": "a moment of inertia",
+    "K": "a temperature",
+    "A": "an electric current",
+    "C": "an electric charge",
+    "V": "a voltage",
+}
+"""SI unit as pint reads it -> what it measures, for errors."""
+
+_DEGREE = "0.0174532925199432957692369076848861271344287188854172545609719144017100911460344944"  # pi/180
+
+COMMON: dict[str, tuple[str, Decimal]] = {
+    unit: (si, Decimal(factor))
+    for si, units in {
+        "m": {"m": "1", "dm": "1e-1", "cm": "1e-2", "mm": "1e-3", "um": "1e-6", "nm": "1e-9"},
+        "kg": {"kg": "1", "g": "1e-3", "mg": "1e-6", "ug": "1e-9", "ng": "1e-12"},
+        "s": {"s": "1", "ms": "1e-3", "us": "1e-6"},
+        "rad": {"rad": "1", "mrad": "1e-3", "deg": _DEGREE, "degree": _DEGREE, "degrees": _DEGREE},
+        "m/s": {"m/s": "1", "cm/s": "1e-2", "mm/s": "1e-3", "um/s": "1e-6"},
+        "m/s^2": {"m/s^2": "1", "cm/s^2": "1e-2"},
+        "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "g/m^3": "1e-3"},
+        "Pa": {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9", "bar": "1e5", "N/m^2": "1"},
+        "Pa s": {"Pa s": "1", "mPa s": "1e-3", "kPa s": "1e3", "cP": "1e-3", "P": "1e-1", "N s/m^2": "1"},
+        "N/m": {"N/m": "1", "mN/m": "1e-3", "J/m^2": "1", "dyn/cm": "1e-3", "mJ/m^2": "1e-3"},
+    }.items()
+    for unit, factor in units.items()
+}
+"""Unit as spelt (after `spelling`) -> SI unit that names its dimension, exact factor."""
+
+_LONGEST = 200  # characters: enough for any number, and for any unit
+_EXACT = Context(prec=_LONGEST + 100)  # a product of table and text is then not rounded before it becomes a double
+_NUMBER = r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|nan|inf(?:inity)?)"
+_QUANTITY = re.compile(rf"({_NUMBER})(.*)", re.IGNORECASE | re.DOTALL)
+# What pint is given to parse: names, products, quotients and small integer powers. No numbers to compute with:
+# m^9^9^9 would keep it busy for ever.
+# Nothing is tried in a second way (++): a long word would take for ever.
+_UNIT = re.compile(r"(?:[^\W\d_]\w*+(?:\^-?[0-9]{1,2})?+|\)(?:\^-?[0-9]{1,2})?+|[\s*/(]|1(?=\s*/))++")
+
+# Undefined names, bad syntax, offset and logarithmic units: pint has many ways, and all mean an unknown unit here.
+_PINT_SAYS_NO = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    SyntaxError,
+    TokenError,
+    TypeError,
+    ValueError,
+)
+
+
+def number(text: str, field: str, accepted: str) -> float:
+    """Return the plain number written in `text`; InputError naming `field` if it is none (nan and inf pass)."""
+    if len(text) > _LONGEST or not re.fullmatch(_NUMBER, text.strip(), re.IGNORECASE):
+        raise InputError(field, text, accepted, "is not a number")
+    return float(text)
+
+
+def quantity(text: str, si: str, field: str, accepted: str) -> float:
+    """Read a number with its unit.
+
+    Arguments:
+        text: such as `"50 um"`; the space may be left out.
+        si: the unit of the result, coherent SI.
+        field: name of the entry or option, for the error.
+        accepted: what is accepted there, for the error.
+
+    Returns:
+        the value in `si`, finite; correctly rounded for the units of `COMMON`.
+
+    Raises:
+        InputError: no number, not finite, unit missing, unknown or of another dimension.
+    """
+    match = _QUANTITY.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    if match is None:
+        raise InputError(field, text, accepted, "is not a number with its unit")
+    digits, unit = match[1], spelling(match[2])
+    size = float(digits)
+    if not math.isfinite(size):
+        raise InputError(field, text, accepted, "is not finite")
+    if not unit:
+        raise InputError(field, text, accepted, "has no unit")
+    if unit in COMMON:
+        dimension, factor = COMMON[unit]
+        if dimension != si:
+            raise InputError(field, text, accepted, f"is {DIMENSIONS[dimension]}, not {_demanded(si)}")
+        value = float(_EXACT.multiply(Decimal(digits), factor)) if size else 0.0
+    else:
+        value = size * _pint_factor(unit, si, text, field, accepted)
+    if not math.isfinite(value):
+        raise InputError(field, text, accepted, "is not finite")
+    return value
+
+
+def factor(unit: str, si: str | None, field: str, accepted: str, value: object) -> float:
+    """Return how many `si` one `unit` is, the unit of a value that another library holds.
+
+    Arguments:
+        unit: as the library writes it.
+        si: the unit of the result; None: a plain number is wanted.
+        value: what carries it, for the error.
+
+    Raises:
+        InputError: a unit that is unknown, or of another dimension. A plain number is an angle in radians.
+    """
+    unit = spelling(unit)
+    plain = unit in ("", "1", "dimensionless")
+    if plain and si in (None, "rad"):
+        return 1.0
+    if unit in COMMON and COMMON[unit][0] == si:
+        return float(COMMON[unit][1])
+    return _pint_factor("dimensionless" if plain else unit, si or "dimensionless", value, field, accepted)
+
+
+def spelling(unit: str) -> str:
+    """Return the one spelling under which a unit is looked up (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
+    for given, ours in (("µ", "u"), ("μ", "u"), ("°", "deg"), ("²", "^2"), ("³", "^3"), ("**", "^")):
+        unit = unit.replace(given, ours)
+    unit = re.sub(r"\s*([/^])\s*", r"\1", unit)
+    return " ".join(re.sub(r"[*·⋅]", " ", unit).split())
+
+
+def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:
+    """Return how many `si` one `unit` is, by pint; InputError if it is unknown or something else."""
+    try:
+        if not _UNIT.fullmatch(unit):
+            raise ValueError(unit)
+        size, root, zero = _judged(unit)
+        our_size, ours, _ = _judged(si)
+    except _PINT_SAYS_NO:
+        known = [name for name, (kind, _) in COMMON.items() if kind == si]
+        hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
+        raise InputError(field, value, accepted, f'has the unknown unit "{unit}"{hint}') from None
+    # Root units rather than dimensionality: to pint an angle is as dimensionless as a percentage.
+    if root != ours:
+        raise InputError(field, value, accepted, f"is {_in_words(root)}, not {_demanded(si)}")
+    if zero:  # degrees Celsius, decibels
+        raise InputError(field, value, accepted, f'has the unit "{unit}", whose zero is not zero')
+    return float(size / our_size)
+
+
+def _demanded(si: str) -> str:
+    """Return in words what is measured in a coherent SI unit, of the table or a model's own."""
+    return DIMENSIONS[si] if si in DIMENSIONS else _in_words(_judged(si)[1])
+
+
+def _in_words(powers: Powers) -> str:
+    """Return what a product of pint's root units measures: `a force`, or a power product of SI units."""
+    named = next((words for si, words in _WORDS.items() if _judged(si)[1] == powers), None)
+    if named:
+        return named
+    si = {"gram": "kg", "meter": "m", "second": "s", "ampere": "A", "kelvin": "K", "mole": "mol", "radian": "rad"}
+    parts = [si.get(name, name) + (f"^{power:g}" if power != 1 else "") for name, power in powers.items()]
+    return f"in {' '.join(parts)}"
+
+
+@cache
+def _judged(unit: str) -> tuple[float, Powers, float]:
+    """Return how many of pint's root units a unit is, their powers, and what its zero is in them.
+
+    Any of _PINT_SAYS_NO if it is unknown. Pint's root of mass is the gram, and the radian is one.
+    """
+    import hashlib
+    from importlib.metadata import version
+
+    from ..host.user_cache import kept
+
+    content = json.dumps(["pint", version("pint"), unit, "zero"])
+
+    def asked() -> bytes:
+        registry = _registry()
+        size: Any
+        parsed = registry.parse_units(unit)
+        size, root = registry.get_root_units(parsed)
+        zero = float(registry.Quantity(0.0, parsed).to_root_units().magnitude)
+        return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items()), zero]).encode()
+
+    size, powers, zero = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", asked))
+    return size, powers, zero
+
+
+@cache
+def _registry() -> pint.UnitRegistry[Any]:
+    import pint
+
+    return pint.UnitRegistry()

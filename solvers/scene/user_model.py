@@ -1,0 +1,293 @@
+"""A user's model beside a scene: what `wetdoublet generate MODEL.py --out DIR` has emitted, verified before it is used.
+
+A `Package` is its manifest: the laws that fill slots, the quantities that scenes fill in `[custom]`. Code is read from
+its folder when a collision needs it, and only if every file has the digest that the manifest gives.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..errors import InputError, did_you_mean
+from ..host import bounded
+from ..host.emitted import derived_once, executed
+from .schema import FIELDS, TABLES, Field, Range, Raw
+
+TABLE = "custom"
+ACCEPTED = "a folder made by `wetdoublet generate MODEL.py --out DIR`, or a model file MODEL.py"
+ENTRIES = {
+    "bridge": "bridge.law",
+    "strings": "pendulum.law",
+    "arm": "model.arm",
+    "shear": "model.tangential",
+    "glass": "model.glass",
+    "film": "model.film",
+    "attraction": "attraction.law",
+}
+"""Slot -> the scene's entry that says which law fills it, where scenes have one."""
+
+
+@dataclass(frozen=True)
+class Package:
+    """A user's model as scenes know it.
+
+    Arguments:
+        text: its manifest.
+        folder: where its files are, or the model file that they were derived from.
+        files: their texts by path, where they are in no folder.
+
+    A model that is only described (a map read back from a file) has neither.
+    """
+
+    text: str = field(repr=False)
+    folder: Path | None = field(default=None, compare=False)
+    files: Mapping[str, str] | None = field(default=None, compare=False, repr=False)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle what it is, not what has been loaded: a worker verifies the files again."""
+        return Package, (self.text, self.folder, self.files)
+
+    @cached_property
+    def manifest(self) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(self.text)
+        return found
+
+    @property
+    def name(self) -> str:
+        return str(self.manifest["name"])
+
+    @cached_property
+    def digest(self) -> str:
+        return hashlib.sha256(self.text.encode()).hexdigest()
+
+    # ---- what scenes may say
+
+    @cached_property
+    def fields(self) -> dict[str, Field]:
+        """Entries of a scene with this model: the library's with more laws to choose from, and `[custom]`."""
+        found = dict(FIELDS)
+        for slot, entry in ENTRIES.items():
+            own = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
+            if own and entry in found:
+                known = found[entry]
+                found[entry] = Field(entry, known.what, known.example, known.range, None, (*known.choices, *own))
+        for one in self.manifest["quantities"]:
+            found[f"{TABLE}.{one['name']}"] = _field(one)
+        return found
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        return tuple(one["name"] for one in self.manifest["quantities"])
+
+    @property
+    def defaults(self) -> dict[str, Raw]:
+        """Entries of `[custom]` that a scene need not give."""
+        given = {f"{TABLE}.{one['name']}": one["default"] for one in self.manifest["quantities"]}
+        return {name: value for name, value in given.items() if value is not None}
+
+    def completed(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Entries with the defaults of what is not given."""
+        return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
+
+    def demand(self, entries: Mapping[str, Any]) -> None:
+        """InputError for a quantity that has no default and is not among the entries."""
+        for name in self.quantities:
+            if f"{TABLE}.{name}" not in entries:
+                raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
+
+    def chosen(self, given: Mapping[str, Any]) -> dict[str, str]:
+        """Entries by which the model's laws take their slots; InputError if the scene lacks what one acts in."""
+        present = {name.partition(".")[0] for name in given} | {"model"}
+        found = {}
+        for slot in dict.fromkeys(law["slot"] for law in self.manifest["laws"]):
+            entry = ENTRIES.get(slot, "")
+            if entry.partition(".")[0] not in present:
+                table = entry.partition(".")[0] or slot
+                raise InputError("--model", str(self.folder), f"a scene with a [{table}] table", f"has a {slot} law")
+            if entry in FIELDS and given.get(entry) not in self.laws(slot):
+                found[entry] = self.laws(slot)[0]
+        return found
+
+    @property
+    def unnamed(self) -> tuple[str, ...]:
+        """Slots that its laws fill and that no entry of a scene names."""
+        slots = dict.fromkeys(law["slot"] for law in self.manifest["laws"])
+        return tuple(slot for slot in slots if ENTRIES.get(slot) not in FIELDS)
+
+    # ---- its code
+
+    def laws(self, slot: str) -> tuple[str, ...]:
+        """Names of its laws for a slot; the first is the default."""
+        return tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
+
+    def extra(self, slot: str, function: str) -> tuple[str, ...]:
+        """States and groups that a slot's function takes beside its own arguments."""
+        return tuple(self.manifest["extra"].get(f"{slot}.{function}", ()))
+
+    def changes(self, slots: tuple[str, ...]) -> bool:
+        """Whether a structure with these slots is another one with this model."""
+        return bool({key.partition(".")[0] for key in self.manifest["extra"]} & set(slots))
+
+    def law(self, slot: str, name: str) -> ModuleType:
+        """The module of one of its laws."""
+        return _module(self, self.law_file(slot, name))
+
+    def law_file(self, slot: str, name: str) -> str:
+        """The file of one of its laws, in its folder."""
+        return next(str(law["file"]) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
+
+    def text_of(self, path: str) -> str:
+        """Text of one of its files, verified and never run."""
+        return self._verified(path).decode()
+
+    def structure(self, name: str) -> ModuleType:
+        """The module of a structure that it changes; derived on first use if it was not emitted."""
+        if name in self.manifest["structures"]:
+            return _module(self, f"{name}.py")
+        text = self.structure_text(name).encode()
+        return executed(f"wetdoublet_model_{self.digest[:12]}.{name}", text)
+
+    def structure_text(self, name: str) -> str:
+        """Text of the module of a structure that it changes."""
+        if name in self.manifest["structures"]:
+            return self.text_of(f"{name}.py")
+        source = self.source
+
+        def derived() -> str:
+            from ...derive.emit.one import user_structure_text  # imports sympy
+
+            return user_structure_text(source, self.name, name)
+
+        return derived_once(f"{self.digest[:16]}-{name}.py", derived)
+
+    def structure_header(self, name: str, tangent: bool = False) -> str:
+        """C header of a structure that it changes, or of its tangent, for the kernel; derived on first use."""
+        source = self.source
+
+        def derived() -> str:
+            from ...derive.emit.one import user_structure_header_text  # imports sympy
+
+            return user_structure_header_text(source, self.name, name, tangent)
+
+        kind = "tangent-" if tangent else ""
+        return derived_once(f"{self.digest[:16]}-{kind}{name}.h", derived)
+
+    def law_header(self, slot: str, name: str, slopes: bool = False) -> str:
+        """C header of a law as its structures call it, or of its slopes; derived on first use."""
+        source = self.source
+
+        def derived() -> str:
+            from ...derive.emit.one import user_law_header_text  # imports sympy
+
+            return user_law_header_text(source, self.name, slot, name, slopes)
+
+        kind = "slopes-" if slopes else ""
+        return derived_once(f"{self.digest[:16]}-{kind}{slot}_{name}.h", derived)
+
+    @cached_property
+    def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
+        """Its groups: name -> the quantities that it takes, in order, and the function."""
+        if not self.manifest["scaling"]:
+            return {}
+        scaling = _module(self, "scaling.py")
+        return {name: (arguments, getattr(scaling, name)) for name, arguments in scaling.ARGUMENTS.items()}
+
+    @property
+    def plain(self) -> tuple[str, ...]:
+        """Its quantities that are groups as they are."""
+        return tuple(one["name"] for one in self.manifest["quantities"] if one["group"] == one["name"])
+
+    @property
+    def source(self) -> str:
+        """Text of the model file that it was emitted from."""
+        return self.text_of("model.py")
+
+    def _verified(self, path: str) -> bytes:
+        """Content of one of its files; InputError if it is not the one that was emitted."""
+        if self.folder is None:
+            raise InputError("--model", self.name, ACCEPTED, "is only described here, its files are not at hand")
+        file = self.folder / path
+        try:
+            if self.files is None:
+                content = bounded.read(file, bounded.LARGEST)
+            else:
+                content = self.files.get(path, "").encode()
+        except (OSError, bounded.NotRead):
+            content = b""
+        if hashlib.sha256(content).hexdigest() != self.manifest["files"].get(path):
+            raise InputError(str(file), None, f"files as they were emitted: {self.remedy}", "is not what was emitted")
+        return content
+
+    @property
+    def remedy(self) -> str:
+        """What to run to have it emitted again."""
+        return f"run `wetdoublet generate {self.original or 'MODEL.py'} --out {self.folder}`"
+
+    @property
+    def original(self) -> Path | None:
+        """The model file that it was emitted from, wherever it may be by now."""
+        origin = self.manifest["origin"]
+        return Path(os.path.normpath(self.folder / origin)) if origin and self.folder is not None else None
+
+
+@lru_cache(maxsize=256)
+def _module(package: Package, path: str) -> ModuleType:
+    content = package._verified(path)  # noqa: SLF001 # the same room
+    dotted = path.removesuffix(".py").replace("/", ".")
+    made = executed(f"wetdoublet_model_{package.digest[:12]}.{dotted}", content)
+    known = package.manifest["structures"].get(dotted)
+    if known is not None and known != made.DIGEST:
+        raise InputError(path, made.DIGEST, package.remedy, "comes from other equations than the manifest says")
+    return made
+
+
+def _field(one: Mapping[str, Any]) -> Field:
+    bounds = one["bounds"]
+    low = -math.inf if bounds["low"] is None else bounds["low"]
+    high = math.inf if bounds["high"] is None else bounds["high"]
+
+    def holds(value: float) -> bool:
+        above = value > low if bounds["low_open"] else value >= low
+        below = value < high if bounds["high_open"] else value <= high
+        return above and below
+
+    unit = None if one["unit"] == "1" else one["unit"]
+    default = one["default"]
+    example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
+    if unit and default is None:
+        example = f'"1 {unit}"'
+    what = f"the {one['meaning']}" if unit else f"a number ({one['meaning']})"
+    return Field(f"{TABLE}.{one['name']}", what, example, Range(bounds["text"], holds), unit=unit)
+
+
+def fields(package: Package | None) -> Mapping[str, Field]:
+    """Every entry that a scene with this model may have."""
+    return FIELDS if package is None else package.fields
+
+
+def tables(package: Package | None) -> dict[str, tuple[str, ...]]:
+    """Every table that a scene with this model may have, with the dotted names of its entries."""
+    if package is None:
+        return TABLES
+    return TABLES | {TABLE: tuple(f"{TABLE}.{name}" for name in package.quantities)}
+
+
+def unknown(name: str, value: object, package: Package | None) -> InputError | None:
+    """The error for an entry of `[custom]` that there is not; None for an entry of another table."""
+    if name.partition(".")[0] != TABLE:
+        return None
+    if package is None:
+        accepted = "a scene without [custom], or its model: --model DIR, Scene.load(..., model=DIR)"
+        return InputError(name, value, accepted, "is a model's, and no model is given")
+    known = tables(package)[TABLE]
+    accepted = ", ".join(known) or f"nothing: the model {package.name} declares no quantity"
+    return InputError(name, value, accepted, "has an unknown name" + did_you_mean(name, known))

@@ -1,0 +1,61 @@
+"""A model file derived, checked and put into files, with what there is to say of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import InputError
+from ..host.emitted import library_digest
+from .user_model import Package
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A model file, derived: the report in words, its files (none if a check fails), and the checks that failed."""
+
+    report: str
+    files: Mapping[str, str]
+    failed: str
+
+
+def derived_package(path: Path, folder: Path | None) -> Derived:
+    """Derive, check and emit a model file (imports sympy), for `folder` if it is to stay there.
+
+    Raises:
+        InputError: it is not a model file; names the line, and what is accepted.
+    """
+    from ...derive.checks.user import model_checks
+    from ...derive.emit.user import package
+    from ...derive.user_model.declarations import ModelFileError
+
+    try:
+        model, checks = model_checks(path)
+    except ModelFileError as error:
+        raise InputError(error.field, error.value, error.accepted, error.problem) from None
+    width = max(len(check.name) for check in checks)
+    lines = [f"{'ok  ' if check.ok else 'FAIL'} {check.name:<{width}}  {check.figure}" for check in checks]
+    failing = [check.name for check in checks if not check.ok]
+    if model is None or failing:
+        return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
+    files = package(model, path.read_text(encoding="utf-8"), library_digest(), _origin(path, folder))
+    made = Package(files["manifest.json"])
+    for name, value in made.defaults.items():
+        try:
+            made.fields[name].read(value)
+        except InputError as error:
+            raise InputError(f"{path}: {name}, default", value, error.accepted, error.problem) from None
+    said = [f"{model.name}: {model.meaning}.", *(f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws)]
+    return Derived("\n".join([*said, "", *lines, "", *made.manifest["words"]]), files, "")
+
+
+def _origin(path: Path, folder: Path | None) -> str:
+    """The model file as seen from the folder."""
+    if folder is None:
+        return ""
+    try:
+        return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return ""

@@ -1,0 +1,103 @@
+"""Where a user's model comes from: an emitted folder, or a model file, derived on first use; refused if stale."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from pathlib import Path
+
+from ..errors import CheckFailed, InputError
+from ..host import bounded
+from ..host.emitted import DERIVING, derivation, library_digest
+from .user_model import ACCEPTED, Package
+
+
+def open_package(source: str | Path | Package, label: str = "--model") -> Package:
+    """The model of a folder that `generate` made, or of a model file (derived on first use, then cached).
+
+    Raises:
+        InputError: no such model, or one that is stale: says what to run.
+    """
+    if isinstance(source, Package):
+        return source
+    if not isinstance(source, (str, os.PathLike)):
+        raise InputError(label, source, ACCEPTED, "is not the name of a file")
+    path = Path(source)
+    if bounded.is_folder(path):
+        return _of_folder(path, label)
+    if path.suffix == ".py" and bounded.is_file(path):
+        return _of_file(path, label)
+    raise InputError(label, str(source), ACCEPTED, "is neither a folder nor a model file")
+
+
+def _is_whole(package: Package) -> bool:
+    """Whether a manifest answers what is asked of it later; KeyError and the like if it has no answer at all."""
+    listed = package.manifest
+    texts = [package.name, listed["library"], listed["files"]["model.py"], *listed["files"].values()]
+    texts += [package.law_file(law["slot"], law["name"]) for law in listed["laws"]]
+    texts += [*listed["files"], *listed["structures"], *package.fields, *package.defaults, *package.plain]
+    tables = (listed["files"], listed["structures"], listed["extra"])
+    return (
+        bool(package.remedy)
+        and all(isinstance(text, str) for text in texts)
+        and all(isinstance(t, dict) for t in tables)
+    )
+
+
+def _digest(path: Path, label: str) -> str:
+    return hashlib.sha256(_read(path, label)).hexdigest()
+
+
+def _read(path: Path, label: str) -> bytes:
+    """Content of a file of a model; InputError if it cannot be read, or is larger than any."""
+    try:
+        return bounded.read(path, bounded.LARGEST)
+    except FileNotFoundError:
+        raise InputError(label, str(path), ACCEPTED, "is not there") from None
+    except bounded.NotRead as reason:
+        raise InputError(label, str(path), ACCEPTED, str(reason)) from None
+
+
+def _of_folder(folder: Path, label: str) -> Package:
+    try:
+        package = Package(bounded.text(folder / "manifest.json"), folder)
+        known = (
+            package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1 and _is_whole(package)
+        )
+    except (OSError, ValueError, LookupError, AttributeError, TypeError, bounded.NotRead):
+        known = False
+    if not known:
+        raise InputError(label, str(folder), ACCEPTED, "holds no emitted model")
+    if package.manifest["library"] != library_digest():
+        problem = "was emitted for other equations of the library than these"
+        raise InputError(label, str(folder), package.remedy.removeprefix("run "), problem)
+    source = package.original
+    same = (
+        source is None or not bounded.is_file(source) or _digest(source, label) == package.manifest["files"]["model.py"]
+    )
+    if not same:
+        problem = f"is stale: {source} has changed since"
+        raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
+    for path in package.manifest["files"]:
+        package.text_of(path)
+    return package
+
+
+def _of_file(path: Path, label: str) -> Package:
+    from ..host.user_cache import kept
+
+    content = _read(path, label)
+    key = hashlib.sha256(b"\0".join([content, derivation().encode(), library_digest().encode()])).hexdigest()
+
+    def derived() -> bytes:
+        from .user_model_derived import derived_package  # imports sympy when it is called
+
+        with DERIVING:
+            made = derived_package(path, None)
+        if not made.files:
+            raise CheckFailed(f"{path}: {made.failed}")
+        return json.dumps(dict(made.files)).encode()
+
+    files = json.loads(kept(f"model-{key[:32]}.json", derived))
+    return Package(files["manifest.json"], path, files)

@@ -1,0 +1,110 @@
+"""Numbers as other libraries hold them: arrays with masks, quantities with units, brought to plain SI numbers.
+
+What numpy would turn into numbers without a word is refused: masked values, truth values, dates, complex numbers, text.
+"""
+
+from __future__ import annotations
+
+import re
+from numbers import Real
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError
+from .units import factor
+
+if TYPE_CHECKING:
+    from .schema import Field
+
+_DEEPEST = 8  # lists within lists
+_EXPONENT = re.compile(r"(?<=[A-Za-z])(-?[0-9]+)\b")  # as CF has them: m s-1
+
+
+def scalar(value: Any, entry: Field, label: str) -> object:
+    """Return a single number that an array or a quantity with its unit is, as a plain one in SI; others as they are."""
+    if isinstance(value, (str, Real)) or not _is_array(value):
+        return value
+    found = array(value, entry, label)
+    if found.ndim:
+        raise InputError(label, value, entry.accepts, "is not a single number")
+    return float(found)
+
+
+def array(values: Any, entry: Field, label: str) -> np.ndarray:
+    """Return numbers, however they are given, as an array of doubles in SI; those alone are not held to a range.
+
+    Arguments:
+        values: a number, text with its unit, a sequence of these, an array, a pint quantity (or one of astropy or
+            unyt), or a DataArray, whose attribute `units` is heeded.
+
+    Raises:
+        InputError: masked values, a unit of something else, or what are no real numbers.
+    """
+    if isinstance(values, (list, tuple)):
+        return _listed(values, entry, label, 1)
+    if isinstance(values, (str, Real)):
+        return np.asarray(entry.number(values, label=label))
+    unit, bare = _unit(values)
+    if isinstance(bare, (bytes, bytearray, memoryview)):
+        raise InputError(label, values, "numbers (SI), or quantities with their units", "is no text and no number")
+    if isinstance(bare, np.ma.MaskedArray) and np.ma.is_masked(bare):
+        masked = f"{int(np.ma.getmaskarray(bare).sum())} of {bare.size} values are masked"
+        raise InputError(label, None, "values without a mask: drop them, or fill them", masked)
+    try:
+        found = np.asarray(bare)
+    except Exception:  # noqa: BLE001 # whatever another library's conversion raises
+        found = np.asarray(None)
+    if found.dtype.kind in "OU" and unit is None:
+        flat = [entry.number(value, label=label) for value in found.ravel().tolist()]
+        return np.array(flat, dtype=float).reshape(found.shape)
+    if found.dtype.kind not in "fiu":
+        said = f"is of type {found.dtype}, not of real numbers" if _is_array(bare) else "is not a list of numbers"
+        raise InputError(label, values, "numbers (SI), or quantities with their units", said)
+    with np.errstate(over="ignore"):  # what is beyond a double becomes inf, and is refused as such
+        doubles = found.astype(float)
+    return doubles if unit is None else doubles * factor(unit, entry.unit, label, entry.accepts, values)
+
+
+def _listed(values: list[Any] | tuple[Any, ...], entry: Field, label: str, level: int) -> np.ndarray:
+    """An array of a sequence, its members judged one by one unless they are plain numbers all."""
+    if {*map(type, values)} <= {float, int}:
+        try:
+            return np.array(values, dtype=float)
+        except OverflowError:  # of an integer: its turn comes below
+            pass
+    if level > _DEEPEST:
+        raise InputError(label, values, "numbers (SI)", "is nested too deeply")
+
+    def part(value: Any) -> np.ndarray | float:
+        if isinstance(value, (list, tuple)):
+            return _listed(value, entry, label, level + 1)
+        return array(value, entry, label) if getattr(value, "ndim", 0) else entry.number(value, label=label)
+
+    try:
+        return np.array([part(value) for value in values], dtype=float)
+    except InputError:
+        raise
+    except ValueError:
+        raise InputError(label, values, "numbers (SI)", "is a list of lists of different lengths") from None
+
+
+def _is_array(value: Any) -> bool:
+    """Whether something is an array, or carries a unit; a class is neither."""
+    return not isinstance(value, type) and (hasattr(value, "__array__") or _unit(value)[0] is not None)
+
+
+def _unit(value: Any) -> tuple[str | None, Any]:
+    """The unit that a value carries, as text, and the value without it; None if it carries none."""
+    if isinstance(value, (np.ndarray, np.generic)) and type(value).__module__.partition(".")[0] == "numpy":
+        return None, value
+    if hasattr(value, "data") and hasattr(value, "attrs"):  # xarray's
+        unit, bare = _unit(value.data)
+        given = value.attrs.get("units") if unit is None else unit
+        return (_EXPONENT.sub(r"^\1", given), bare) if isinstance(given, str) else (None, bare)
+    if hasattr(value, "units") and hasattr(value, "magnitude"):  # pint's
+        return f"{value.units:D}", value.magnitude
+    for name in ("units", "unit"):  # unyt's, astropy's
+        if hasattr(value, name) and hasattr(value, "value") and hasattr(value, "__array__"):
+            return str(getattr(value, name)), value.value
+    return None, value

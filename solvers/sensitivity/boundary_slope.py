@@ -1,0 +1,228 @@
+"""How a change of outcome moves with the parameters: gradients of the functions that are zero there.
+
+The functions are those that are smooth through the change (`probe`): the amplitude of the saddle's unstable mode, the
+gap at which an escape stops short of the rim, the largest pressure of the approach. Their gradients in the groups are
+one adjoint each, at the change itself; the implicit function theorem does the rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute, vertcat
+
+from ..boundaries.changes import FREE, GRAZE, REVERSED, Change
+from ..boundaries.line import WITHOUT_SOLIDS, Probe
+from ..boundaries.saddle import Saddle, barrier_of, saddle_of
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
+from ..engines.casadi.locate import Locate, Path, Step
+from ..errors import ComputationError
+from ..host.thread_caches import own_cache
+from ..model.dimensionless import numbers
+from ..model.model import Model, choose, load
+from ..model.phases import Flow, Region
+from ..scene.scene import Scene
+from .derivatives import adjoint, evaluate, settled
+from .directions import landed
+from .trajectory_expression import Course, course_of, ending, influential
+
+_BELOW, _ABOVE = 1 - 1e-8, 1 + 1e-8  # parts of St* at which the doublet just falls back, just meets a criterion
+_FREE_RIM = 1 + 1e-5  # and at which it just leaves a film that alone holds it, without ever falling back
+_GRID = (*(float(part) for part in np.linspace(0, 1, 401)[1:]),)
+_NEWTON = 12
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Gradient (in the groups named) of a function that is zero at a change of outcome; its size is arbitrary."""
+
+    groups: tuple[str, ...]
+    gradient: np.ndarray
+
+
+def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope | None:
+    """The gradient at a change; None for a change that has no smooth function of its own.
+
+    Raises:
+        ComputationError: the flight there could not be followed.
+    """
+    try:
+        if change.kind == GRAZE:
+            return _graze(scene, angle, change.stokes, rtol)
+        if change.kind in (FREE, REVERSED):
+            return _escape(scene, angle, change.stokes, change.kind == REVERSED, rtol)
+    except IntegrationFailed as failure:
+        raise ComputationError(f"the change at St {change.stokes:.10g} cannot be differentiated ({failure})") from None
+    return None
+
+
+def _groups(scene: Scene, angle: float, stokes: float) -> dict[str, float]:
+    return numbers(scene, scene.speed_of(stokes), angle).groups
+
+
+# ---- a criterion that is just met: the flight up to the maximum, at which time makes no difference
+
+
+def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | None:
+    model = load(choose(scene, angle > 0))
+    finder = Locate(model, _groups(scene, angle, stokes * _ABOVE), rtol)
+    path = finder.run()
+    if path.reversal is None:
+        return None
+    k = next(k for k, step in enumerate(path.steps) if step.reverses)
+    step = path.steps[k]
+    told = tolerance(rtol, "rosenbrock", finder.groups)
+    kind = "glass" if step.kinds[0] == "glass" else "contact"
+    before = path.ends[k - 1][: len(model.state)] if k else model.start(path.p)
+    if step.duration > 0:
+        step = replace(step, duration=_extremum(model, step, kind, before, path.p, told), event=None, reverses=False)
+    course, durations = _up_to(path, k, step)
+    end = ending(course, "rosenbrock", told)
+    durations = settled(end, path.p, durations, landed(course), 1e-8)
+    y = evaluate(end.function, path.p, durations)[0]
+    margin = _margin(model, kind, finder.groups["elastic_gap"] >= finder.groups["rough_gap"])
+    by_state, by_group = evaluate(margin, y, path.p)
+    carried = evaluate(adjoint(end, 1), path.p, durations, by_state)[2].ravel()
+    return Slope(tuple(model.groups), carried + by_group.ravel())
+
+
+def _extremum(model: Model, step: Step, kind: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
+    """Time within the phase at which the pressure is largest, or the gap smallest, by Newton's method."""
+    rates = _rates(model, step.phase.region, kind)
+    fly = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
+    time = step.duration
+    for _ in range(_NEWTON):
+        first, second = evaluate(rates, fly(before, p, time), p)
+        move = -float(first.item()) / float(second.item())
+        time += max(min(move, 0.2 * time), -0.2 * time)
+        if abs(move) < 1e-9 * time:
+            break
+    return time
+
+
+@own_cache(64)
+def _rates(model: Model, region: Region, kind: str) -> Function:
+    """(state, groups) -> rate of the pressure or gap, and the rate of that."""
+    flow = model.function("right_hand_side", region.film, region.shear)(model.column, model.parameters)
+    of = model("events")["glass"] if kind == "glass" else model.state["gap"]
+    first = jtimes(of, model.column, flow)
+    return Function("rates", [model.column, model.parameters], [first, jtimes(first, model.column, flow)])
+
+
+@own_cache(64)
+def _margin(model: Model, kind: str, elastic: bool) -> Function:
+    """(state, groups) -> gradients, in either, of by how much a criterion is met, as a logarithm."""
+    if kind == "glass":
+        limit = model.groups["glass_number"]
+        of = (limit - model("events")["glass"]) / limit
+    else:
+        of = model.groups["elastic_gap" if elastic else "rough_gap"] / model.state["gap"]
+    slopes = [densify(gradient(of, each)) for each in (model.column, model.parameters)]
+    return Function("margin", [model.column, model.parameters], slopes)
+
+
+# ---- a doublet that just escapes
+
+
+def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> Slope | None:
+    probe = _probe(scene, angle, stokes * _BELOW, reversed_, rtol)
+    path = probe.run()
+    barrier = barrier_of(probe)
+    rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
+    if barrier is not None and barrier.gap < rim * (1 - 1e-12):
+        saddle = saddle_of(probe, barrier)
+        return None if saddle is None else _at_saddle(probe, path, saddle)
+    if path.steps and "fell back" in path.steps[-1].kinds:
+        return _at_rim(probe, path)
+    probe = _probe(scene, angle, stokes * _FREE_RIM, reversed_, rtol)
+    path = probe.run()
+    return _at_rim(probe, path) if path.separated else None
+
+
+def _probe(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> Probe:
+    groups = _groups(scene, angle, stokes) | ({} if reversed_ else WITHOUT_SOLIDS)
+    return Probe(load(choose(scene, angle > 0)), groups, rtol)
+
+
+def _at_rim(probe: Locate, path: Path) -> Slope:
+    """Where it turns just short of the rim the gap moves smoothly; where it leaves, the speed at the rim."""
+    course = course_of(path, probe.model.choice)
+    names = list(probe.model.groups)
+    durations = np.array([step.duration for step in path.steps])
+    end = ending(course, "rosenbrock", tolerance(probe.rtol, "rosenbrock", probe.groups))
+    durations = settled(end, path.p, durations, landed(course), 1e-8)
+    weights = np.zeros((len(probe.model.state), 1))
+    weights[1 if path.separated else 0] = 1.0
+    found = evaluate(adjoint(end, 1), path.p, durations, weights)[2].ravel()
+    if not path.separated and "rupture_gap" in names:
+        found[names.index("rupture_gap")] -= 1.0
+    return Slope(tuple(names), found * _active(course, probe))
+
+
+def _at_saddle(probe: Locate, path: Path, saddle: Saddle) -> Slope | None:
+    """Amplitude of the unstable mode near the saddle, which moves itself.
+
+    At a fixed time and with the mode as it is: what that leaves out is smaller than the amplitude's own growth by the
+    distance of the nearest approach.
+    """
+    told = tolerance(probe.rtol, "rosenbrock", probe.groups)
+    found = _nearest(probe, path, saddle, told)
+    if found is None:
+        return None
+    k, duration = found
+    course, durations = _up_to(path, k, replace(path.steps[k], duration=duration, event=None, reverses=False))
+    end = ending(course, "rosenbrock", told)
+    durations = settled(end, path.p, durations, landed(course), 1e-8)
+    mode = saddle.modes[saddle.unstable].real
+    y = evaluate(end.function, path.p, durations)[0].ravel()
+    carried = evaluate(adjoint(end, 1), path.p, durations, mode)[2].ravel()
+    at = np.concatenate([[saddle.gap], y[1:]])
+    moved = evaluate(_moving(probe.model), at, path.p)[0]
+    return Slope(tuple(probe.model.groups), (carried - moved.T @ mode) * _active(course, probe))
+
+
+def _active(course: Course, probe: Locate) -> np.ndarray:
+    return np.array(influential(course, probe.groups), dtype=float)
+
+
+def _nearest(probe: Locate, path: Path, saddle: Saddle, told: Tolerance) -> tuple[int, float] | None:
+    """Which phase comes nearest to the saddle, and how long into it; of those on the saddle's side of the film edge."""
+    size = len(probe.model.state)
+    film, shear = int(saddle.gap < 1), int(saddle.gap < probe.edge)
+    before = probe.model.start(path.p)
+    best: tuple[float, int, float] | None = None
+    for k, (step, end) in enumerate(zip(path.steps, path.ends, strict=True)):
+        phase = step.phase
+        if step.duration > 0 and (phase.film, phase.shear, phase.resting) == (film, shear, False):
+            inside = plain(Flow(probe.model.choice, phase.region, ()), "rosenbrock", told, _GRID)
+            states = inside(before, path.p, step.duration)
+            at, amplitudes = saddle.nearest(states)
+            distance = float(np.linalg.norm(amplitudes))
+            if best is None or distance < best[0]:
+                best = (distance, k, _GRID[at] * step.duration)
+        before = end[:size]
+    return None if best is None or best[0] > saddle.gap / 2 else best[1:]
+
+
+def _up_to(path: Path, k: int, last: Step) -> tuple[Course, np.ndarray]:
+    """The course of a path up to a time within step k, and its durations."""
+    steps = [*path.steps[:k], last]
+    part = replace(path, steps=steps, ends=path.ends[: k + 1])
+    return course_of(part, path.model.choice), np.array([step.duration for step in steps])
+
+
+@own_cache(64)
+def _moving(model: Model) -> Function:
+    """(state at the saddle's gap with the flight's momentum, groups) -> d(saddle's state)/d(groups).
+
+    The gap follows from the slope of the effective potential, which is zero there, by one step of Newton's method.
+    """
+    gap = model.state["gap"]
+    slope_ = model("effective_potential")["slope"]
+    held = SX.sym("held", len(model.state))
+    foot = substitute([gap - slope_ / jacobian(slope_, gap)], [model.column], [held])[0]
+    there = [foot, *(held[k] for k in range(1, len(model.state)))]
+    column = vertcat(*(SX(each) for each in model("rigid_rotation").values()))
+    state = substitute([column], [model.column], [vertcat(*there)])[0]
+    return Function("moving", [held, model.parameters], [densify(jacobian(state, model.parameters))])

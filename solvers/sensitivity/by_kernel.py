@@ -1,0 +1,150 @@
+"""The Taylor kernel's derivatives in the parameters of a scene, of one collision or of many of the same scene."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from ..engines.casadi.locate import Path
+from ..engines.taylor.call import Impacts, order_for
+from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, carried, differentiates
+from ..model.dimensionless import numbers, si_values
+from ..scene.scene import Scene
+from ..settings import STEPS
+from .parameters import SCALES, Kind, references, way
+from .problem import Problem, Slopes, sharpened
+from .result import Near
+from .results import QUANTITIES
+
+# Results whose derivatives the kernel carries, the ledger's being CasADi's: column of a derivative, field of the value.
+_WHERE: dict[str, tuple[int, str | int]] = {
+    "restitution": (0, 0),
+    "tangential_restitution": (1, 1),
+    "final_rotation_rate": (2, 2),
+    "final_spin": (3, 3),
+    "contact_time": (COLUMNS["time"], "time"),
+    "smallest_gap": (COLUMNS["smallest_gap"], "smallest_gap"),
+    "rotation": (COLUMNS["turned"], "turned"),
+}
+KNOWN = tuple(_WHERE)
+BACKWARD = ("restitution",)  # what is taken back along flights
+DIRECTIONS = 4  # parameters by which carrying along costs no more (docs/kernel.md)
+_TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
+
+
+def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
+    """Whether the kernel differentiates these results of a scene here, of oblique collisions and of those head-on."""
+    return all(name in KNOWN for name in of) and differentiates(scene, oblique)
+
+
+@dataclass(frozen=True)
+class Along:
+    """Collisions with their derivatives in theta, p = p_ref (1 + theta), SI.
+
+    Arguments:
+        flown: the kernel's answers.
+        value: (results, collisions); NaN where nothing separated, or the result is not defined.
+        first: (results, collisions, parameters).
+    """
+
+    flown: Carried
+    value: np.ndarray
+    first: np.ndarray
+
+
+def along(
+    impacts: Impacts,
+    kind: Kind,
+    wrt: tuple[str, ...],
+    of: tuple[str, ...],
+    rtol: float,
+    order: int | None = None,
+    budget: int = STEPS,
+    backward: bool = False,
+) -> Along | None:
+    """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
+
+    Arguments:
+        impacts: of one scene; nothing but speed and angle differs among them.
+        order: of the series; None: the cheapest for the tolerance.
+        backward: of the restitution alone, taken back along the flights (`carried`).
+    """
+    scene, size = impacts.scene, impacts.angle.size
+    speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
+    names = tuple(name for name in si_values(scene, speed, angle) if name != "density")
+    slopes = np.asarray(way(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
+    by_quantity = dict(zip(names, slopes, strict=False))
+    found = carried(
+        impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
+        backward,
+    )  # fmt: skip
+    if found is None:
+        return None
+    # quantities change with the parameters as those of the first collision do, but for its speed and angle
+    paces, rows = np.ones((size, len(found.quantities))), np.zeros((len(found.quantities), len(wrt)))
+    for k, quantity in enumerate(found.quantities):
+        rows[k] = by_quantity.get(quantity, 0.0)
+        if quantity == "speed":
+            paces[:, k] = impacts.speed / speed
+        elif quantity == "angle":
+            paces[:, k] = impacts.angle / angle
+    value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
+    separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
+    scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
+    for place, name in enumerate(of):
+        column, where = _WHERE[name]
+        if angle == 0 and name in _TURNS:
+            if QUANTITIES[name].odd:
+                value[place, separated] = 0.0
+            continue
+        plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
+        first[place] = np.einsum("ck,kp->cp", found.slopes[:, :, column] * paces, rows)  # small: no BLAS, no threads
+        if name == "final_spin":  # it parted as it touched: the spin is what rounding leaves
+            plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
+        if QUANTITIES[name].scale is not None:
+            scale, relative = scales().of(name)
+            first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
+            plain = plain * scale
+        value[place, separated] = plain[separated]
+    return Along(found, value, first)
+
+
+def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
+    """Derivatives of the collision of a located flight; None where the kernel has none, or sees another flight."""
+    odd_head_on = not problem.n.oblique and problem.odd(of)
+    if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
+        return None
+    impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
+    found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
+    if found is None:
+        return None
+    answer = found.flown.answers[0]
+    outcome = ("stick", "stick-rotate-separate", "bounce")[answer["outcome"]]
+    if answer["status"] > 1 or outcome != path.outcome or found.flown.near[0, 1] == CHATTERS:
+        return None
+    return Slopes(found.value[:, 0], found.first[:, 0], None)
+
+
+class _Scales:
+    """SI scales of results: their values, and how they change with the parameters."""
+
+    def __init__(self, scene: Scene, impacts: Impacts, slopes: dict[str, np.ndarray], wrt: tuple[str, ...]) -> None:
+        speed, angle = impacts.speed, impacts.angle
+        n = numbers(scene, float(speed[0]), float(angle[0]))
+        turn = np.tan(angle) / np.tan(angle[0]) if angle[0] > 0 else np.ones(angle.size)
+        steep = np.sin(2 * angle[0]) / np.sin(2 * angle) * angle / angle[0] if angle[0] > 0 else np.ones(angle.size)
+        pace = speed / speed[0]
+        self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": n.rate * pace * turn}
+        first = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
+        self._relative = {name: np.tile(slopes[name] / first[name], (speed.size, 1)) for name in first}
+        if "impact.angle" in wrt:  # of a tangent, which is no power of the angle
+            self._relative["rate"][:, wrt.index("impact.angle")] *= steep
+
+    def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
+        """(collisions,) of the scale, and (collisions, parameters) of its logarithm's derivatives."""
+        scale = QUANTITIES[name].scale
+        assert scale is not None
+        return self._values[scale], self._relative[scale]

@@ -1,0 +1,298 @@
+"""`gradients_many()`: derivatives of many collisions of one scene, by the Taylor kernel, the rest one after another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engines.taylor.call import Impacts, order_for
+from ..engines.taylor.tangent import DISTANCES, Carried, carried
+from ..errors import WetDoubletError
+from ..formatting.labelled import Column, labelled
+from ..host.cores import usable_cores
+from ..many.batch import requested
+from ..many.collide_many import FAILED, OUTCOMES, outcome_attributes
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..settings import FEW, RTOL, STEPS, check_engine
+from . import by_kernel as kernel
+from .boundary_distance import LOOK, limit, refused
+from .choice import chosen
+from .parameters import Kind, check_hold, check_wrt, kind_of, references, way
+from .problem import NEAR, SHARPEST
+from .result import Near
+from .results import QUANTITIES, check_of
+from .sensitivities import sensitivities
+
+if TYPE_CHECKING:
+    import xarray
+
+_SOON = 1000  # steps within which what separates mostly has
+_LONG = 10 * STEPS  # what creeps crawls without derivatives (runtime/crawl.h), and by single steps with them
+_STRETCH = 4096  # collisions a thread takes at a time
+STICK = "a stick: its restitution is 0, and nothing else of it is defined"
+
+
+@dataclass
+class _Asked:
+    """What is asked for, and the results as they come in: NaN until then."""
+
+    scene: Scene
+    speed: np.ndarray
+    angle: np.ndarray
+    kind: Kind
+    wrt: tuple[str, ...]
+    of: tuple[str, ...]
+    rtol: float
+    outcome: np.ndarray = field(init=False)
+    value: np.ndarray = field(init=False)
+    gradient: np.ndarray = field(init=False)
+    reason: np.ndarray = field(init=False)
+    engine: np.ndarray = field(init=False)
+
+    def __post_init__(self) -> None:
+        size = self.angle.size
+        self.outcome = np.full(size, FAILED, dtype=np.int8)
+        self.value = np.full((len(self.of), size), np.nan)
+        self.gradient = np.full((len(self.of), size, len(self.wrt)), np.nan)
+        self.reason = np.full(size, "", dtype=object)
+        self.engine = np.full(size, "", dtype=object)
+
+    def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:
+        return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
+
+    def units(self, which: np.ndarray) -> np.ndarray:
+        """(collisions, parameters): dp/dtheta."""
+        first = references(self.scene, self.kind, float(self.speed[which[0]]), float(self.angle[which[0]]))
+        units = np.asarray(way(self.kind, self.wrt, ()).slopes(first)[1].full()).ravel()
+        units = np.tile(units, (which.size, 1))
+        for k, name in enumerate(self.wrt):
+            if name in ("impact.speed", "impact.stokes"):
+                units[:, k] *= self.speed[which] / self.speed[which[0]]
+            elif name == "impact.angle" and self.angle[which[0]] > 0:
+                units[:, k] = self.angle[which]
+        return units
+
+    def reference(self) -> np.ndarray:
+        """(collisions, parameters): each parameter's own value."""
+        first = dict(zip(self.kind.entries, references(self.scene, self.kind, 1.0, 0.0).tolist(), strict=True))
+        columns = {"impact.speed": self.speed, "impact.angle": self.angle}
+        columns["impact.stokes"] = self.speed * self.scene.stokes_per_speed
+        return np.column_stack([columns.get(name, np.full(self.speed.size, first.get(name, 0.0))) for name in self.wrt])
+
+
+def gradients_many(
+    scene: Scene | str | FilePath,
+    *,
+    stokes: Any = None,
+    speed: Any = None,
+    angle: Any = None,
+    wrt: Sequence[str] | str | None = None,
+    of: Sequence[str] | str = ("restitution",),
+    rtol: float = RTOL,
+    hold: str = "speed",
+    engine: str | None = None,
+) -> xarray.Dataset:
+    """Derivatives of many collisions of one scene, through their events.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name.
+        stokes, speed: Stokes numbers, or normal speeds in m/s: 1-D or a single number; default the scene's.
+        angle: impact angles in rad, 1-D or a single number; default the scene's.
+        wrt: parameters by dotted name; None: every number of the scene, and the impact's three.
+        of: results by name, as for `sensitivities`.
+        rtol: relative tolerance, 1e-13..1e-3.
+        hold: what of the impact stays when another parameter varies, its "speed" or its "stokes" number.
+        engine: "taylor" (default for more than 100 collisions, and where its kernel is compiled already), "rosenbrock"
+            or "cvodes", which take them one after another.
+
+    Returns:
+        Dataset: value (quantity, collision); gradient and elasticity (quantity, collision, parameter), SI; outcome and
+        reason (collision). A stick has restitution 0 with the gradient 0, and NaN for what it leaves undefined. Where
+        no derivative exists, as `sensitivities` has it, there is NaN, and `reason` names the boundary.
+
+    Raises:
+        InputError: a name, length or value that cannot be.
+
+    Example:
+        >>> import numpy as np
+        >>> found = gradients_many("granulation", stokes=np.array([0.02, 0.03]), angle=1.3, wrt="liquid.viscosity")
+        >>> found.gradient.sel(quantity="restitution", parameter="liquid.viscosity").shape
+        (2,)
+    """
+    names, held = check_of(of), check_hold(hold)
+    by = check_engine(engine)
+    request = requested(scene, stokes, speed, angle, {}, rtol, "rosenbrock", ())
+    loaded = request.scene
+    warn(loaded)
+    velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
+    asked = _Asked(
+        loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
+    )
+    left = np.arange(request.size)
+    oblique = set((request.angle > 0).tolist())
+    if by is None:
+        by = chosen(loaded, names, oblique, request.rtol, request.size)
+    if by == "taylor" and kernel.offers(loaded, names, oblique):
+        left = _by_kernel(asked)
+    for k in left:
+        _alone(asked, int(k), held, by)
+    return _dataset(asked, held)
+
+
+def _by_kernel(asked: _Asked) -> np.ndarray:
+    """What the kernel can do; returns the collisions that are left."""
+    turns = any(QUANTITIES[name].odd for name in asked.of) and "impact.angle" in asked.wrt
+    parts, left = [], [np.flatnonzero(asked.angle == 0) if turns else np.zeros(0, int)]
+    for oblique in (True, False) if not turns else (True,):
+        which = np.flatnonzero((asked.angle > 0) == oblique)
+        parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
+    if len(parts) > 1:
+        with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel runs without the interpreter's lock
+            left += pool.map(lambda part: _stretch(asked, part), parts)
+    else:
+        left += [_stretch(asked, part) for part in parts]
+    return np.sort(np.concatenate(left))
+
+
+def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
+    # of a few collisions, or by a few parameters, directions cost no more
+    back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
+    order = order_for(asked.rtol)
+
+    def flown(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
+        return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward)
+
+    found = flown(which, asked.rtol, _SOON, back)
+    if found is None:
+        return which
+    answers, measures = found.flown.answers, found.flown.near
+    late = np.flatnonzero(answers["status"] > 1)
+    if back and late.size:  # long flights have directions that hold the step
+        held = flown(which[late], asked.rtol, _SOON, False)
+        if held is None:
+            return which
+        answers[late], measures[late] = held.flown.answers, held.flown.near
+        found.value[:, late], found.first[:, late] = held.value, held.first
+    near, least = measures[:, 0], limit(asked.rtol)
+    far = (answers["outcome"] > 0) & (near >= NEAR)
+    _keep(asked, which, found, far)
+    # what creeps for long mostly sticks: without derivatives first
+    slow = np.flatnonzero(answers["status"] > 1)
+    if slow.size:
+        plain = _without(asked, which[slow], asked.rtol)
+        answers[slow], measures[slow] = plain.answers, plain.near
+    # nearer than NEAR a flight amplifies its errors: again, to a tolerance that allows for it, by decades
+    told = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # nothing is to be measured
+    close = (answers["outcome"] > 0) & ~far & ((near > LOOK * least) | (told & (near >= least)))
+    decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
+    for decade in np.unique(decades[close]):
+        part = which[close & (decades == decade)]
+        sharper = min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST))
+        for backward in (True, False) if back else (False,):
+            again = flown(part, sharper, _LONG, backward)
+            if again is not None:
+                _keep(asked, part, again, again.flown.answers["outcome"] > 0)
+                part = part[again.flown.answers["status"] > 1]
+            if not part.size:
+                break
+    stuck = which[_sticks(asked, which, answers, found.flown.by_energy)]
+    asked.outcome[stuck], asked.reason[stuck], asked.engine[stuck] = 0, STICK, "taylor"
+    if "restitution" in asked.of:
+        place = asked.of.index("restitution")
+        asked.value[place, stuck], asked.gradient[place, stuck] = 0.0, 0.0
+    for k in np.flatnonzero((answers["outcome"] > 0) & told & (near < least)):
+        asked.reason[which[k]] = str(refused(Near(*_boundary(measures[k])), least))
+    left: np.ndarray = which[(asked.outcome[which] == FAILED) & (asked.reason[which] == "")]
+    return left
+
+
+def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
+    name, of = DISTANCES[int(measures[1])]
+    return name, float(measures[0]), of
+
+
+def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
+    """Collisions without derivatives, by the same kernel."""
+    oblique = bool(asked.angle[which[0]] > 0)
+    found = carried(asked.impacts(which, factor), oblique, rtol, "rotation" in asked.of, (), order_for(asked.rtol))
+    assert found is not None  # the kernel is there
+    return found
+
+
+def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarray) -> None:
+    into = which[part]
+    if into.size:
+        asked.outcome[into] = found.flown.answers["outcome"][part]
+        asked.value[:, into] = found.value[:, part]
+        slopes = found.first[:, part] / asked.units(into)
+        slopes[np.isnan(found.value[:, part])] = np.nan
+        asked.gradient[:, into] = slopes
+        asked.engine[into] = "taylor"
+
+
+def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
+    """Sticks that are ones on either side as well, as solvers/sensitivity/boundary_distance.py looks at them."""
+    stuck = (answers["outcome"] == 0) & (answers["status"] <= 1)
+    sure = stuck & (answers["status"] == 1) & by_energy
+    look = np.flatnonzero(stuck & ~sure)
+    least = limit(asked.rtol)
+    for factor in (1 - least, 1 + least):
+        if look.size:
+            aside = _without(asked, which[look], min(asked.rtol, 1e-10), factor).answers
+            stays = (aside["outcome"] == 0) & (aside["status"] <= 1)
+            stuck[look[~stays]] = False
+            look = look[stays]
+    sticks: np.ndarray = stuck
+    return sticks
+
+
+def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
+    speed, angle = float(asked.speed[k]), float(asked.angle[k])
+    method = "adjoint" if engine != "taylor" and len(asked.of) < len(asked.wrt) else "forward"
+    try:
+        found = sensitivities(
+            asked.scene, asked.of, asked.wrt, speed=speed, angle=angle, method=method, rtol=asked.rtol, engine=engine,
+            hold=hold,
+        )  # fmt: skip
+    except WetDoubletError as error:
+        asked.reason[k] = str(error)
+        return
+    asked.outcome[k] = OUTCOMES.index(found.outcome)
+    asked.reason[k] = STICK if found.outcome == "stick" else ""
+    asked.engine[k] = found.engine
+    for place, name in enumerate(asked.of):
+        value, row = found.value[name], found.gradient[name]
+        asked.value[place, k] = np.nan if value is None else value
+        asked.gradient[place, k] = [np.nan if slope is None else slope for slope in row.values()]
+
+
+def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
+    reference = asked.reference()
+    with np.errstate(divide="ignore", invalid="ignore"):
+        elasticity = asked.gradient * reference / asked.value[:, :, None]
+    elasticity[~np.isfinite(elasticity) | (reference == 0)] = np.nan
+    along, over = ("collision",), ("quantity", "collision", "parameter")
+    stokes = asked.speed * asked.scene.stokes_per_speed
+    variables: dict[str, Column] = {
+        "value": (("quantity", "collision"), asked.value, {"long_name": "results, SI"}),
+        "gradient": (over, asked.gradient, {"long_name": "derivatives by the parameters, SI"}),
+        "elasticity": (over, elasticity, {"units": "1", "long_name": "d ln y/d ln p"}),
+        "outcome": (along, asked.outcome, outcome_attributes()),
+        "reason": (along, asked.reason.astype(str), {"long_name": "why there is no derivative"}),
+        "engine": (along, asked.engine.astype(str), {"long_name": "what computed it"}),
+    }
+    coordinates: dict[str, Column] = {
+        "units": (("quantity",), np.array([QUANTITIES[name].unit for name in asked.of]), {}),
+        "reference": (("collision", "parameter"), reference, {}),
+        "speed": (along, asked.speed, {"units": "m/s", "long_name": "normal approach speed"}),
+        "stokes": (along, stokes, {"units": "1", "long_name": "Stokes number"}),
+        "angle": (along, asked.angle, {"units": "rad", "long_name": "impact angle"}),
+    }
+    attributes = {"scene": asked.scene.to_toml(), "rtol": asked.rtol, "hold": hold}
+    return labelled(variables, coordinates, attributes, {"quantity": asked.of, "parameter": asked.wrt})

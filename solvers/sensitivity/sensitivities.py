@@ -1,0 +1,186 @@
+"""`sensitivities()`: a scene in, derivatives of its collision's results out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path as FilePath
+
+import numpy as np
+
+from ..errors import ComputationError, InputError, did_you_mean
+from ..host.arguments import check_mapping
+from ..scene.scene import Scene
+from ..scene.schema import Field, Range
+from ..settings import check_engine, check_rtol
+from . import by_kernel as kernel
+from .choice import chosen
+from .parameters import check_hold, check_wrt
+from .problem import Along, Problem, Slopes
+from .result import Sensitivities
+from .results import SPENT, check_of, computed
+
+METHODS = ("forward", "adjoint")
+_PART = Field("hessian", "a number (SI)", "1.0", Range("of either sign", lambda _: True))
+_BEST = "rosenbrock"  # its derivatives are some hundred times more accurate than those of CVODES at one tolerance
+
+
+def check_method(method: object, label: str = "method") -> str:
+    """How to differentiate; InputError if it is neither forward nor adjoint."""
+    if not isinstance(method, str) or method not in METHODS:
+        raise InputError(label, method, ", ".join(METHODS), "is not known" + did_you_mean(method, METHODS))
+    return method
+
+
+def sensitivities(
+    scene: Scene | str | FilePath,
+    of: Sequence[str] | str = ("restitution",),
+    wrt: Sequence[str] | str | None = None,
+    *,
+    stokes: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    method: str = "forward",
+    rtol: float = 1e-9,
+    engine: str | None = None,
+    hold: str = "speed",
+    hessian: bool | Mapping[str, float] = False,
+) -> Sensitivities:
+    """Exact derivatives of a collision's results, through its events.
+
+    Arguments:
+        scene: a Scene, a path to a scene file, or a preset's name.
+        of: results by name: `restitution`, `contact_time`, ..., `energy.capillary`.
+        wrt: parameters by dotted name; None: every number of the scene, and the impact's three (`impact.speed`, ...).
+        stokes, speed, angle: the impact, as for `collide`.
+        method: "forward" costs with the parameters asked, "adjoint" with the results.
+        rtol: relative tolerance, 1e-13..1e-3.
+        engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is rosenbrock's); None:
+            taylor where its kernel is compiled already, else rosenbrock, which needs no compiler and is more accurate
+            than cvodes.
+        hold: what of the impact stays when another parameter varies, its "speed" or its "stokes" number.
+        hessian: second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) asks only for
+            the Hessian times that vector, at the price of one direction.
+
+    Returns:
+        Sensitivities: value, gradient and elasticity by name.
+
+    Raises:
+        InputError: a name or option is not acceptable.
+        ComputationError: the flight could not be completed, or it is so near a boundary that no derivative exists.
+
+    Example:
+        >>> from wetdoublet.solvers import sensitivities
+        >>> found = sensitivities("granulation", of=["restitution"], stokes=0.02, angle="75 deg")
+        >>> found.gradient["restitution"]["bridge.surface_tension"] < 0
+        True
+    """
+    of, method, hold = check_of(of), check_method(method), check_hold(hold)
+    rtol, asked = check_rtol(rtol), check_engine(engine)
+    if asked == "taylor" and method != "forward":
+        raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
+    if hessian is not False and asked not in (None, "rosenbrock"):
+        raise InputError("engine", asked, "rosenbrock", "has no second derivatives")
+    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    names = check_wrt(loaded, wrt)
+    along = _along(hessian, names)
+    v0, angle_ = loaded.need_impact()
+    plugin = asked or _BEST
+    if asked is None and method == "forward" and hessian is False:
+        plugin = chosen(loaded, of, (angle_ > 0,), rtol)
+    problem = Problem.of(loaded, v0, angle_, names, hold)
+    path, near = problem.located(of, rtol)
+    todo = tuple(name for name in computed(of) if problem.defined(name, path))
+    slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
+    if slopes is None and todo:
+        beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
+        try:
+            slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
+        except ComputationError:  # its flight misses what the located one met: the kernel may not
+            alone = beside or asked is not None or method != "forward" or along is not None
+            slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
+            if slopes is None:
+                raise
+            plugin = "taylor"
+    turning: dict[str, float] = {}
+    if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
+        if along is not None:
+            accepted = "an oblique impact, or parameters without impact.angle"
+            raise InputError("hessian", hessian, accepted, "head-on with strings has no second derivatives")
+        turning = problem.beside(problem.odd(of), method, plugin, rtol)
+    rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
+    for name, slope in turning.items():
+        row = rows[name][1]
+        assert row is not None  # it separates
+        row[names.index("impact.angle")] = slope
+    values = {name: row[0] for name, row in rows.items()}
+    reference = {name: problem.value_of(name) for name in names}
+    return Sensitivities(
+        value=values,
+        gradient={name: _row(names, row[1]) for name, row in rows.items()},
+        elasticity={name: _elasticities(name, reference, *row[:2]) for name, row in rows.items()},
+        hessian={name: _matrix(names, row[2]) for name, row in rows.items()} if isinstance(along, str) else None,
+        hessian_times={name: _row(names, None if row[2] is None else row[2][:, 0]) for name, row in rows.items()}
+        if isinstance(along, np.ndarray)
+        else None,
+        reference=reference,
+        outcome=path.outcome,
+        method=method,
+        engine=plugin,
+        hold=hold,
+        near=near,
+        scene=loaded,
+    )
+
+
+def _along(hessian: bool | Mapping[str, float], names: tuple[str, ...]) -> Along:
+    if isinstance(hessian, bool):
+        return "all" if hessian else None
+    for name in check_mapping(hessian, "hessian", "True, False or numbers by parameter"):
+        if name not in names:
+            problem = "is not among the parameters" + did_you_mean(name, names)
+            raise InputError("hessian", name, ", ".join(names), problem)
+    return np.array([[_PART.number(hessian.get(name, 0.0), label=f"hessian of {name}")] for name in names])
+
+
+Combined = tuple[float | None, np.ndarray | None, np.ndarray | None]
+
+
+def _combined(name: str, todo: tuple[str, ...], slopes: Slopes | None, units: np.ndarray, along: Along) -> Combined:
+    """Value, gradient (n,) and second derivatives (n, m) of a quantity, out of those that were computed."""
+    columns = units if isinstance(along, str) else np.ones(1)
+    parts = _parts(name)
+    if slopes is None or any(part not in todo for part in parts):
+        if name == "restitution":  # of a stick
+            return 0.0, np.zeros(units.size), np.zeros((units.size, columns.size))
+        return None, None, None
+    weights = np.array([parts.get(one, 0.0) for one in todo])
+    second = None
+    if slopes.second is not None:
+        second = np.einsum("k,kij->ij", weights, slopes.second) / np.outer(units, columns)
+    return float(weights @ slopes.value) + 0.0, weights @ slopes.first / units, second
+
+
+def _parts(name: str) -> dict[str, float]:
+    """A quantity as a sum of what is computed."""
+    if name != "energy.residual":
+        return {name: 1.0}
+    return {"energy.initial": 1.0, "energy.final": -1.0} | dict.fromkeys(SPENT, -1.0)
+
+
+def _row(names: tuple[str, ...], row: np.ndarray | None) -> dict[str, float | None]:
+    return {name: None if row is None else float(row[k]) + 0.0 for k, name in enumerate(names)}
+
+
+def _matrix(names: tuple[str, ...], matrix: np.ndarray | None) -> dict[str, dict[str, float | None]]:
+    return {one: _row(names, None if matrix is None else matrix[k]) for k, one in enumerate(names)}
+
+
+def _elasticities(
+    name: str, reference: Mapping[str, float], value: float | None, row: np.ndarray | None
+) -> dict[str, float | None]:
+    """D ln y/d ln p, None where y or p is zero; the ledger's residual is zero but for rounding."""
+    none = row is None or not value or name == "energy.residual"
+    return {
+        p: None if none or not at else float(row[k]) * at / value + 0.0  # type: ignore[index, operator]  # `none` says so
+        for k, (p, at) in enumerate(reference.items())
+    }

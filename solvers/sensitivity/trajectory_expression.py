@@ -1,0 +1,180 @@
+"""A located flight as one CasADi expression: phases over constant durations, each landed on its event, and the jumps.
+
+Evaluated at the located durations a landing moves the state by about nothing, but its derivatives are the saltation's,
+the first and, by its second-order terms, the second. So value, gradients and Hessians are CasADi's own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from casadi import DM, MX, Function, vertcat
+
+from ..engines.casadi.integrators import Tolerance, landing, plain
+from ..engines.casadi.locate import Path
+from ..host.thread_caches import own_cache
+from ..model.model import Choice, Model, load
+from ..model.phases import Flow, Phase, Watch
+from .results import QUANTITIES
+
+# landing's parameters after the groups: direction of motion, and the level of the certificate, which is never landed on
+_NO_LEVEL = 0.0
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A phase of a flight without its duration: what it flies, lands on, and what happens at its end."""
+
+    phase: Phase
+    flown: bool
+    event: str | None
+    reverses: bool
+    holds: bool
+
+
+@dataclass(frozen=True)
+class Course:
+    """A flight but for its numbers: the key under which its expression is kept.
+
+    Arguments:
+        nearest: legs after which the gap was smallest; -1: at first touch.
+    """
+
+    choice: Choice
+    legs: tuple[Leg, ...]
+    tangential_edge: bool
+    nearest: int
+
+    @cached_property
+    def model(self) -> Model:
+        return load(self.choice)
+
+    @property
+    def watch(self) -> Watch:
+        return Watch(tangential_edge=self.tangential_edge)
+
+
+def course_of(path: Path, choice: Choice) -> Course:
+    """The course of a located path, to be flown with a model (its own, or the full form of it)."""
+    legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.reverses, step.holds) for step in path.steps)
+    gaps = [1.0, *(float(end[0]) for end in path.ends)]
+    return Course(choice, legs, path.watch.tangential_edge, int(np.argmin(gaps)) - 1)
+
+
+@dataclass(frozen=True)
+class Flight:
+    """The expression of a course: (groups, durations) -> quantities, shifts of the landings over the durations."""
+
+    function: Function
+    of: tuple[str, ...]
+    groups: tuple[str, ...]
+
+
+@dataclass
+class Flown:
+    """What a course leads to, as expressions in its groups and durations; the state carries the extras."""
+
+    start: MX
+    y: MX
+    time: MX
+    dry: MX
+    nearest: MX
+    shifts: list[MX]
+
+
+def flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flown:
+    """Follow a course from first touch."""
+    model = course.model
+    size = len(model.state)
+    start = model.function("start")(DM.zeros(size), p)
+    at = Flown(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
+    for k, leg in enumerate(course.legs):
+        if leg.flown:
+            flow = Flow(course.choice, leg.phase.region, extras)
+            engine = plain(flow, plugin, tolerance).function
+            at.y = engine(x0=at.y, p=vertcat(p, durations[k]))["xf"]
+            at.time += durations[k]
+            if leg.event is not None:
+                land = landing(flow, course.watch, leg.event)
+                at.y, dt, _ = land(at.y, vertcat(p, leg.phase.motion, _NO_LEVEL))
+                at.time += dt
+                at.shifts.append(dt / durations[k])
+        if k == course.nearest:
+            at.nearest = at.y[0]
+        if leg.reverses:
+            at.dry += model.function("reversal_loss")(at.y[:size], p)
+            at.y = vertcat(model.function("reversal")(at.y[:size], p), at.y[size:])
+        if leg.holds:
+            at.y = vertcat(at.y[0], 0, at.y[2:])
+    return at
+
+
+def symbols(course: Course) -> tuple[MX, MX]:
+    """Symbols for a course's groups and durations."""
+    return MX.sym("groups", len(course.model.groups)), MX.sym("durations", len(course.legs))
+
+
+@own_cache(256)
+def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flight:
+    """The expression of a course for the quantities asked for; nothing else is integrated."""
+    model = course.model
+    extras, size = _extras(model, of), len(model.state)
+    p, durations = symbols(course)
+    at = flown(course, p, durations, extras, plugin, tolerance)
+    found: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
+    found |= _at_the_end(model, at.start, at.y[:size], p)
+    for k, name in enumerate(extras):
+        key = name if name == "rotation" else f"energy.{name}"
+        found[key] = at.y[size + k] - tolerance.offset
+    column = vertcat(*(found.get(name, MX(0)) for name in of))
+    missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
+    return Flight(Function("flight", [p, durations], [column, missed]), of, tuple(model.groups))
+
+
+@own_cache(256)
+def ending(course: Course, plugin: str, tolerance: Tolerance) -> Flight:
+    """The expression of the state in which a course ends."""
+    p, durations = symbols(course)
+    at = flown(course, p, durations, (), plugin, tolerance)
+    missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
+    return Flight(
+        Function("ending", [p, durations], [at.y, missed]), tuple(course.model.state), tuple(course.model.groups)
+    )
+
+
+def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
+    """What is integrated along: the rotation where it is not a state, the terms of the ledger that the model has."""
+    wanted = [QUANTITIES[name].extra for name in of]
+    turns = model.has("turning_rate") and not model.strings
+    has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
+    return tuple(name for name in wanted if name is not None and name in has)
+
+
+def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:
+    outputs = model.function("outputs")(y, p)
+    found = {name: outputs[k] for k, name in enumerate(model.names("outputs"))}
+    before, after = (model.function("energies")(state, p) for state in (start, y))
+    names = model.names("energies")
+    kinetic = names.index("kinetic")
+    found |= {"energy.initial": before[kinetic], "energy.final": after[kinetic]}
+    if "strings" in names:
+        found["energy.strings"] = after[names.index("strings")] - before[names.index("strings")]
+    if "rotation" in model.state:
+        found["rotation"] = y[list(model.state).index("rotation")]
+    return found
+
+
+def influential(course: Course, groups: dict[str, float]) -> list[bool]:
+    """Which groups a course can depend on: those of criteria that it does not meet have no influence on it."""
+    landed = {leg.event for leg in course.legs}
+    contact = "elastic_gap" if groups["elastic_gap"] >= groups["rough_gap"] else "rough_gap"
+    absent = {
+        "glass_number": "glass" not in landed,
+        "elastic_gap": "contact" not in landed or contact != "elastic_gap",
+        "rough_gap": "contact" not in landed or contact != "rough_gap",
+        "dry_restitution": not any(leg.reverses for leg in course.legs),
+    }
+    return [not absent.get(name, False) for name in course.model.groups]

@@ -1,0 +1,1 @@
+"""The stress run: all engines held against each other on random scenes."""

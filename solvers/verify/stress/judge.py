@@ -1,0 +1,326 @@
+"""One case of the stress test: all engines on it, and what their answers say of each other."""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+from ...certificates import NoProof
+from ...collision.collide import by_casadi
+from ...engines.taylor.build import Variant
+from ...engines.taylor.call import variant
+from ...errors import ComputationError, ModelWarning
+from ...many.collide_many import OUTCOMES, collide_many
+from ...model.model import choose, load
+from ...model.phases import Phase
+from ...model.validity import remarks
+from ...scene.scene import Scene
+from ...settings import ENGINES
+from .answers import answer, dimensionless
+from .flights import Flights
+from .impacts import Impact
+from .sample import Case
+from .scipy_engine import Flight
+
+RTOL = 1e-9
+SHARE = 1e3  # an engine's error is taken to stay below so many rtol, times the conditioning
+FLOOR = 1e-12  # and what rounding alone may come to, times the conditioning
+OPEN = 1e-5  # of the ledger's largest term, beyond which it is open
+DRIFT = 1e-6
+PATIENCE, GIVEN_UP = 0.5, "given up"  # s of CPU time for scipy's method
+_STEP = 1e-6  # relative, in St, over which the conditioning is measured
+_AUDIT = 100  # phases and stretches that a certified stick is flown on for
+PEER = "LSODA"  # what it cannot do is no failure of ours
+_FLIGHTS = Flights()
+_PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
+FAST = "taylor" if "taylor" in ENGINES else "rosenbrock"
+
+
+@dataclass
+class Found:
+    """What an engine found: outcome or failure, e_n, CPU seconds."""
+
+    outcome: str = ""
+    restitution: float = 0.0
+    certified: bool = False
+    failure: str = ""
+    cpu: float = 0.0
+    more: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Issue:
+    """Something that does not go together.
+
+    Arguments:
+        kind: "outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary" or "failure".
+        between: the engines it is about.
+        said: in words.
+        explained: the reason it may be so; empty if there is none.
+    """
+
+    kind: str
+    between: tuple[str, ...]
+    said: str
+    explained: str = ""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A case with all that was found of it."""
+
+    case: Case
+    found: dict[str, Found]
+    issues: tuple[Issue, ...]
+    error: float | None  # largest difference in e_n between engines, where they agree on the outcome
+    conditioning: float | None  # |d e_n/d ln St|, at least 1
+    remarks: tuple[str, ...] = ()  # where the scene leaves the range of a law
+
+
+def fast(scene: Scene, rtol: float) -> Found:
+    """By `collide_many`, with the fastest engine there is."""
+    data = collide_many(scene, rtol=rtol, engine=FAST)
+    outcome = int(data["outcome"].values[0])
+    if outcome < 0:
+        raise ComputationError(str(data["reason"].values[0]))
+    return Found(OUTCOMES[outcome], float(data["restitution"].values[0]), bool(data["certified"].values[0]))
+
+
+def fast_kernel(scene: Scene) -> Variant:
+    """The kernel that `fast` flies a scene with."""
+    return variant(scene, choose(scene, bool(scene.angle), fold=True), RTOL, rotation=False, few=True)
+
+
+def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
+    """As by `collide` with its ledger; located once for both engines, each charged with what that takes."""
+    n = dimensionless(scene, Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0)))
+    spared = _FLIGHTS.spared
+    one = by_casadi(scene, n, rtol, plugin, True, False, _FLIGHTS.find)
+    spared = _FLIGHTS.spared - spared
+    more: dict[str, float] = {}
+    if one.energy is not None:
+        terms = one.energy.to_dict()
+        more["residual"] = abs(terms["residual"]) / max(abs(value) for value in terms.values())
+    if one.angular_momentum_drift is not None:
+        more["drift"] = one.angular_momentum_drift
+    return Found(one.outcome, one.restitution, one.certified, cpu=spared, more=more)
+
+
+class Limited(Flight):
+    """A flight by scipy that is given up when it has taken PATIENCE."""
+
+    def _integrated(self, rates: Any, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
+        if not hasattr(self, "_until"):
+            self._until = time.process_time() + PATIENCE
+
+        def limited(t: float, state: np.ndarray) -> Any:
+            if time.process_time() > self._until:
+                raise self._error(f"{GIVEN_UP} after {PATIENCE:g} s of {self.method}", "")
+            return rates(t, state)
+
+        return super()._integrated(limited, start, end, y, more)  # type: ignore[arg-type]  # called like a Bound
+
+
+def by_scipy(scene: Scene, rtol: float, method: str = "LSODA") -> Found:
+    """By a method of scipy, with its own event location."""
+    impact = Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0))
+    n = dimensionless(scene, impact)
+    path = Limited(load(choose(scene, n.oblique)), n.groups, rtol, method).run()
+    said = answer(path)
+    if said.restitution < 0:
+        raise ComputationError(f"{method} takes the start for its end")  # a step below the rounding of x0
+    return Found(said.outcome, said.restitution, path.certified)
+
+
+Run = Callable[[Scene, float], Found]
+
+
+def runs() -> dict[str, Run]:
+    """The engines that are held against each other; the first is the one under test."""
+    found: dict[str, Run] = {FAST: fast}
+    if FAST != "rosenbrock":
+        found["rosenbrock"] = lambda scene, rtol: chained(scene, rtol, "rosenbrock")
+    found["cvodes"] = chained
+    if find_spec("scipy"):
+        found[PEER] = lambda scene, rtol: by_scipy(scene, rtol / 10)
+    return found
+
+
+def judge(case: Case) -> Verdict:
+    """Run every engine on a case and judge what comes out."""
+    from .lines import judge_lines
+
+    _FLIGHTS.forget()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)  # counted, and said once for all cases
+        verdict = judge_lines(case) if case.angles else _judged(case, runs())
+    return replace(verdict, remarks=tuple(_PARTICULAR.sub(" ", each).strip() for each in remarks(case.scene)))
+
+
+def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
+    found: dict[str, Found] = {}
+    for name, run in engines.items():
+        found[name] = _timed(run, case.scene, RTOL)
+        if _CHATTER in found[name].failure:
+            break  # the rules that find it are shared: the others would chatter on just as well
+    issues: list[Issue] = [
+        Issue("peer" if name == PEER else "failure", (name,), each.failure, _physical(each.failure, name, case))
+        for name, each in found.items()
+        if each.failure
+    ]
+    there = {name: each for name, each in found.items() if not each.failure}
+    first = next(iter(there), None)
+    error = slope = None
+    if first is not None and len(there) > 1:
+        differs = [name for name in there if there[name].outcome != there[first].outcome]
+        slope = _conditioning(engines[first], case.scene, there[first])
+        for name in differs:
+            said = f"{first} says {there[first].outcome}, {name} {there[name].outcome}"
+            issues.append(Issue("outcome", (first, name), said, _beside(case, engines, first, name)))
+        same = [there[name].restitution for name in there if name not in differs]
+        error = max(same) - min(same)
+        for name in there:
+            if name not in differs:
+                issues += _compared(case, engines, first, name, there, slope)
+    issues += _sides(case, there)
+    for name, each in there.items():
+        issues += _ledger(name, each, case)
+    if first is not None and there[first].certified:
+        issues += _audited(case, engines, first)
+    return Verdict(case, found, tuple(issues), error, slope)
+
+
+def _timed(run: Run, scene: Scene, rtol: float) -> Found:
+    start = time.process_time()
+    try:
+        found = run(scene, rtol)
+    except ComputationError as error:
+        found = Found(failure=str(error))
+    except Exception as error:  # noqa: BLE001 # a defect is what this is looking for
+        found = Found(failure=f"internal error: {type(error).__name__}: {error}")
+    return replace(found, cpu=found.cpu + time.process_time() - start)
+
+
+_CHATTER = "this is chatter without end"
+_REASONS = {  # what an engine may say, and the physics behind it
+    "so oblique an impact": "turns within a rounding error of x0",
+    _CHATTER: "an attraction closes the gap again after every reversal, beyond any count: a cycle of the model",
+}
+
+
+def _physical(failure: str, engine: str, case: Case) -> str:
+    """The physical reason of a failure; empty if it has none. The engine under test has to pass every boundary."""
+    if engine != FAST and case.distance is not None and case.distance <= SHARE * RTOL:
+        return f"within {SHARE * RTOL:.0e} of a boundary, where the flight passes a saddle or a graze"
+    return physical_reason(failure)
+
+
+def physical_reason(failure: str) -> str:
+    """The physics behind what an engine says of a failure; empty if there is none."""
+    return next((reason for words, reason in _REASONS.items() if words in failure), "")
+
+
+def _at(scene: Scene, factor: float) -> Scene:
+    return scene.with_impact(stokes=float(scene.stokes or 0.0) * factor)
+
+
+def _conditioning(run: Run, scene: Scene, here: Found) -> float:
+    """|d e_n/d ln St| over a small step, the larger of both sides; at least 1. Infinite where the outcome changes."""
+    largest = 1.0
+    for factor in (1 - _STEP, 1 + _STEP):
+        there = _timed(run, _at(scene, factor), RTOL)
+        if there.failure:
+            continue
+        if there.outcome != here.outcome:
+            return math.inf
+        largest = max(largest, abs(there.restitution - here.restitution) / _STEP)
+    return largest
+
+
+def _compared(case: Case, engines: dict[str, Run], first: str, name: str, there: dict[str, Found],
+              slope: float) -> list[Issue]:  # fmt: skip
+    """Whether two values of e_n differ by more than their stated errors; if so, which of them tightening moves."""
+    difference = abs(there[first].restitution - there[name].restitution)
+    if difference <= SHARE * RTOL * slope + FLOOR * slope:
+        return []
+    said = f"e_n {there[first].restitution:.12g} by {first}, {there[name].restitution:.12g} by {name}"
+    return [Issue("restitution", (first, name), said, _beside(case, engines, first, name))]
+
+
+def _beside(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
+    """Why two engines may disagree: a change within their stated error, by either one; empty if there is none.
+
+    Both are asked again within that error in St; then at a tolerance a thousand times as tight.
+    """
+    reach = SHARE * RTOL
+    for who in (first, name):
+        values = [_timed(engines[who], _at(case.scene, factor), RTOL) for factor in (1 - reach, 1.0, 1 + reach)]
+        outcomes = {each.outcome for each in values if not each.failure}
+        if len(outcomes) > 1:
+            return f"a change of outcome lies within {reach:.0e} of St (seen by {who})"
+        spread = [each.restitution for each in values if not each.failure]
+        if spread and max(spread) - min(spread) > 1e-3:
+            return f"e_n jumps within {reach:.0e} of St (seen by {who})"
+    return ""
+
+
+def _sides(case: Case, there: dict[str, Found]) -> list[Issue]:
+    """Beside a boundary: whether each engine finds the outcome of its side, once it is further off than its error."""
+    if case.expected is None or case.distance is None or case.distance <= SHARE * RTOL:
+        return []
+    return [
+        Issue("side", (name,), f"{name} says {each.outcome} where the traced boundary says {case.expected}")
+        for name, each in there.items()
+        if each.outcome != case.expected
+    ]
+
+
+def _ledger(name: str, each: Found, case: Case) -> list[Issue]:
+    """An energy ledger that does not close; angular momentum that is not conserved where it should be."""
+    issues = []
+    if each.more.get("residual", 0.0) > OPEN:
+        issues.append(Issue("ledger", (name,), f"{name}'s ledger is open by {each.more['residual']:.1e}"))
+    if case.scene.model.arm == "midgap" and each.more.get("drift", 0.0) > DRIFT:
+        issues.append(Issue("drift", (name,), f"L drifts by {each.more['drift']:.1e} in {name}"))
+    return issues
+
+
+class Audit(NoProof):
+    """No certificate: a flight is followed until nothing happens any more, or for long."""
+
+    def __init__(self) -> None:
+        self._phase: Phase | None = None
+        self._quiet = self._asked = 0
+
+    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+        self._quiet, self._phase = (self._quiet + 1 if phase == self._phase else 0), phase
+        self._asked += 1
+        return self._quiet >= 4 or self._asked > _AUDIT
+
+
+def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
+    """A certified stick flown on without its certificate, from where it was proved: it must not separate.
+
+    A flight that does not get there has another outcome, which its error beside a boundary may explain.
+    """
+    n = dimensionless(case.scene, Impact(float(case.scene.stokes or 0.0), float(case.scene.angle or 0.0)))
+    try:
+        flight: Any = _FLIGHTS.handed_out(load(choose(case.scene, n.oblique, fold=True)), n.groups, RTOL)
+        proved = flight.path.certified
+        flight.proof = Audit()
+        flight.watch = replace(flight.watch, certificate=None)
+        path = flight.run() if proved else flight.path
+    except ComputationError:
+        return []  # it went on until the integrator gave up
+    if not path.separated:
+        return []
+    said = f"certified by {first}, but flown on it ends as {path.outcome}"
+    return [Issue("certificate", (first,), said, "" if proved else _beside(case, engines, first, first))]

@@ -1,0 +1,122 @@
+"""The stress test as pictures: error and cost over Stokes number and angle, cost beside a boundary."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from ...boundaries.changes import GRAZE
+from ...formatting.ticks import plain
+from ...host.files import save
+from .judge import FAST
+from .run import Stress
+
+_RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8}
+_COLOURS = {"taylor": "#E69F00", "rosenbrock": "#D55E00", "cvodes": "#0072B2", "LSODA": "#CC79A7"}
+_MARKERS = {"stick": "o", "stick-rotate-separate": "^", "bounce": "s"}
+
+
+def draw(found: Stress, folder: Path) -> list[Path]:
+    """Draw stress-map.png and stress-near.png; returns their files."""
+    files = []
+    with rc_context(_RC):
+        for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
+            files.append(folder / name)
+            save(make(found), files[-1], dpi=160)
+    return files
+
+
+def over_impacts(found: Stress) -> Figure:
+    """Difference of e_n between engines, and cost of the fast one, a point a sampled scene."""
+    figure = Figure(figsize=(10.4, 5.0), layout="constrained")
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
+    sampled = [one for one in found.verdicts if one.case.kind == "sampled"]
+    error = [max(one.error or 0.0, 1e-16) for one in sampled]
+    cost = [1e3 * one.found[FAST].cpu if FAST in one.found else np.nan for one in sampled]
+    for axes, values, label, ends in (
+        (left, error, "largest difference in $e_n$ between engines", (1e-16, 1e-6)),
+        (right, cost, f"CPU time by {FAST} (ms)", _ends(cost)),
+    ):
+        norm = LogNorm(*ends, clip=True)
+        shown: Any = None
+        for outcome, marker in _MARKERS.items():
+            here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.found.values())]
+            here.sort(key=lambda k: values[k])  # used at once; the worst on top
+            style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
+            coloured = [values[k] for k in here]
+            drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
+            axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
+            shown = drawn if here or shown is None else shown
+        bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
+        if ends[1] < 1e3 * ends[0]:  # powers of ten alone would be too few
+            plain(bar.ax.yaxis)
+        _marked(axes, found)
+        axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
+        axes.set_yticks(range(0, 91, 15))
+    left.set_ylabel("impact angle (deg)")
+    handles, labels = left.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=5, frameon=False)
+    return figure
+
+
+def _size(count: int) -> float:
+    """Area of a mark: smaller where there are many."""
+    return float(np.clip(9000.0 / max(count, 1), 2.0, 20.0))
+
+
+def _places(sampled: list[Any], here: list[int]) -> tuple[list[float], list[float]]:
+    scenes = [sampled[k].case.scene for k in here]
+    return [float(each.stokes) for each in scenes], [float(np.degrees(each.angle)) for each in scenes]
+
+
+def _ends(values: list[float]) -> tuple[float, float]:
+    """Colours for all but the outermost hundredths."""
+    there = np.array([value for value in values if np.isfinite(value) and value > 0])
+    if there.size < 2:
+        return 0.1, 10.0
+    low, high = np.quantile(there, [0.01, 0.99])
+    return float(low), float(max(high, 1.01 * low))
+
+
+def _marked(axes: Axes, found: Stress) -> None:
+    """Failures and unexplained disagreements, as crosses over everything."""
+    failed = {id(one): one for one, issue in found.issues("failure") if one.case.kind == "sampled"}
+    strange = {id(one): one for one, _ in found.unexplained if one.case.kind == "sampled"}
+    for which, colour, marker, label in ((failed, "#D55E00", "x", "failure"), (strange, "#D00000", "+", "unexplained")):
+        scenes = [one.case.scene for one in which.values()]
+        if scenes:
+            stokes = [float(each.stokes or 0.0) for each in scenes]
+            angles = [math.degrees(each.angle or 0.0) for each in scenes]
+            axes.scatter(stokes, angles, c=colour, marker=marker, s=34, linewidths=1.1, label=label)
+
+
+def near(found: Stress) -> Figure:
+    """CPU time of every engine against the relative distance from an escape: medians, and all points faint."""
+    figure = Figure(figsize=(6.4, 4.0), layout="constrained")
+    axes = figure.add_subplot()
+    beside = [one for one in found.verdicts if one.case.distance and one.case.change != GRAZE]
+    for name in dict.fromkeys(name for one in beside for name in one.found):
+        points = [(one.case.distance, 1e3 * one.found[name].cpu) for one in beside if name in one.found]
+        at: Any = sorted({distance for distance, _ in points}, reverse=True)
+        middle = [float(np.median([cpu for distance, cpu in points if distance == each])) for each in at]
+        colour = _COLOURS.get(name, "#202020")
+        axes.plot(*np.array(points).T, ".", color=colour, alpha=0.25, markersize=4, markeredgewidth=0)
+        axes.plot(at, middle, "-o", color=colour, markersize=4, linewidth=1.5, label=f"{name}, median")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="relative distance from where a doublet begins to escape, in St",
+        ylabel="CPU time (ms)",
+    )
+    axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
+    if beside:
+        axes.invert_xaxis()
+        axes.legend(frameon=False, ncols=2, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
+    return figure

@@ -1,0 +1,197 @@
+"""The stress test: every engine on a quasi-random sample of all that may be asked, over all cores."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+from ...engines.taylor.build import Variant, kernel
+from ...engines.taylor.call import variant
+from ...host.cores import usable_cores
+from ...host.environment import environment
+from ...host.workers import undisturbed, workers
+from ...many.collide_many import OUTCOMES
+from ...model.model import choose
+from .judge import FAST, RTOL, SHARE, Issue, Verdict, fast_kernel, judge, runs
+from .sample import SEED, Case, sample
+
+DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary")
+_BLOCK = 12  # cases a worker takes at a time
+_ALONE = 40  # fewer are not worth starting workers for
+WORST = 20  # cases that are kept as scene files, of each sort
+
+Tell = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Stress:
+    """What a stress test found.
+
+    Arguments:
+        verdicts: in the order of the sample, as far as it got.
+        wall: s.
+        wanted: cases there would have been.
+    """
+
+    verdicts: tuple[Verdict, ...]
+    wall: float
+    where: dict[str, Any]
+    wanted: int = 0
+
+    def issues(self, *kinds: str) -> list[tuple[Verdict, Issue]]:
+        """All issues of these kinds, with their cases."""
+        return [(one, issue) for one in self.verdicts for issue in one.issues if issue.kind in kinds]
+
+    @property
+    def unexplained(self) -> list[tuple[Verdict, Issue]]:
+        """Disagreements without an explanation: what makes a stress test fail."""
+        return [(one, issue) for one, issue in self.issues(*DISAGREEMENTS) if not issue.explained]
+
+    @property
+    def interrupted(self) -> bool:
+        return len(self.verdicts) < self.wanted
+
+    @property
+    def remarks(self) -> Counter[str]:
+        """How many scenes leave the range of a law, by law and entry."""
+        return Counter(remark for one in self.verdicts for remark in one.remarks)
+
+    def summary(self) -> str:
+        """One line."""
+        failed = self.issues("failure")
+        strange = sum(not issue.explained for _, issue in failed)
+        explained = len(self.issues(*DISAGREEMENTS)) - len(self.unexplained)
+        lines = sum(len(one.case.angles) for one in self.verdicts)
+        traced = f", {lines} lines of boundaries among them" if lines else ""
+        scenes = f"{len(self.verdicts)} of {self.wanted}" if self.interrupted else f"{len(self.verdicts)}"
+        return (
+            f"stress: {scenes} scenes, {len(self.unexplained)} unexplained disagreements, "
+            f"{explained} within the stated error of a boundary, {len(failed)} failures "
+            f"({strange} without a physical reason){traced}, {self.wall:.0f} s"
+        )
+
+
+def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None) -> Stress:
+    """Judge `count` cases on all cores.
+
+    Arguments:
+        tell: is told of (done, total).
+
+    Raises:
+        InputError: scipy, whose quasi-random sequence this is, is not installed.
+    """
+    start, where = time.perf_counter(), environment()
+    tell(0, count)
+    cases = _prepared(count, seed)
+    verdicts: dict[int, Verdict] = {}
+    try:
+        for block, found in _judged(cases):
+            verdicts.update(zip(block, found, strict=True))
+            tell(len(verdicts), count)
+    except KeyboardInterrupt:
+        if not verdicts:
+            raise
+    done = tuple(verdicts[k] for k in sorted(verdicts))
+    return Stress(done, time.perf_counter() - start, where, len(cases))
+
+
+def _prepared(count: int, seed: int) -> list[Case]:
+    """The sample, with all kernels that it asks for: each is compiled once, while boundaries are traced."""
+    compiling = ThreadPoolExecutor(usable_cores())  # compilers are processes of their own
+
+    def compile_for(cases: Sequence[Case]) -> None:
+        if FAST == "taylor":
+            for wanted in dict.fromkeys(_kernel_of(case) for case in cases):
+                compiling.submit(kernel, wanted)
+
+    try:
+        cases = sample(count, seed, compile_for)
+        compile_for(cases)
+    except BaseException:
+        compiling.shutdown(cancel_futures=True)
+        raise
+    compiling.shutdown()
+    return cases
+
+
+def _kernel_of(case: Case) -> Variant:
+    """The kernel that a case asks for first."""
+    if case.angles:
+        return variant(case.scene, choose(case.scene, True), RTOL, True, trajectory=True)
+    return fast_kernel(case.scene)
+
+
+def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
+    """Blocks of cases by number, and their verdicts, as they are finished."""
+    blocks = _blocks(cases)
+    cores = usable_cores()
+    if len(cases) < _ALONE or cores == 1:
+        for block in blocks:
+            yield block, _block([cases[k] for k in block])
+        return
+    from concurrent.futures import as_completed
+
+    alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # threads of numpy's would only get in the way
+    with workers(cores, alone) as pool:
+        with undisturbed():
+            waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
+        for future in as_completed(waiting):
+            yield waiting.pop(future), future.result()
+
+
+def _blocks(cases: Sequence[Case]) -> list[list[int]]:
+    """Cases that share structure and laws go to one worker, which builds and compiles for them once."""
+    alike: dict[Any, list[int]] = {}
+    for k, case in enumerate(cases):
+        alike.setdefault(choose(case.scene, bool(case.scene.angle)), []).append(k)
+    return [group[k : k + _BLOCK] for group in alike.values() for k in range(0, len(group), _BLOCK)]
+
+
+def _block(cases: Sequence[Case]) -> list[Verdict]:
+    return [judge(case) for case in cases]
+
+
+def record(found: Stress) -> dict[str, Any]:
+    """What `stress.json` holds."""
+    return {
+        "environment": found.where,
+        "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
+        "summary": found.summary(),
+        "outside_of_ranges": dict(found.remarks),
+        "outcomes": {name: sum(_outcome(one) == name for one in found.verdicts) for name in OUTCOMES},
+        "cases": [_case(one) for one in found.verdicts],
+        "wall": found.wall,
+    }
+
+
+def _outcome(one: Verdict) -> str:
+    return next((each.outcome for each in one.found.values() if each.outcome), "")
+
+
+def _case(one: Verdict) -> dict[str, Any]:
+    return {
+        "name": one.case.name,
+        "kind": one.case.kind,
+        "distance": one.case.distance,
+        "change": one.case.change,
+        "scene": one.case.scene.to_dict() if one.issues else None,  # the others are drawn again by seed and number
+        "stokes": one.case.scene.stokes,
+        "angle": one.case.scene.angle,
+        "angles": list(one.case.angles),
+        "outcome": _outcome(one),
+        "error": one.error,
+        "conditioning": one.conditioning if one.conditioning != float("inf") else None,
+        "found": {
+            name: {"outcome": each.outcome, "restitution": each.restitution, "certified": each.certified,
+                   "failure": each.failure, "cpu": each.cpu, **each.more}
+            for name, each in one.found.items()
+        },
+        "issues": [
+            {"kind": issue.kind, "between": list(issue.between), "said": issue.said, "explained": issue.explained}
+            for issue in one.issues
+        ],
+    }  # fmt: skip

@@ -1,0 +1,193 @@
+"""Scenes that cover what may be asked for: a quasi-random sample of everything, and points set beside boundaries."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from ...boundaries.trace import boundary
+from ...errors import InputError
+from ...scene.scene import Scene
+from ...scene.schema import BRIDGE_LAWS
+
+SEED = 20121
+DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative, in St, of points beside a boundary
+PER_CHANGE = 2 * len(DISTANCES)
+_BESIDE = 0.2  # of a sample that is set beside boundaries
+_LINES = 0.05  # of a sample: scenes whose boundaries are traced
+_PER_LINE_MODEL = 400  # of a sample, for each combination of laws of those: each compiles kernels of its own
+_PER_MODEL, _MODELS = 25, (8, 120)  # scenes that share structure and laws; fewest and most of those
+_NUMBERS = 19  # dimensions of a point
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene with its impact.
+
+    Arguments:
+        kind: "sampled", "beside" a boundary, or "lines" at `angles` (rad) along which boundaries are traced.
+        distance: relative distance in St from the boundary; None where none is known.
+        expected: outcome on this side of it, as the tracing of the boundary has it.
+        change: what happens at the boundary, as `changes.Change.kind`.
+    """
+
+    name: str
+    scene: Scene
+    kind: str = "sampled"
+    distance: float | None = None
+    expected: str | None = None
+    change: str = ""
+    angles: tuple[float, ...] = ()
+
+
+def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:
+    """`count` cases, the same for the same count and seed. InputError without scipy, whose sequence it is.
+
+    Arguments:
+        drawn: is told of the drawn ones before boundaries are traced for the others, which takes longer.
+    """
+    from .lines import drawn as lines
+
+    beside, traced = _wanted(count), int(_LINES * count)
+    cases = list(_drawn(count - beside - traced, seed))
+    drawn(cases)
+    found = [*lines(traced, count // _PER_LINE_MODEL, seed), *_limited(beside), *cases]
+    return [*found, *islice(_drawn(count, seed + 1), count - len(found))]  # where there are too few boundaries
+
+
+def _wanted(count: int) -> int:
+    """How many of `count` cases lie beside boundaries."""
+    return max(1, int(_BESIDE * count)) if count else 0
+
+
+def _drawn(count: int, seed: int) -> Iterator[Case]:
+    """Valid scenes along a Halton sequence; those that the rules of a scene refuse are passed over."""
+    try:
+        from scipy.stats import qmc
+    except ImportError:
+        raise InputError("--stress", count, "an installation with scipy (pip install wetdoublet[bench])") from None
+    models = list(_models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
+    points, taken = qmc.Halton(_NUMBERS, seed=seed), 0
+    while taken < count:
+        for point in points.random(64):
+            try:
+                scene = _scene(f"stress-{seed}-{taken}", models[taken % len(models)], point)
+            except InputError:
+                continue  # a film thicker than its bridge, or the like: no scene
+            yield Case(scene.name, scene)
+            taken += 1
+            if taken == count:
+                return
+
+
+Model = dict[str, str]
+
+
+def _models(count: int, seed: int) -> Iterator[Model]:
+    """Structures and laws, few enough that what an engine builds for one serves several scenes."""
+    from scipy.stats import qmc
+
+    for k, point in enumerate(qmc.Halton(5, seed=seed + 1).random(count)):
+        bridge = "" if point[0] < 0.25 else BRIDGE_LAWS[int((point[0] - 0.25) / 0.75 * len(BRIDGE_LAWS))]
+        yield {
+            "bridge": bridge,
+            "strings": "" if point[1] < 0.65 else "exact" if point[1] < 0.85 else "small-angle",
+            "arm": "midgap" if point[2] < 0.75 else "surface",
+            "tangential": "immersed" if point[3] < 0.7 else "film",
+            "glass": "literal" if point[4] < 0.7 else "film-corrected",
+            "head-on": "yes" if k % 8 == 3 else "",
+        }
+
+
+def _scene(name: str, model: Model, point: Sequence[float]) -> Scene:
+    """The scene of a point in the unit cube; InputError where its entries do not go together."""
+    at = iter(point)
+
+    def log(low: float, high: float) -> float:
+        return float(low * (high / low) ** next(at))
+
+    def even(low: float, high: float) -> float:
+        return float(low + (high - low) * next(at))
+
+    a = log(1e-6, 1e-2)
+    film = a * log(1e-5, 1.0)
+    entries: dict[str, float | str] = {
+        "particles.reduced_radius": a,
+        "particles.density": log(300.0, 2e4),
+        "particles.roughness": film * log(1e-6, 0.9),
+        "particles.dry_restitution": _ends(even(-0.05, 1.05)),
+        "liquid.viscosity": log(1e-5, 1e4),
+        "liquid.film_thickness": film,
+        "liquid.glass_transition_pressure": log(1e3, 1e12),
+    }
+    modulus, ratio = log(1e5, 1e12), even(-0.2, 0.5)
+    if even(0, 1) < 0.7:
+        entries |= {"particles.youngs_modulus": modulus, "particles.poisson_ratio": ratio}
+    tension, volume, wetting = log(1e-4, 1.0), log(1e-5, 1.0), math.pi / 2 * _ends(even(-0.2, 1.05))
+    if model["bridge"]:
+        entries |= {"bridge.surface_tension": tension, "bridge.volume": volume, "bridge.contact_angle": wetting}
+        entries["bridge.law"] = model["bridge"]
+    length, gravity = log(1.01, 1e4), log(0.1, 100.0)
+    if model["strings"]:
+        reach = 2 * a * volume ** (1 / 3) * (1 + wetting / 2) if model["bridge"] else film
+        entries |= {"pendulum.length": (4 * a + reach / 2) * length, "pendulum.gravity": gravity}
+        entries["pendulum.law"] = model["strings"]
+    entries |= {f"model.{name}": model[name] for name in ("arm", "tangential", "glass")}
+    entries["impact.stokes"] = log(1e-6, 1e4)
+    steep, angle, close = even(0, 1) < 0.75, even(0.0, 1.0), log(0.01, 90.0)
+    degrees = 89.99 * angle if steep else 90.0 - close
+    entries["impact.angle"] = 0.0 if model["head-on"] else math.radians(max(degrees, 0.0))
+    given = tuple(
+        (entry, float(f"{value:.6g}") if isinstance(value, float) else value) for entry, value in entries.items()
+    )
+    return Scene(name, given)
+
+
+def _ends(share: float) -> float:
+    """0 to 1 with a part of the draws at either end."""
+    return min(max(share, 0.0), 1.0)
+
+
+def _limited(wanted: int) -> Iterator[Case]:
+    """So many points beside boundaries."""
+    made = 0
+    for name, scene, stokes, before, after, change in _changes(math.ceil(wanted / PER_CHANGE)):
+        for distance in DISTANCES:
+            for side, expected in ((-1, before), (1, after)):
+                st = stokes * (1 + side * distance)
+                yield Case(
+                    f"{name} {side * distance:+.0e}", scene.with_impact(stokes=st), "beside", distance, expected, change
+                )
+                made += 1
+                if made == wanted:
+                    return
+
+
+def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str, str]]:
+    """Changes of outcome of the presets and some of their variants, traced at angles that spread with their number."""
+    variants: tuple[tuple[str, dict[str, Any]], ...] = (
+        ("granulation", {}),
+        ("pendulum", {}),
+        ("granulation", {"bridge.law": "willett"}),
+        ("granulation", {"model.arm": "surface"}),
+        ("granulation", {"bridge.law": "constant"}),
+        ("granulation-dry-bridge", {}),
+        ("pendulum", {"model.glass": "film-corrected", "pendulum.law": "small-angle"}),
+        ("granulation", {"model.tangential": "film", "particles.dry_restitution": 0.5}),
+    )
+    found = turn = 0
+    while found < count and turn < 4 * count + 16:
+        preset, entries = variants[turn % len(variants)]
+        scene = Scene.load(preset).with_entries(entries)
+        golden = (0.3 + 0.6180339887 * (turn // len(variants)) + 0.13 * (turn % len(variants))) % 1.0
+        angle = math.radians(20.0 + 65.0 * golden)
+        turn += 1
+        for change in boundary(scene, angle=np.array([angle]), stokes=(1e-3, 20.0), rtol=1e-12).changes[0]:
+            found += 1
+            label = f"{preset} at {math.degrees(angle):.4g} deg, {change.before} to {change.after}"
+            yield label, scene.with_impact(angle=angle), change.stokes, change.before, change.after, change.kind

@@ -1,0 +1,151 @@
+"""Collisions by scipy's integrators: the same equations, events, stop rule and certificate as our engines.
+
+`solve_ivp` is used as its documentation asks: terminal events with a direction, an analytic Jacobian for the implicit
+methods, our tolerances. What a practised user would add is here as well: parameters bound once, all event functions of
+a step in one call, one call of `solve_ivp` from event to event, and grazing minima looked for afterwards on the steps
+that were taken (as events of their own they double LSODA's time).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ...engines.casadi.integrators import Stop, tolerance
+from ...engines.casadi.locate import Locate, Path, Step
+from ...model.model import Model
+from .numpy_equations import Bound, Equations, equations
+
+IMPLICIT = ("LSODA", "Radau")  # methods that take a Jacobian
+_SPANS = (1e4, 1e8, 1e16)  # x0/v0: a flight is given up after their sum
+_TIGHTEST = 2.3e-14  # relative tolerance that scipy takes without a warning
+_UNREACHABLE = -1e30  # a level of energy
+
+
+class _Table:
+    """All event functions of a step, evaluated once."""
+
+    def __init__(self, evaluate: Bound) -> None:
+        self.evaluate = evaluate
+        self._time, self._y = math.nan, np.zeros(0)
+        self._values: list[float] = []
+
+    def event(self, index: int) -> Callable[[float, np.ndarray], float]:
+        """One event as `solve_ivp` takes it: it ends the integration where its function falls through zero."""
+
+        def value(t: float, y: np.ndarray) -> float:
+            if t != self._time or y is not self._y:
+                self._values = self.evaluate(t, y).tolist()
+                self._time, self._y = t, y
+            return self._values[index]
+
+        value.terminal, value.direction = True, -1.0  # type: ignore[attr-defined]  # how scipy wants it said
+        return value
+
+
+class Flight(Locate):
+    """A collision by one of scipy's methods; rules, phases and proofs are those of our own engines.
+
+    Arguments:
+        method: a method of `solve_ivp`.
+    """
+
+    def __init__(self, model: Model, groups: dict[str, float], rtol: float, method: str) -> None:
+        super().__init__(model, groups, rtol)
+        self.method = method
+        told = tolerance(rtol, "rosenbrock", groups)
+        self.options: dict[str, Any] = {"method": method, "rtol": max(told.relative, _TIGHTEST), "atol": told.absolute}
+
+    def _fly(self) -> bool:
+        """As `Locate._fly`, with one long call where that goes by stretches."""
+        found, flown = equations(self._flow(), self.watch), 0.0
+        for span in _SPANS:
+            level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
+            stop = self._solved(found, span, _UNREACHABLE if level is None else level)
+            flown += stop.time
+            self.path.time += stop.time
+            self.y = self.path.y = stop.y
+            self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
+            if stop.event is not None and stop.event != "certified":
+                return self._act(stop.event, flown)
+            if self._proved():
+                self._stop(Step(self.phase, flown, None, ()))
+                self.path.certified = self.proof.theorem
+                return True
+        raise self._error(f"no event within {flown:.3g} x0/v0", "try a smaller rtol")
+
+    def _solved(self, found: Equations, span: float, level: float) -> Stop:
+        """Integrate to the first event, or to the end of the span."""
+        parameters = np.append(self.p, [self.phase.motion, level])
+        table = _Table(Bound(found.table, parameters))
+        rates = Bound(found.rates, parameters)
+        options: dict[str, Any] = {"events": [table.event(k) for k in range(len(found.events))]}
+        if self.method in IMPLICIT:
+            options["jac"] = Bound(found.jacobian, parameters)
+        solution = self._integrated(rates, 0.0, span, self.y, options)
+        grazed = self._grazed(found, solution, rates, table.evaluate)
+        if grazed is not None:
+            return grazed
+        for name, times, states in zip(found.events, solution.t_events, solution.y_events):
+            if len(times):
+                return Stop(name, float(times[-1]), states[-1].copy(), False)
+        return Stop(None, float(solution.t[-1]), solution.y[:, -1].copy(), False)
+
+    def _integrated(self, rates: Bound, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
+        from scipy.integrate import solve_ivp
+
+        try:
+            solution = solve_ivp(rates, (start, end), y, **self.options, **more)
+        except (ArithmeticError, ValueError) as error:
+            raise self._error(f"{self.method} failed ({error})", "") from None
+        if solution.status < 0 or not np.isfinite(solution.y[:, -1]).all():
+            raise self._error(f"{self.method} failed ({solution.message})", "")
+        return solution
+
+    def _grazed(self, found: Equations, solution: Any, rates: Bound, table: Bound) -> Stop | None:
+        """The first crossing that a step has hidden: below zero and back between its ends.
+
+        Values and slopes at the ends say by a cubic where that may be; there the step is flown again and looked at.
+        """
+        times, states = solution.t, solution.y
+        values = np.array([table(0.0, y) for y in states.T])
+        hidden = []
+        for position, index in enumerate(found.dips):
+            g, slope = values[:, index], -values[:, len(found.events) + position]
+            turns = np.flatnonzero((slope[:-1] < 0) & (slope[1:] > 0) & (g[:-1] > 0) & (g[1:] > 0))
+            hidden += [(int(k), index) for k in turns if _lowest(g, slope, times, int(k)) < 0]
+        for k, index in sorted(hidden):
+            dense = self._integrated(rates, times[k], times[k + 1], states[:, k], {"dense_output": True}).sol
+            trials = np.linspace(times[k], times[k + 1], 65)
+            below = [t for t in trials if table(0.0, dense(t))[index] < 0]
+            if below:
+                time = _bisected(lambda t: bool(table(0.0, dense(t))[index] < 0), times[k], below[0])  # noqa: B023 # used at once
+                return Stop(found.events[index], time, dense(time), True)
+        return None
+
+
+def _lowest(g: np.ndarray, slope: np.ndarray, times: np.ndarray, k: int) -> float:
+    """The smallest value of the cubic through both ends of step k."""
+    s, h = np.linspace(0, 1, 33), times[k + 1] - times[k]
+    cubic = (
+        (1 + 2 * s) * (1 - s) ** 2 * g[k]
+        + s * (1 - s) ** 2 * h * slope[k]
+        + s**2 * (3 - 2 * s) * g[k + 1]
+        + s**2 * (s - 1) * h * slope[k + 1]
+    )
+    return float(cubic.min())
+
+
+def _bisected(below: Callable[[float], bool], before: float, after: float) -> float:
+    """Where `below` becomes true, to the last bit."""
+    while before < (middle := 0.5 * (before + after)) < after:
+        before, after = (before, middle) if below(middle) else (middle, after)
+    return after
+
+
+def fly(model: Model, groups: dict[str, float], rtol: float, method: str) -> Path:
+    """The flight of a collision by a scipy method. ComputationError if it does not come to an end."""
+    return Flight(model, groups, rtol, method).run()
