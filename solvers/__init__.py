@@ -9,8 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .boundaries.atlas import Atlas, atlas
-    from .boundaries.trace import Boundaries, boundary
+    from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
@@ -26,8 +25,8 @@ if TYPE_CHECKING:
     from .sensitivity.variance import sobol_indices
 
 _HOMES = {
-    "Atlas": "boundaries.atlas",
-    "Boundaries": "boundaries.trace",
+    "Atlas": "boundaries.boundary",
+    "Boundaries": "boundaries.boundary",
     "BoundarySensitivities": "sensitivity.boundaries",
     "CheckFailed": "errors",
     "Collision": "collision.result",
@@ -37,9 +36,9 @@ _HOMES = {
     "Scene": "scene.scene",
     "Sensitivities": "sensitivity.result",
     "WetDoubletError": "errors",
-    "atlas": "boundaries.atlas",
+    "atlas": "boundaries.boundary",
     "band": "sensitivity.uncertainty",
-    "boundary": "boundaries.trace",
+    "boundary": "boundaries.boundary",
     "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "collision.collide",
     "collide_many": "many.collide_many",

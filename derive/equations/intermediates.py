@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
 from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
@@ -15,9 +13,7 @@ from ..physics.partners import rotation
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
 from ..vocabulary.quantities import a, aspect, gap, m, omega, omega0, orbit, r, spin
-
-if TYPE_CHECKING:
-    from .invariants import Invariant
+from .invariants import Invariant
 
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
 FILM_FORCE, BRIDGE_FORCE, SHEAR_FORCE = sp.symbols("film_force bridge_force shear_force", real=True)
@@ -26,7 +22,7 @@ ATTRACTION_FORCE = sp.Symbol("attraction_force", real=True)
 LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
 
 
-Conserved = tuple["Invariant", sp.Expr]  # an invariant and its value at the start
+Conserved = tuple[Invariant, sp.Expr]  # an invariant and its value at the start
 
 
 def intermediates(structure: Structure, conserved: Conserved | None = None) -> tuple[Definition, ...]:

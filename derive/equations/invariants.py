@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import sympy as sp
 from sympy.polys.matrices import DomainMatrix
@@ -21,11 +21,19 @@ from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import nondimensional
 from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, omega0
 
-if TYPE_CHECKING:
-    from .model import Model
-
 DEGREE = 2  # of the coefficients in the gap: r^2 is the highest power that stands before a velocity
 _COORDINATES = (gap, beta)
+
+
+class System(Protocol):
+    """What is asked of a model: its states, and its rates with named intermediates that can be expanded."""
+
+    @property
+    def states(self) -> tuple[sp.Symbol, ...]: ...
+
+    def __getitem__(self, name: str) -> Any: ...
+
+    def expanded(self, expression: sp.Expr) -> sp.Expr: ...
 
 
 class NoInvariantError(ValueError):
@@ -88,7 +96,7 @@ def angular_momentum() -> sp.Expr:
 
 
 def invariants(
-    system: Model | Mapping[sp.Symbol, sp.Expr],
+    system: System | Mapping[sp.Symbol, sp.Expr],
     laws: Mapping[str, Law] | None = None,
     *,
     coordinates: Sequence[sp.Symbol] = _COORDINATES,
@@ -116,7 +124,9 @@ def invariants(
     return tuple(_normalised(ansatz, basis.row(index)) for index in range(basis.rows))
 
 
-def conserved_momentum(system: Model | Mapping[sp.Symbol, sp.Expr], laws: Mapping[str, Law] | None = None) -> Invariant:
+def conserved_momentum(
+    system: System | Mapping[sp.Symbol, sp.Expr], laws: Mapping[str, Law] | None = None
+) -> Invariant:
     """The angular momentum, if it is among the invariants found.
 
     Raises:

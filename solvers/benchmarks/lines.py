@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..boundaries.trace import boundary
+from ..boundaries.boundary import boundary
 from ..collision.collide import collide
 from ..formatting.markdown import ms, table
 from ..host.compiler import compiler

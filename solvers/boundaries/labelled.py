@@ -8,18 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..many.collide_many import OUTCOMES
-from .atlas import Atlas
+from .found import Curves, Lines
 from .plane import ANGLE
 
 if TYPE_CHECKING:
     import xarray
 
-    from .trace import Boundaries
 
 NONE = -1  # an outcome where there is no change
 
 
-def dataset(found: Boundaries) -> xarray.Dataset:
+def dataset(found: Lines) -> xarray.Dataset:
     """The Dataset of `Boundaries.to_dataset()`.
 
     Over (line, change): stokes, centrifugal, before, after, kind; over line: failure, and angle as a coordinate. An
@@ -48,13 +47,13 @@ def dataset(found: Boundaries) -> xarray.Dataset:
     attributes: dict[str, Any] = {"resolution": found.resolution, "collisions": found.collisions}
     if found.scene is not None:
         attributes["scene"] = found.scene.to_toml()
-    if isinstance(found, Atlas):
+    if isinstance(found, Curves):
         _add_atlas(found, variables, coordinates)
         attributes |= {"over": found.over} | {f"sought_{name}": value for name, value in found.sought.items()}
     return xr.Dataset(variables, coordinates, attributes)
 
 
-def _add_atlas(found: Atlas, variables: dict[str, Any], coordinates: dict[str, Any]) -> None:
+def _add_atlas(found: Curves, variables: dict[str, Any], coordinates: dict[str, Any]) -> None:
     unit = "rad"
     if found.over != ANGLE and found.scene is not None:
         unit = found.scene.fields[found.over].unit or "1"

@@ -13,8 +13,9 @@ from ..engines.taylor.build import knows
 from ..engines.taylor.call import RIGID
 from ..engines.taylor.record import Purpose
 from ..errors import ComputationError, InputError
-from ..model.dimensionless import numbers, si_values
+from ..model.dimensionless import numbers
 from ..model.model import choose, load
+from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
 from . import by_kernel

@@ -21,14 +21,15 @@ from ..formatting import ticks
 from ..host.files import save
 from ..host.outputs import PICTURES, check_file
 from ..many.plot_map import COLOURS
-from .atlas import LINES, Atlas, Curve, Point, atlas
-from .plane import ANGLE
+from ..settings import RTOL
+from .atlas_curves import LINES, curves_of
+from .found import Curve, Curves, Lines, Point
+from .plane import ANGLE, check_plane
 from .plot_labels import place_names
 from .samples import OUTCOMES
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene
-    from .trace import Boundaries
 
 _PALE = 0.45  # the map's colours, for lines and words on them
 _ROOM = 1.8  # factor of Stokes number shown beyond the outermost curves
@@ -42,7 +43,7 @@ _MARKS = {
 _MOST_DOTS = 60  # lines whose changes are marked
 
 
-def plot(found: Boundaries, file: str | Path) -> None:
+def plot(found: Lines, file: str | Path) -> None:
     """Write the picture of boundaries: .png, .pdf or .svg.
 
     Raises:
@@ -54,7 +55,7 @@ def plot(found: Boundaries, file: str | Path) -> None:
     save(draw(found.scene, found), file, dpi=_DPI)
 
 
-def draw(scene: Scene, found: Boundaries) -> Figure:
+def draw(scene: Scene, found: Lines) -> Figure:
     """The regions of each outcome, the curves between them, and where these meet.
 
     Lines of constant angle are drawn on the atlas of their angles; a single line as what it passes.
@@ -62,8 +63,8 @@ def draw(scene: Scene, found: Boundaries) -> Figure:
     Arguments:
         found: as `boundary` or `atlas` returns it.
     """
-    dots = not isinstance(found, Atlas) and len(set(found.angles)) > 1 and len(found.angles) <= _MOST_DOTS
-    whole = found if isinstance(found, Atlas) else _filled(scene, found)
+    dots = not isinstance(found, Curves) and len(set(found.angles)) > 1 and len(found.angles) <= _MOST_DOTS
+    whole = found if isinstance(found, Curves) else _filled(scene, found)
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
     axes = figure.add_subplot()
@@ -94,23 +95,27 @@ def _pale(colour: str) -> tuple[float, float, float]:
 _PALE_COLOURS = tuple(_pale(colour) for colour in COLOURS)
 
 
-def _filled(scene: Scene, found: Boundaries) -> Atlas:
+def _filled(scene: Scene, found: Lines) -> Curves:
     """The atlas of the angles of lines; of a single one, its changes across the picture."""
     low, high = min(found.angles), max(found.angles)
     if low < high:
-        return atlas(scene, span=(low, high), stokes=found.window, lines=max(2, min(LINES, len(found.angles))))
+        return _curves(scene, (low, high), found.window, max(2, min(LINES, len(found.angles))))
     changes = found.changes[0]
     curves = [Curve(one.before, one.after, one.kind, (0.0, 1.0), (one.stokes, one.stokes)) for one in changes]
     background = OUTCOMES[0]
     if not changes:
-        background = atlas(scene, span=(max(low - 1e-6, 0.0), low + 1e-6), stokes=found.window, lines=2).background
-    return Atlas(
+        background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), found.window, 2).background
+    return Curves(
         found.angles, found.changes, found.collisions, found.failures, found.resolution, scene, found.window,
         span=(low, low), curves=tuple(curves), background=background,
     )  # fmt: skip
 
 
-def _shown(whole: Atlas) -> tuple[float, float]:
+def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, float], lines: int) -> Curves:
+    return curves_of(check_plane(scene, ANGLE, angles, window, RTOL), lines, lambda *_: None)
+
+
+def _shown(whole: Curves) -> tuple[float, float]:
     """Stokes numbers between which the picture lies: the curves and some room, within the window."""
     stokes = [value for one in whole.curves for value in one.stokes]
     if not stokes:
@@ -118,7 +123,7 @@ def _shown(whole: Atlas) -> tuple[float, float]:
     return max(min(stokes) / _ROOM, whole.window[0]), min(max(stokes) * _ROOM, whole.window[1])
 
 
-def _frame(axes: Axes, scene: Scene, whole: Atlas, low: float, high: float, single: bool) -> float:
+def _frame(axes: Axes, scene: Scene, whole: Curves, low: float, high: float, single: bool) -> float:
     """Scales and labels; returns what x is divided by."""
     factor, text = _across(scene, whole.over, whole.span)
     axes.set_yscale("log")
@@ -150,7 +155,7 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
     return factor, f"{name} ({letter.replace('u', 'µ')}{unit})"
 
 
-def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
+def _fill(axes: Axes, whole: Curves, factor: float) -> None:
     """Each region in its colour: slab by slab, from curve to curve and from edge to edge."""
     decades = math.log(whole.window[1] / whole.window[0])
     across = whole.span[1] - whole.span[0]
@@ -170,19 +175,19 @@ def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
             axes.fill(x, stokes, color=_PALE_COLOURS[label], linewidth=0, antialiased=False, zorder=1)
 
 
-def _raster(whole: Atlas, factor: float) -> Any:
+def _raster(whole: Curves, factor: float) -> Any:
     """Outcomes at places of the picture: x as drawn, and Stokes numbers."""
     return lambda x, stokes: whole.region(np.clip(x * factor, *whole.span), stokes)
 
 
-def _dots(axes: Axes, found: Boundaries) -> None:
+def _dots(axes: Axes, found: Lines) -> None:
     """The changes on the lines that were asked for."""
     pairs = [(math.degrees(at), one.stokes) for at, line in zip(found.angles, found.changes) for one in line]
     if pairs:
         axes.plot(*zip(*pairs), "o", color=_INK, markersize=2.6, zorder=4, clip_on=False)
 
 
-def _handles(whole: Atlas) -> list[Any]:
+def _handles(whole: Curves) -> list[Any]:
     """Legend of the outcomes that the picture shows."""
     seen = {label for slab in whole.slabs() for label in slab.labels}
     return [
@@ -211,13 +216,13 @@ def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: 
     return list(handles.values())
 
 
-def _doubts(axes: Axes, found: Boundaries, whole: Atlas, factor: float) -> list[Any]:
+def _doubts(axes: Axes, found: Lines, whole: Curves, factor: float) -> list[Any]:
     """What could not be traced or settled."""
     style: Any = {"linestyle": "", "marker": "x", "color": "#C00000", "markersize": 6}
     places = [(x / factor, stokes) for x, stokes, _ in whole.unsettled]
     if places:
         axes.plot(*zip(*places), zorder=6, clip_on=False, **style)
-    failed = [] if isinstance(found, Atlas) else [math.degrees(angle) for angle, _ in found.failed]
+    failed = [] if isinstance(found, Curves) else [math.degrees(angle) for angle, _ in found.failed]
     if failed:
         axes.plot(failed, [0.02] * len(failed), transform=axes.get_xaxis_transform(), clip_on=False, **style)
     return [Line2D([], [], label="not settled", **style)] if places or failed else []

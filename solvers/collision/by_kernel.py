@@ -14,7 +14,8 @@ from ..model.model import choose, load
 from ..model.phases import CLOSING, OPENING, Phase
 from ..scene.scene import Scene
 from ..settings import STEPS
-from .result import Collision, Energy, Event
+from .outcome import Energy, Event
+from .result import Collision
 
 if TYPE_CHECKING:
     import xarray

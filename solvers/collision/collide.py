@@ -22,7 +22,8 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_engine, check_rtol
 from .by_kernel import collision
-from .result import Collision, Energy, Event
+from .outcome import Energy, Event
+from .result import Collision
 
 if TYPE_CHECKING:
     import xarray

@@ -6,7 +6,7 @@ import math
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from .result import Collision, Energy, Event
+from .outcome import Energy, Event, Outcome
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene
@@ -70,7 +70,7 @@ def _cut(text: str, longest: int) -> str:
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
-def reason(collision: Collision) -> str:
+def reason(collision: Outcome) -> str:
     """Return why the collision ended as it did, in words."""
     if collision.outcome == "bounce":
         return CRITERIA[collision.reversal or "glass"]
@@ -79,18 +79,18 @@ def reason(collision: Collision) -> str:
     return _stuck(collision)
 
 
-def stopped(collision: Collision) -> str:
+def stopped(collision: Outcome) -> str:
     """Return where the integration of a stick stopped because the outcome was certain; nothing if it did not."""
     if not collision.until or _last(collision) in CUT_OFFS:
         return ""
     return f"integration stopped there, {quantity(collision.until, 's')} after first touch"
 
 
-def _last(collision: Collision) -> str:
+def _last(collision: Outcome) -> str:
     return collision.events[-1].kind if collision.events else ""
 
 
-def _stuck(collision: Collision) -> str:
+def _stuck(collision: Outcome) -> str:
     last, scene = _last(collision), collision.scene
     if last in CUT_OFFS:
         return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
@@ -106,7 +106,7 @@ def _stuck(collision: Collision) -> str:
     return f"proved{when}: energy below the barrier (certificate)"
 
 
-def table(collision: Collision) -> str:
+def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision.energy, collision.scene), "", *_numerics(collision)]
@@ -119,7 +119,7 @@ def _line(name: str, value: str, note: str = "") -> str:
     return f"{text:<{_LABEL + 14}} {note}" if note else text
 
 
-def _title(collision: Collision) -> list[str]:
+def _title(collision: Outcome) -> list[str]:
     groups = [f"St {plain(collision.stokes)}", f"angle {degrees(collision.angle)}"]
     if collision.scene.bridge is not None:
         groups += [f"Ce {plain(collision.centrifugal)}", f"Ca {plain(collision.capillary)}"]
@@ -131,7 +131,7 @@ def _title(collision: Collision) -> list[str]:
     return [f"{name_of(collision.scene, max(16, WIDTH - len(numbers) - 2))}: {numbers}"]
 
 
-def _outcome(collision: Collision) -> list[str]:
+def _outcome(collision: Outcome) -> list[str]:
     restitution = collision.restitution
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
@@ -176,7 +176,7 @@ def _partner(scene: Scene) -> str:
     return f"a sphere of {plain(radius)} times the radius and {plain(mass)} times the mass"
 
 
-def _spins(collision: Collision) -> list[str]:
+def _spins(collision: Outcome) -> list[str]:
     own = plain(collision.final_spin, "rad/s")
     if collision.scene.partner is None:
         return [_line("final spin", own, "xi, of each sphere")]
@@ -247,7 +247,7 @@ def _assumed(scene: Scene) -> list[str]:
     return [_cut(line, WIDTH) for line in scene.assumed]
 
 
-def _numerics(collision: Collision) -> list[str]:
+def _numerics(collision: Outcome) -> list[str]:
     drift = collision.angular_momentum_drift
     lines = []
     if drift is not None:

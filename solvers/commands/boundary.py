@@ -19,7 +19,7 @@ from . import options
 from .bar import bar
 
 if TYPE_CHECKING:
-    from ..boundaries.trace import Boundaries
+    from ..boundaries.boundary import Boundaries
     from ..scene.scene import Scene
     from ..sensitivity.boundaries import BoundarySensitivities
 
@@ -64,7 +64,8 @@ def command(
       wetdoublet boundary granulation --angle 0:85 --plot atlas.png
       wetdoublet boundary granulation --over particles.roughness="0.1 um:6 um" --set impact.angle="60 deg"
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..boundaries.trace import STOKES, boundary
+    from ..boundaries.boundary import boundary
+    from ..boundaries.found import STOKES
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     picture = options.check_file(plot, "--plot", options.PICTURES)
@@ -156,7 +157,7 @@ def _show_atlas(
     picture: Path | None,
     file: Path | None,
 ) -> None:
-    from ..boundaries.atlas import atlas
+    from ..boundaries.boundary import atlas
 
     with bar("lines") as tell:
         found = atlas(scene, over=over, span=across, stokes=span, rtol=rtol, progress=tell)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..boundaries.trace import boundary
+from ..boundaries.boundary import boundary
 from ..collision.collide import collide
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host import bounded

@@ -9,7 +9,7 @@ import numpy as np
 from ...generated import scaling
 from ..engines.taylor.call import Impacts, answers
 from ..errors import InputError
-from ..model.dimensionless import formulas, si_values
+from ..scene.groups import formulas, si_values
 from ..settings import FEW
 from .batch import Request
 

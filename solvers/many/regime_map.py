@@ -17,8 +17,8 @@ from ...generated import scaling
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
-from ..model.dimensionless import si_values
 from ..model.validity import warn
+from ..scene.groups import si_values
 from ..scene.ranges import MOST
 from ..scene.scene import Scene
 from ..scene.user_model import Package

@@ -7,8 +7,8 @@ import warnings
 from functools import lru_cache
 
 from ..errors import ModelWarning
+from ..scene.groups import law_module
 from ..scene.scene import Scene
-from .dimensionless import law_module
 
 
 @lru_cache(maxsize=64)

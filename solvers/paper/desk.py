@@ -24,8 +24,8 @@ from .parts import number
 from .printed import CURVES
 
 if TYPE_CHECKING:
+    from ..boundaries.boundary import Boundaries
     from ..boundaries.changes import Change
-    from ..boundaries.trace import Boundaries
 
 Line = tuple["Change", ...]
 Span = tuple[float, float]  # of St

@@ -13,7 +13,7 @@ from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, ONE_OF_EACH, REQUIRED_TAB
 from .tables import Attraction, Bridge, Partner, Pendulum, Table
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from .system import System
     from .user_model import Package
 
 
@@ -137,7 +137,7 @@ def table(kind: type[Table], values: Mapping[str, Any]) -> Table | None:
     return None if not own and kind in (Attraction, Bridge, Pendulum) else kind.of(own)
 
 
-def check_together(scene: Scene) -> None:
+def check_together(scene: System) -> None:
     """InputError where the entries are right one by one but not together."""
     given = dict(scene.given)
     _check_partner(scene)
@@ -169,7 +169,7 @@ def check_together(scene: Scene) -> None:
     _check_speed(scene)
 
 
-def _check_partner(scene: Scene) -> None:
+def _check_partner(scene: System) -> None:
     """InputError for a partner that cannot be: strings hold equal spheres, and ratios must stay numbers."""
     if scene.partner is None:
         return
@@ -187,7 +187,7 @@ def _check_partner(scene: Scene) -> None:
 _FARTHEST = 1e4  # ratio of radii or masses: beyond, the equations of a pair lose digits; a wall is their limit
 
 
-def _check_laws(scene: Scene) -> None:
+def _check_laws(scene: System) -> None:
     """InputError for laws that do not go together, or with what the scene has."""
     model, bridge, given = scene.model, scene.bridge, dict(scene.given)
     if model.film == "constant-volume":
@@ -216,7 +216,7 @@ OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lam
 """Bridge laws whose authors give a rupture distance with them."""
 
 
-def _check_speed(scene: Scene) -> None:
+def _check_speed(scene: System) -> None:
     """InputError if the numbers are so far apart that a Stokes number or speed leaves the range of a double."""
     given, a = dict(scene.given), scene.reduced_radius
     drag = 6 * math.pi * scene.liquid.viscosity * a * a

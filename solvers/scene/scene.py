@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -13,6 +12,7 @@ from ..errors import InputError
 from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
+from .groups import scaled
 from .schema import FIELDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
@@ -258,18 +258,18 @@ class Scene:
         """x_f in m: of the bridge, or without one of the film."""
         if self.bridge is None:
             return self.liquid.film_thickness
-        return _scaled("rupture_gap", self) * self.liquid.film_thickness
+        return scaled("rupture_gap", self) * self.liquid.film_thickness
 
     def elastic_length(self, speed: float) -> float | None:
         """Return x_r in m, the gap at which the spheres' own elasticity stops `speed` (m/s); None without it."""
         if self.particles.youngs_modulus is None:
             return None
-        return _scaled("elastic_gap", self, speed) * self.liquid.film_thickness
+        return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
 
     @property
     def stokes_per_speed(self) -> float:
         """m/(6 pi mu a^2) in s/m: a Stokes number over its normal speed."""
-        return _scaled("stokes", self, speed=1.0)
+        return scaled("stokes", self, speed=1.0)
 
     def stokes_of(self, speed: float) -> float:
         """Return the Stokes number of a normal speed (m/s)."""
@@ -325,16 +325,3 @@ def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[s
 def _shared(ratio: float | None) -> float:
     """A reduced quantity over that of two equal spheres; exactly 1 for a ratio of 1."""
     return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
-
-
-@lru_cache(maxsize=64)
-def _scaled(group: str, scene: Scene, speed: float | None = None) -> float:
-    """Return a group by its emitted formula; inf where a double overflows."""
-    from ..model.dimensionless import formulas, si_values
-
-    values = si_values(scene, speed, None)
-    formula, arguments = formulas(scene)[group]
-    try:
-        return float(formula(*(values[name] for name in arguments)))
-    except (OverflowError, ZeroDivisionError):
-        return math.inf

@@ -7,21 +7,31 @@ from __future__ import annotations
 
 import re
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from ..errors import InputError
 from .units import factor
 
-if TYPE_CHECKING:
-    from .schema import Field
+
+class Entry(Protocol):
+    """What numbers are read for: a unit, what is accepted in words, and single values read."""
+
+    @property
+    def unit(self) -> str | None: ...
+
+    @property
+    def accepts(self) -> str: ...
+
+    def number(self, raw: object, *, label: str | None = None) -> float: ...
+
 
 _DEEPEST = 8  # lists within lists
 _EXPONENT = re.compile(r"(?<=[A-Za-z])(-?[0-9]+)\b")  # as CF has them: m s-1
 
 
-def scalar(value: Any, entry: Field, label: str) -> object:
+def scalar(value: Any, entry: Entry, label: str) -> object:
     """Return a single number that an array or a quantity with its unit is, as a plain one in SI; others as they are."""
     if isinstance(value, (str, Real)) or not _is_array(value):
         return value
@@ -31,7 +41,7 @@ def scalar(value: Any, entry: Field, label: str) -> object:
     return float(found)
 
 
-def array(values: Any, entry: Field, label: str) -> np.ndarray:
+def array(values: Any, entry: Entry, label: str) -> np.ndarray:
     """Return numbers, however they are given, as an array of doubles in SI; those alone are not held to a range.
 
     Arguments:
@@ -66,7 +76,7 @@ def array(values: Any, entry: Field, label: str) -> np.ndarray:
     return doubles if unit is None else doubles * factor(unit, entry.unit, label, entry.accepts, values)
 
 
-def _listed(values: list[Any] | tuple[Any, ...], entry: Field, label: str, level: int) -> np.ndarray:
+def _listed(values: list[Any] | tuple[Any, ...], entry: Entry, label: str, level: int) -> np.ndarray:
     """An array of a sequence, its members judged one by one unless they are plain numbers all."""
     if {*map(type, values)} <= {float, int}:
         try:

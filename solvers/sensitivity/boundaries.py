@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from ..boundaries.boundary import Boundaries, boundary
 from ..boundaries.changes import Change
-from ..boundaries.trace import STOKES, Boundaries, boundary
+from ..boundaries.found import STOKES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene

@@ -11,7 +11,8 @@ import numpy as np
 from ..engines.casadi.locate import Path
 from ..engines.taylor.call import Impacts, order_for
 from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, carried, differentiates
-from ..model.dimensionless import numbers, si_values
+from ..model.dimensionless import numbers
+from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
 from .parameters import SCALES, Kind, references, way

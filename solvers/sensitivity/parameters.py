@@ -17,7 +17,7 @@ from ...generated import scaling
 from ..errors import InputError, did_you_mean
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
-from ..model.dimensionless import Formula, formulas
+from ..scene.groups import Formula, formulas
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
 
+from ..scene.scene import Scene
 from .results import QUANTITIES
-
-if TYPE_CHECKING:
-    from .result import Sensitivities
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
 _MOST = 16  # bars a panel
@@ -24,7 +22,26 @@ _NAMES = {
 """Parameters whose name in the scene does not say enough."""
 
 
-def draw(found: Sensitivities) -> Any:
+class Elasticities(Protocol):
+    """Elasticities of quantities by parameters, of one collision."""
+
+    @property
+    def scene(self) -> Scene: ...
+
+    @property
+    def outcome(self) -> str: ...
+
+    @property
+    def parameters(self) -> tuple[str, ...]: ...
+
+    @property
+    def value(self) -> Mapping[str, float | None]: ...
+
+    @property
+    def elasticity(self) -> Mapping[str, Mapping[str, float | None]]: ...
+
+
+def draw(found: Elasticities) -> Any:
     """A panel a quantity, a bar a parameter; those too weak to be seen, or without elasticity, are named below.
 
     Returns:
@@ -55,11 +72,11 @@ def draw(found: Sensitivities) -> Any:
     return figure
 
 
-def _has_value(found: Sensitivities) -> bool:
+def _has_value(found: Elasticities) -> bool:
     return found.value.get("restitution") is not None
 
 
-def _ranked(found: Sensitivities, names: Sequence[str]) -> list[str]:
+def _ranked(found: Elasticities, names: Sequence[str]) -> list[str]:
     """Parameters with influence, strongest last (bars are drawn from below); speed and Stokes number once."""
     single = [p for p in found.parameters if not (p == "impact.stokes" and "impact.speed" in found.parameters)]
     rows = {p: [abs(found.elasticity[y][p] or 0.0) for y in names] for p in single}
@@ -68,7 +85,7 @@ def _ranked(found: Sensitivities, names: Sequence[str]) -> list[str]:
     return sorted(seen, key=lambda p: max(rows[p]))[-_MOST:]
 
 
-def _panel(axis: Any, found: Sensitivities, name: str, order: Sequence[str]) -> None:
+def _panel(axis: Any, found: Elasticities, name: str, order: Sequence[str]) -> None:
     values = [found.elasticity[name][p] or 0.0 for p in order]
     bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
     axis.set_yticks(range(len(order)), [_label(p) for p in order], fontsize=8.5)

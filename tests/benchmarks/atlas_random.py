@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.boundaries.arcs import CHORD, Arc
-from wetdoublet.solvers.boundaries.atlas import Atlas, atlas
+from wetdoublet.solvers.boundaries.boundary import Atlas, atlas
 from wetdoublet.solvers.boundaries.plane import ANGLE, check_plane
 from wetdoublet.solvers.boundaries.regions import apart
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS, FILM_LAWS

@@ -27,7 +27,7 @@ from wetdoublet.solvers.engines.taylor.record import Purpose, recorded
 from wetdoublet.solvers.engines.taylor.tangent import carried
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.cores import usable_cores
-from wetdoublet.solvers.model.dimensionless import si_values
+from wetdoublet.solvers.scene.groups import si_values
 
 # Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
 FLAGS = (

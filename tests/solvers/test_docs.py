@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.collision.result import Energy
+from wetdoublet.solvers.collision.outcome import Energy
 from wetdoublet.solvers.engines.casadi.locate import CRITERIA
 from wetdoublet.solvers.scene.schema import FIELDS, TABLES
 

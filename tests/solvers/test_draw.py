@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from matplotlib.patches import Circle, FancyArrowPatch
 from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.plot.figure import draw
 from wetdoublet.solvers.collision.plot.frames import frames, orientation
 from wetdoublet.solvers.collision.plot.strip import wetted_radius
-from wetdoublet.solvers.collision.result import Event
 
 IMPACTS = {
     "escapes": ("granulation", {}),

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.collision.result import Event
+from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
 
 SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: flies to its cut-off

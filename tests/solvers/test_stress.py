@@ -19,8 +19,9 @@ from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
 from wetdoublet.solvers.verify.stress.flights import Flights
-from wetdoublet.solvers.verify.stress.judge import FAST, RTOL, Found, judge
-from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, Case, sample
+from wetdoublet.solvers.verify.stress.judge import judge
+from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
+from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Found
 
 pytest.importorskip("scipy")
 

@@ -19,7 +19,7 @@ from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import carried
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.dimensionless import si_values
+from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.sensitivity import gradients_many as many
 from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
 from wetdoublet.solvers.sensitivity.choice import chosen

@@ -7,25 +7,21 @@ all that drives a direction, whatever the number of groups.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...physics.laws.base import is_slot_call
 from .c_text import Text
 from .layout import comment, function
-
-if TYPE_CHECKING:
-    from .tangent import Tangent
+from .linear_flow import LinearFlow
 
 
-def cotangent(tangent: Tangent) -> list[str]:
+def cotangent(tangent: LinearFlow) -> list[str]:
     """The recurrence, and the rate at which the flow contracts."""
     return [*_recurrence(tangent), *_contraction(tangent)]
 
 
-def _recurrence(tangent: Tangent) -> list[str]:
+def _recurrence(tangent: LinearFlow) -> list[str]:
     body = ["(void)s; (void)c; (void)v; (void)film; (void)shear;"]
     for state in tangent.states:
         terms: list[str] = []
@@ -57,7 +53,7 @@ def _recurrence(tangent: Tangent) -> list[str]:
     return [*comment(doc), *function(head, body), ""]
 
 
-def _contraction(tangent: Tangent) -> list[str]:
+def _contraction(tangent: LinearFlow) -> list[str]:
     """The trace of the matrix, out of what the flow's series begin with."""
     slopes = [_diagonal(tangent, state) for state in tangent.model.states]
     # a law that depends on a rate itself has its slope in the tangent only
@@ -79,7 +75,7 @@ def _contraction(tangent: Tangent) -> list[str]:
     return [*comment(doc), *function(head, body), ""]
 
 
-def _diagonal(tangent: Tangent, state: sp.Symbol) -> sp.Expr:
+def _diagonal(tangent: LinearFlow, state: sp.Symbol) -> sp.Expr:
     """How a state's rate changes with the state itself, in series of the flow and constants."""
     slope = tangent.chain.by(dict(tangent.rates())[state.name], state)
     known = dict(tangent.model.definitions) | dict(tangent.chain.named)

@@ -8,111 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from itertools import groupby
-from typing import TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...equations.model import Model
-from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import is_slot_call
-from ..casadi.printer import EmissionError
 from .adjoint import cotangent
-from .c_text import Constants, Recurrences, Text
-from .chain_rule import Chain
+from .c_text import Text
 from .groups_from_si import scale_slopes
-from .header import Beside, Header
-from .law_slopes import arguments, define_shortest, factored, shortest
+from .header import Beside
 from .layout import comment, each_term, function
+from .linear_flow import LinearFlow
 
 _IN = "    "
-Entry: TypeAlias = str | sp.Expr
-"""A series' name, or a constant."""
 
 
-class Tangent:
+class Tangent(LinearFlow):
     """Text of one structure's tangent header."""
-
-    def __init__(self, model: Model, digest: str, provenance: str, doc: str, beside: Beside) -> None:
-        if beside.extra.get("glass.pressure"):
-            raise EmissionError("no slopes of a glass law with quantities of its own")
-        self.model, self.beside = model, beside
-        self.header = Header(model, beside)
-        self.header.text(digest, provenance, doc)  # fills in its constants and calls
-        self.states = [state.name for state in model.states]
-        flow = self.header.flow
-        self._flow = {operation.name for operation in flow.operations}
-        self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
-        self.program = flow.continued()
-        self.slopes: dict[str, str] = {}  # name of a law's slope -> its array
-        self.chain = Chain(model.definitions, self._slope, (*model.groups, FILM, SHEAR))
-        self.matrix: dict[tuple[str, str], Entry] = {}
-        self.sources: dict[tuple[str, str], Entry] = {}
-        self._differentiate()
-        given = {group: f"v->{group.name}" for group in model.groups}
-        given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
-        self.constants = Constants(given, (FILM, SHEAR))
-        self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
-        self.made = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
-
-    # ---- derivatives
-
-    def _slope(self, node: AppliedUndef, position: int) -> sp.Symbol:
-        slot, name = node.func.__name__.split(".")
-        call = self.header.flow.series(node) if self.header.flow.moves(node) else None
-        if call not in self._calls:
-            raise EmissionError(f"no slopes of {node}: it is no series of the flow")
-        argument = self._arguments(slot, name, len(node.args))[position]
-        symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
-        if symbol.name not in self.slopes:
-            self.slopes[symbol.name] = f"{call}.by_{argument}"
-            self.program.give(symbol)
-        return symbol
-
-    def _arguments(self, slot: str, name: str, count: int) -> tuple[str, ...]:
-        return arguments(slot, name, count, self.beside.extra.get(f"{slot}.{name}", ()))
-
-    def _where(self, series: str) -> str:
-        if series in self.slopes:
-            return self._law_place(self.slopes[series].split(".")[0]) + self.slopes[series]
-        return f"of->{series}.result" if series in self._calls else f"of->{series}"
-
-    def _law_place(self, call: str) -> str:
-        """A law's slopes are local unless one is itself an entry."""
-        entries = {self.slopes[entry].split(".")[0] for entry in self._kept if entry in self.slopes}
-        return "s->" if call in entries else ""
-
-    def rates(self) -> list[tuple[str, sp.Expr]]:
-        """What the states' rates are, by name."""
-        rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
-        if self.header.turning is not None:
-            rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
-        return rows
-
-    def _differentiate(self) -> None:
-        found: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
-        for row, rate in self.rates():
-            for into, variables in ((self.matrix, self.model.states), (self.sources, self.model.groups)):
-                for variable in variables:
-                    slope = self.chain.by(rate, variable)
-                    if slope != 0:
-                        found.append((into, (row, variable.name), slope))
-        for symbol, expression in self.chain.named:
-            define_shortest(self.program, symbol, expression)
-        for into, (row, by), slope in found:
-            into[row, by] = shortest(self.program, (slope, *factored(slope)), f"{row}_by_{by}")
-
-    @property
-    def flowing(self) -> list[str]:
-        """Groups that the rates depend on."""
-        return [group.name for group in self.model.groups if any(by == group.name for _, by in self.sources)]
-
-    @property
-    def flow(self) -> set[str]:
-        """Names of the series that the flow has, the states among them."""
-        return self._flow | set(self.states)
-
-    # ---- text
 
     def text(self, digest: str, provenance: str, doc: str) -> str:
         """The header."""
@@ -229,10 +142,6 @@ class Tangent:
     @property
     def _groups(self) -> list[str]:
         return [group.name for group in self.model.groups]
-
-    def array(self, name: str) -> str:
-        """Where emitted C has a series."""
-        return self.made.array(name)
 
     def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
         text = self.constants.factor(entry, hint)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from ..result import Collision
+from ..outcome import Outcome
 from ..text import name_of, prefix, reason, stopped
 from .frames import Frame, frames
 from .strip import draw_strip, strip_size
@@ -19,7 +19,7 @@ _ROW = 1.35  # inches a row of panels is high
 _STRIP = WIDTH - 0.5
 
 
-def draw(collision: Collision) -> Figure:
+def draw(collision: Outcome) -> Figure:
     """Draw a collision.
 
     Raises:
@@ -48,7 +48,7 @@ def _short(value: float) -> str:
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
-def _title(collision: Collision) -> str:
+def _title(collision: Outcome) -> str:
     name = name_of(collision.scene).replace("$", r"\$")
     numbers = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°, $e_n$ = {collision.restitution:.4g}"
     parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
@@ -56,7 +56,7 @@ def _title(collision: Collision) -> str:
     return f"{name}: {collision.outcome}   ({numbers})\n{why}"
 
 
-def _note(collision: Collision, pictures: Sequence[Frame]) -> str:
+def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     text = "Seen from above, to scale, film and liquid bridge in blue; arrows: velocities"
     text += "; lines: marks that met at first touch."
     if collision.scene.wall and collision.angle:
@@ -71,7 +71,7 @@ def _note(collision: Collision, pictures: Sequence[Frame]) -> str:
     return text
 
 
-def _caption(frame: Frame, collision: Collision, latest: float) -> str:
+def _caption(frame: Frame, collision: Outcome, latest: float) -> str:
     factor, unit = prefix(latest)
     time = "first touch" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
     moved = ""

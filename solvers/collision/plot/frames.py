@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...scene.scene import Scene
-from ..result import Collision
+from ..outcome import Outcome
 
 _FLOWN = 5  # frames of a flight that shows something; else 3
 _APART = 0.8  # of R: how much further apart the last frame of a separated pair is
@@ -81,7 +81,7 @@ class Frame:
         return max(abs(centre[1]) + radius for centre, radius in zip(self.centres, self.radii))
 
 
-def frames(collision: Collision) -> list[Frame]:
+def frames(collision: Outcome) -> list[Frame]:
     """Return instants equally spaced in time from first touch on, and for a separated pair one after rupture."""
     flight = _Flight.of(collision)
     still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.first.radius
@@ -93,7 +93,7 @@ def frames(collision: Collision) -> list[Frame]:
     return found
 
 
-def sampled(collision: Collision, instants: Sequence[float]) -> list[Frame]:
+def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
     """Return the given instants, s from first touch: straight lines before it and after rupture.
 
     A stick has no instants after its end.
@@ -124,7 +124,7 @@ class _Flight:
     spins: tuple[float, float]  # at the end
 
     @classmethod
-    def of(cls, collision: Collision) -> _Flight:
+    def of(cls, collision: Outcome) -> _Flight:
         data = collision.trajectory
         if data is None:
             raise InputError("trajectory", None, "trajectory=True in collide()", "is missing from the collision")

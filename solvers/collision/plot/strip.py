@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon, Rectangle
 
 from ...scene.scene import Scene
-from ..result import Collision
+from ..outcome import Outcome
 from .frames import Frame, Vector
 
 LIQUID, VELOCITY, FIRST, SECOND, INK = "#56B4E9", "#D55E00", "#E8E8E8", "#BDBDBD", "#202020"
@@ -32,7 +32,7 @@ def wetted_radius(scene: Scene, gap: float) -> float:
     return min(math.sqrt(square), 0.9 * smallest)
 
 
-def draw_strip(axes: Axes, collision: Collision, pictures: Sequence[Frame], captions: Sequence[str]) -> None:
+def draw_strip(axes: Axes, collision: Outcome, pictures: Sequence[Frame], captions: Sequence[str]) -> None:
     """Draw the frames side by side, to one scale, a caption under each; lengths are in sphere radii."""
     radius = pictures[0].radius
     fastest = max((math.hypot(*frame.relative) for frame in pictures if frame.relative), default=1.0)
@@ -57,7 +57,7 @@ def strip_size(pictures: Sequence[Frame]) -> tuple[float, float]:
     return width + 0.4, 2 * max(frame.half_height for frame in pictures) / radius + 0.5
 
 
-def _draw(axes: Axes, collision: Collision, frame: Frame, place: float, fastest: float) -> None:
+def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: float) -> None:
     """One frame around (place, 0), lengths in sphere radii."""
     radius, scene = frame.radius, collision.scene
     centres = [(place + x / radius, y / radius) for x, y in frame.centres]

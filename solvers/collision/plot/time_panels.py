@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from ...formatting import ticks
-from ..result import Collision
+from ..outcome import Outcome
 from ..text import prefix, quantity
 from .frames import Frame
 from .strip import INK
@@ -50,7 +50,7 @@ class Column:
         return (self.shaded < time or not self.shaded) and time <= self.end
 
 
-def time_panels(figure: Figure, place: Any, collision: Collision, rows: int, pictures: Sequence[Frame]) -> None:
+def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictures: Sequence[Frame]) -> None:
     """Draw the trajectory into a cell of the figure's grid, `rows` panels high; `pictures` are marked on its angle."""
     data = collision.trajectory
     assert data is not None
@@ -72,7 +72,7 @@ def time_panels(figure: Figure, place: Any, collision: Collision, rows: int, pic
         whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
 
 
-def _zoom(collision: Collision, duration: float) -> float | None:
+def _zoom(collision: Outcome, duration: float) -> float | None:
     """Where the approach's own column ends, s; None if the flight is no longer than it shows."""
     times = [event.time for event in collision.events if event.time > 0]
     if not times or duration < _ZOOM * times[0]:
@@ -84,7 +84,7 @@ def _zoom(collision: Collision, duration: float) -> float | None:
     return end if duration > _ZOOM / 2 * end else None
 
 
-def _fill(column: Column, collision: Collision, rows: int, last: bool) -> None:
+def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
     """Draw the curves of a column; the last one has the right margin to itself."""
     data = collision.trajectory
     assert data is not None
@@ -128,7 +128,7 @@ def _fill(column: Column, collision: Collision, rows: int, last: bool) -> None:
     column.panels[-1].set_xlabel(f"time{', ' * bool(column.title)}{column.title} ({unit})", fontsize=9)
 
 
-def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision, last: bool) -> None:
+def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Outcome, last: bool) -> None:
     """The gap, and the gaps at which something changes."""
     scene = collision.scene
     factor, name = prefix(float(np.max(gap)))
@@ -165,7 +165,7 @@ def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Collision, la
     axes.set_ylabel(f"gap ({micro(name + 'm')})")
 
 
-def _events(column: Column, collision: Collision) -> None:
+def _events(column: Column, collision: Outcome) -> None:
     """Lines through all panels, and labels above, higher where they would overlap."""
     factor, _ = column.unit
     span = (column.end - column.start) * 1.04

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model.dimensionless import si_values
 from ...model.model import Choice, choose
+from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import LARGEST_ORDER, Variant, kernel, knows

@@ -7,7 +7,7 @@ import re
 import time
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any
 
@@ -23,14 +23,12 @@ from ...model.model import choose, load
 from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
-from ...settings import ENGINES
 from .answers import answer, dimensionless
 from .flights import Flights
 from .impacts import Impact
-from .sample import Case
 from .scipy_engine import Flight
+from .verdict import CHATTER, FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
-RTOL = 1e-9
 SHARE = 1e3  # an engine's error is taken to stay below so many rtol, times the conditioning
 FLOOR = 1e-12  # and what rounding alone may come to, times the conditioning
 OPEN = 1e-5  # of the ledger's largest term, beyond which it is open
@@ -41,48 +39,6 @@ _AUDIT = 100  # phases and stretches that a certified stick is flown on for
 PEER = "LSODA"  # what it cannot do is no failure of ours
 _FLIGHTS = Flights()
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
-FAST = "taylor" if "taylor" in ENGINES else "rosenbrock"
-
-
-@dataclass
-class Found:
-    """What an engine found: outcome or failure, e_n, CPU seconds."""
-
-    outcome: str = ""
-    restitution: float = 0.0
-    certified: bool = False
-    failure: str = ""
-    cpu: float = 0.0
-    more: dict[str, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Issue:
-    """Something that does not go together.
-
-    Arguments:
-        kind: "outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary" or "failure".
-        between: the engines it is about.
-        said: in words.
-        explained: the reason it may be so; empty if there is none.
-    """
-
-    kind: str
-    between: tuple[str, ...]
-    said: str
-    explained: str = ""
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """A case with all that was found of it."""
-
-    case: Case
-    found: dict[str, Found]
-    issues: tuple[Issue, ...]
-    error: float | None  # largest difference in e_n between engines, where they agree on the outcome
-    conditioning: float | None  # |d e_n/d ln St|, at least 1
-    remarks: tuple[str, ...] = ()  # where the scene leaves the range of a law
 
 
 def fast(scene: Scene, rtol: float) -> Found:
@@ -169,7 +125,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     found: dict[str, Found] = {}
     for name, run in engines.items():
         found[name] = _timed(run, case.scene, RTOL)
-        if _CHATTER in found[name].failure:
+        if CHATTER in found[name].failure:
             break  # the rules that find it are shared: the others would chatter on just as well
     issues: list[Issue] = [
         Issue("peer" if name == PEER else "failure", (name,), each.failure, _physical(each.failure, name, case))
@@ -209,23 +165,11 @@ def _timed(run: Run, scene: Scene, rtol: float) -> Found:
     return replace(found, cpu=found.cpu + time.process_time() - start)
 
 
-_CHATTER = "this is chatter without end"
-_REASONS = {  # what an engine may say, and the physics behind it
-    "so oblique an impact": "turns within a rounding error of x0",
-    _CHATTER: "an attraction closes the gap again after every reversal, beyond any count: a cycle of the model",
-}
-
-
 def _physical(failure: str, engine: str, case: Case) -> str:
     """The physical reason of a failure; empty if it has none. The engine under test has to pass every boundary."""
     if engine != FAST and case.distance is not None and case.distance <= SHARE * RTOL:
         return f"within {SHARE * RTOL:.0e} of a boundary, where the flight passes a saddle or a graze"
     return physical_reason(failure)
-
-
-def physical_reason(failure: str) -> str:
-    """The physics behind what an engine says of a failure; empty if there is none."""
-    return next((reason for words, reason in _REASONS.items() if words in failure), "")
 
 
 def _at(scene: Scene, factor: float) -> Scene:

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...boundaries.trace import SHARPEST, boundary
+from ...boundaries.boundary import boundary
+from ...boundaries.trace import SHARPEST
 from ...errors import InputError
 from ...many.collide_many import OUTCOMES, collide_many
 from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
-from .judge import FAST, RTOL, Found, Issue, Verdict, physical_reason
-from .sample import Case
+from .verdict import FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
 SPAN = (2e-3, 30.0)  # of the Stokes number
 SAMPLES = 700  # of a line

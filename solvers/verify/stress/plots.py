@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from ...boundaries.changes import GRAZE
 from ...formatting.ticks import plain
 from ...host.files import save
-from .judge import FAST
 from .run import Stress
+from .verdict import FAST
 
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8}
 _COLOURS = {"taylor": "#E69F00", "rosenbrock": "#D55E00", "cvodes": "#0072B2", "LSODA": "#CC79A7"}

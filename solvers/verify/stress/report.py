@@ -12,8 +12,8 @@ import numpy as np
 from ...boundaries.changes import GRAZE
 from ...formatting.markdown import ms, table
 from ...host import files
-from .judge import Issue, Verdict
 from .run import DISAGREEMENTS, WORST, Stress, record
+from .verdict import Issue, Verdict
 
 
 def write(found: Stress, folder: Path) -> list[Path]:

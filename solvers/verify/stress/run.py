@@ -16,8 +16,9 @@ from ...host.environment import environment
 from ...host.workers import undisturbed, workers
 from ...many.collide_many import OUTCOMES
 from ...model.model import choose
-from .judge import FAST, RTOL, SHARE, Issue, Verdict, fast_kernel, judge, runs
-from .sample import SEED, Case, sample
+from .judge import SHARE, fast_kernel, judge, runs
+from .sample import SEED, sample
+from .verdict import FAST, RTOL, Case, Issue, Verdict
 
 DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary")
 _BLOCK = 12  # cases a worker takes at a time

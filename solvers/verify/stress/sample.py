@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
 import numpy as np
 
-from ...boundaries.trace import boundary
+from ...boundaries.boundary import boundary
 from ...errors import InputError
 from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS
+from .verdict import Case
 
 SEED = 20121
 DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative, in St, of points beside a boundary
@@ -23,26 +23,6 @@ _LINES = 0.05  # of a sample: scenes whose boundaries are traced
 _PER_LINE_MODEL = 400  # of a sample, for each combination of laws of those: each compiles kernels of its own
 _PER_MODEL, _MODELS = 25, (8, 120)  # scenes that share structure and laws; fewest and most of those
 _NUMBERS = 19  # dimensions of a point
-
-
-@dataclass(frozen=True)
-class Case:
-    """A scene with its impact.
-
-    Arguments:
-        kind: "sampled", "beside" a boundary, or "lines" at `angles` (rad) along which boundaries are traced.
-        distance: relative distance in St from the boundary; None where none is known.
-        expected: outcome on this side of it, as the tracing of the boundary has it.
-        change: what happens at the boundary, as `changes.Change.kind`.
-    """
-
-    name: str
-    scene: Scene
-    kind: str = "sampled"
-    distance: float | None = None
-    expected: str | None = None
-    change: str = ""
-    angles: tuple[float, ...] = ()
 
 
 def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:

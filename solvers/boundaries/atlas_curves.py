@@ -1,4 +1,4 @@
-"""The atlas of a scene: all curves between outcomes in a plane of an entry and the Stokes number, and where they meet.
+"""All curves between outcomes in a plane of an entry and the Stokes number, and where they meet: sought and settled.
 
 The curves are sought from a lattice of collisions and from seed lines (`bounds`), followed (`survey`, `continuation`),
 named (`atlas_points`), and held against the lines, the lattice and random collisions.
@@ -7,33 +7,26 @@ named (`atlas_points`), and held against the lines, the lattice and random colli
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from pathlib import Path as FilePath
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
 from ..errors import ComputationError
-from ..host.arguments import check_function, check_whole
-from ..model.validity import warn
-from ..scene.scene import Scene
-from ..settings import RTOL, check_rtol
 from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .changes import Change
 from .continuation import crossings
-from .plane import ANGLE, Plane, check_plane
+from .found import LATTICE, Curve, Curves, Point
+from .plane import ANGLE, Plane
 from .regions import Slab, apart, labelled, slabs
 from .samples import OUTCOMES
 from .survey import Survey, lattice, passes, surveyed
-from .trace import STOKES, Boundaries, Traced, trace
+from .trace import Traced, trace
 
 LINES = 33
-_MOST = 10_000  # lines
 # Columns and rows of the lattice, and random collisions that are held against the regions; and where every collision is
 # integrated one by one.
-BY_KERNEL, BY_ROSENBROCK = (65, 193, 4096), (17, 49, 256)
+BY_KERNEL, BY_ROSENBROCK = (*LATTICE, 4096), (17, 49, 256)
 _ROUNDS = 3  # in which what does not agree is looked at more closely
 _FINER_ROWS, _MORE = 769, 12  # of a column through a collision that does not agree; most of those columns a round
 _AGREES = 1e-6  # in ln St: a line and a curve
@@ -41,188 +34,8 @@ _ROUGHLY = 50 * CHORD  # of the window: a curve near a vertical tangent, and a l
 _NEAR = 2 * CHORD  # of the window: closer to a curve nothing is said
 
 
-@dataclass(frozen=True)
-class Curve:
-    """A boundary between outcomes, x ascending: `before` is below it, `after` above.
-
-    Arguments:
-        kind: as of a `Change`.
-        x, stokes: points of it; x in rad, or SI.
-    """
-
-    before: str
-    after: str
-    kind: str
-    x: tuple[float, ...]
-    stokes: tuple[float, ...]
-
-    def to_dict(self) -> dict[str, Any]:
-        """As in the JSON object of `wetdoublet boundary --angle LO:HI`."""
-        return {
-            "from": self.before,
-            "to": self.after,
-            "kind": self.kind,
-            "x": list(self.x),
-            "stokes": list(self.stokes),
-        }
-
-
-@dataclass(frozen=True)
-class Point:
-    """A place where curves meet, turn, or change in kind."""
-
-    kind: str
-    x: float
-    stokes: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """As in the JSON object of `wetdoublet boundary --angle LO:HI`."""
-        return {"kind": self.kind, "x": self.x, "stokes": self.stokes}
-
-
-@dataclass(frozen=True)
-class Atlas(Boundaries):
-    """Boundaries in a plane: the seed lines as `Boundaries` has them, the curves, and where they meet.
-
-    Attributes:
-        over: dotted name of x.
-        span: of x, rad or SI.
-        at: x of the lines; `angles` are their impact angles.
-        curves, points: boundaries, and where they meet, turn or change in kind.
-        unsettled: places (x, St) that could not be brought into agreement, and why.
-        sought: what the curves were sought with: lattice and lines.
-        lattice: its columns and rows; fewer where there is no kernel for the scene.
-    """
-
-    over: str = ANGLE
-    span: tuple[float, float] = (0.0, 1.0)
-    at: tuple[float, ...] = ()
-    curves: tuple[Curve, ...] = ()
-    points: tuple[Point, ...] = ()
-    unsettled: tuple[tuple[float, float, str], ...] = ()
-    background: str = OUTCOMES[0]
-    lattice: tuple[int, int] = BY_KERNEL[:2]
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
-        found = {
-            "curves": [one.to_dict() for one in self.curves],
-            "points": [one.to_dict() for one in self.points],
-            "resolution": self.sought,
-        }
-        if self.unsettled:
-            found["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
-        return found
-
-    @property
-    def sought(self) -> dict[str, float | str]:
-        """Distances in x and relative distances in St within which the curves were sought, and their precision."""
-        decades = math.log(self.window[1] / self.window[0])
-        across = self.span[1] - self.span[0]
-        return {
-            "over": self.over,
-            "lines": len(self.at),
-            "line_spacing": across / max(len(self.at) - 1, 1),
-            "line_stokes": self.resolution,
-            "lattice_spacing": across / (self.lattice[0] - 1),
-            "lattice_stokes": math.expm1(decades / (self.lattice[1] - 1)),
-            "chord_stokes": math.expm1(CHORD * decades),
-        }
-
-    def region(self, x: Any, stokes: Any) -> np.ndarray:
-        """Outcomes (0 stick, 1 stick-rotate-separate, 2 bounce) of the regions that points of the plane lie in.
-
-        Arguments:
-            x, stokes: arrays of one shape; x in rad, or SI. Points that are not in the window have -1.
-        """
-        x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
-        inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
-        found = np.full(x.shape, -1, dtype=np.int8)
-        found[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
-        return found
-
-    def unit(self, x: Any, stokes: Any) -> np.ndarray:
-        """Points of the unit square, n x 2, at values of x and Stokes numbers."""
-        across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
-        up = np.log(np.asarray(stokes) / self.window[0]) / math.log(self.window[1] / self.window[0])
-        return np.column_stack([across, up])
-
-    def slabs(self) -> list[Slab]:
-        """The window cut into parts between whose curves lies one outcome each."""
-        arcs = [
-            Arc(self.unit(one.x, one.stokes), OUTCOMES.index(one.before), OUTCOMES.index(one.after))
-            for one in self.curves
-        ]
-        return slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))
-
-    def __str__(self) -> str:
-        angle = self.over == ANGLE
-        name, shown = ("angle (deg)", math.degrees) if angle else (self.over, float)
-        lines = [f"{'curve':<42} {'kind':<16} {name} and St, from ... to"]
-        for one in self.curves:
-            ends = " ... ".join(f"{shown(one.x[k]):.6g}, {one.stokes[k]:.6g}" for k in (0, -1))
-            lines.append(f"{one.before + ' -> ' + one.after:<42} {one.kind:<16} {ends}")
-        lines += [] if self.curves else [f"none: {self.background} everywhere"]
-        if self.points:
-            lines += ["", f"{'point':<24} {name:<18} St"]
-            lines += [f"{one.kind:<24} {shown(one.x):<18.10g} {one.stokes:.10g}" for one in self.points]
-        lines += [f"not settled at {shown(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
-        sought, spacing = self.sought, self.sought["line_spacing"]
-        assert isinstance(spacing, float)
-        told = (
-            f"sought with {len(self.at)} lines, {shown(spacing):.3g} apart, and strips of {self.resolution:.2%} in St "
-            f"on them; {self.collisions} collisions; straight lines between the points of a curve are within "
-            f"{sought['chord_stokes']:.1e} of St"
-        )
-        if self.lattice != BY_KERNEL[:2]:
-            told += (
-                f"; without the compiled kernel, from a lattice of {self.lattice[0]} by {self.lattice[1]} collisions"
-            )
-        return "\n".join([*lines, "", told])
-
-
-def atlas(
-    scene: Scene | str | FilePath,
-    *,
-    over: str = ANGLE,
-    span: Sequence[Any],
-    stokes: tuple[float, float] = STOKES,
-    lines: int = LINES,
-    rtol: float = RTOL,
-    progress: Callable[[int, int], None] | None = None,
-) -> Atlas:
-    """All boundaries between outcomes in the plane of an entry of the scene and the Stokes number.
-
-    Every curve is followed by its collisions: it is a change of outcome everywhere, up to the edge of the window, back
-    to its start, or to a point where others meet it. What is sought from is stated in the result: islands smaller than
-    the lattice, and narrower on every line than it can see, are not found.
-
-    Arguments:
-        scene: a Scene, a path or a preset's name.
-        over: dotted name of the entry across: the impact's angle, or a number of the scene at the scene's angle.
-        span: its lowest and highest value, SI (rad) or text with a unit.
-        stokes: lowest and highest Stokes number.
-        lines: how many lines of constant x are traced as well, both edges included.
-        rtol: relative tolerance of the integrations.
-        progress: told of (lines traced, lines in all).
-
-    Returns:
-        Atlas: `curves` (x and St, outcomes below and above), `points` (where they meet), the lines.
-
-    Raises:
-        InputError: a name, span or number that cannot be. What cannot be settled is no error, it is in `unsettled`.
-
-    Example:
-        >>> from wetdoublet.solvers import atlas
-        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
-        >>> [(one.before, one.after) for one in found.curves][0], found.points[0].kind
-        (('stick', 'bounce'), 'triple point')
-    """
-    loaded = Scene.load(scene)
-    plane = check_plane(loaded, over, span, stokes, check_rtol(rtol))
-    lines = check_whole(lines, "lines", 2, _MOST)
-    tell = check_function(progress, "progress") or (lambda *_: None)
-    warn(loaded)
+def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Curves:
+    """The boundaries of a plane, sought from a lattice of collisions and from `lines` seed lines."""
     at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
     x = np.linspace(*plane.span, lines)
     traced = _lines(plane, x, tell)
@@ -254,7 +67,7 @@ def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarr
     ]
 
 
-def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Atlas:
+def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Curves:
     """The atlas of a survey, after what does not agree with it has been looked at more closely."""
     random = np.random.default_rng(20121).random(((BY_KERNEL if plane.kernel else BY_ROSENBROCK)[2], 2))
     points = np.vstack([at.reshape(-1, 2), random])
@@ -376,7 +189,7 @@ def _made(
     traced: Traced,
     background: int,
     size: tuple[int, ...],
-) -> Atlas:
+) -> Curves:
     curves = [
         Curve(
             OUTCOMES[one.arc.right], OUTCOMES[one.arc.left], one.kind,
@@ -388,7 +201,7 @@ def _made(
     points = [Point(name, float(plane.shown(place)), float(plane.stokes_at(place))) for name, place in places]
     points.sort(key=lambda one: (one.x, one.stokes))
     angles = x if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
-    return Atlas(
+    return Curves(
         angles=tuple(angles.tolist()),
         changes=tuple(traced.changes),
         collisions=plane.collisions + traced.collisions,

@@ -1,0 +1,155 @@
+"""Boundaries between outcomes: along lines of constant angle, and as the atlas of a plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engines.taylor.build import knows
+from ..errors import InputError
+from ..host.arguments import check_function, check_whole
+from ..host.cores import usable_cores
+from ..many.batch import checked_numbers, checked_span
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..settings import RTOL, check_rtol
+from .atlas_curves import LINES, curves_of
+from .found import STOKES, Curves, Lines
+from .plane import ANGLE, check_plane
+from .trace import Traced, traces
+
+if TYPE_CHECKING:
+    import xarray
+
+_LARGEST = 1e30  # Stokes number, and its inverse the least
+_WORTH, _WORTH_BY_KERNEL = 4, 100  # angles that are worth starting a process for
+_MOST = 10_000  # lines
+
+
+@dataclass(frozen=True)
+class Boundaries(Lines):
+    """Changes of outcome for each angle, as `boundary` returns them; its attributes are those of `Lines`."""
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Labelled, units in attributes: over `line` and `change`, padded with NaN (see docs/results.md)."""
+        from .labelled import dataset
+
+        return dataset(self)
+
+    def plot(self, file: str | FilePath) -> None:
+        """Draw a picture (.png, .pdf or .svg): the regions of each outcome, the curves and where they meet."""
+        from .plot import plot
+
+        plot(self, file)
+
+
+@dataclass(frozen=True)
+class Atlas(Curves, Boundaries):
+    """All boundaries in a plane, as `atlas` returns them; its attributes are those of `Curves`."""
+
+
+def boundary(
+    scene: Scene | str | FilePath,
+    *,
+    angle: Any = None,
+    stokes: tuple[float, float] = STOKES,
+    rtol: float = RTOL,
+    progress: Callable[[int], None] | None = None,
+) -> Boundaries:
+    """Every change of outcome along lines of constant angle.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name.
+        angle: impact angles in rad, a number or 1-D; default the scene's. Traced in ascending order.
+        stokes: lowest and highest Stokes number.
+        rtol: relative tolerance of the integrations.
+        progress: called with the number of angles done.
+
+    Returns:
+        Boundaries, in the order of the angles given.
+
+    Raises:
+        InputError: an angle or Stokes number that cannot be. A line that fails is no error, it is marked.
+
+    Example:
+        >>> from wetdoublet.solvers import boundary
+        >>> [round(one.stokes, 6) for one in boundary("granulation", angle=0.9599310885968813).changes[0]]
+        [0.034232, 0.118639]
+    """
+    loaded = Scene.load(scene)
+    angles = checked_numbers("impact.angle", loaded.angle if angle is None else angle).reshape(-1)
+    low, high = checked_span("impact.stokes", stokes)
+    if low < 1 / _LARGEST or high > _LARGEST:
+        raise InputError("impact.stokes", f"{low}:{high}", f"from {1 / _LARGEST:g} to {_LARGEST:g}", "is too far off")
+    rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
+    warn(loaded)
+    order = np.argsort(angles, kind="stable")
+    worth = _WORTH_BY_KERNEL if knows(loaded) else _WORTH
+    cores = min(usable_cores(), max(1, angles.size // worth))
+    parts = np.array_split(angles[order], cores)
+    whole = Traced([], [], 0, 0.0)
+    for part in traces(loaded, parts, (low, high), rtol, tell):
+        whole.changes += part.changes
+        whole.failures += part.failures
+        whole.collisions += part.collisions
+        whole.resolution = max(whole.resolution, part.resolution)
+        tell(len(whole.changes))
+    back = np.argsort(order, kind="stable")
+    return Boundaries(
+        tuple(angles.tolist()),
+        tuple(whole.changes[k] for k in back),
+        whole.collisions,
+        tuple(whole.failures[k] for k in back),
+        whole.resolution,
+        loaded,
+        (low, high),
+    )
+
+
+def atlas(
+    scene: Scene | str | FilePath,
+    *,
+    over: str = ANGLE,
+    span: Sequence[Any],
+    stokes: tuple[float, float] = STOKES,
+    lines: int = LINES,
+    rtol: float = RTOL,
+    progress: Callable[[int, int], None] | None = None,
+) -> Atlas:
+    """All boundaries between outcomes in the plane of an entry of the scene and the Stokes number.
+
+    Every curve is followed by its collisions: it is a change of outcome everywhere, up to the edge of the window, back
+    to its start, or to a point where others meet it. What is sought from is stated in the result: islands smaller than
+    the lattice, and narrower on every line than it can see, are not found.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name.
+        over: dotted name of the entry across: the impact's angle, or a number of the scene at the scene's angle.
+        span: its lowest and highest value, SI (rad) or text with a unit.
+        stokes: lowest and highest Stokes number.
+        lines: how many lines of constant x are traced as well, both edges included.
+        rtol: relative tolerance of the integrations.
+        progress: told of (lines traced, lines in all).
+
+    Returns:
+        Atlas: `curves` (x and St, outcomes below and above), `points` (where they meet), the lines.
+
+    Raises:
+        InputError: a name, span or number that cannot be. What cannot be settled is no error, it is in `unsettled`.
+
+    Example:
+        >>> from wetdoublet.solvers import atlas
+        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
+        >>> [(one.before, one.after) for one in found.curves][0], found.points[0].kind
+        (('stick', 'bounce'), 'triple point')
+    """
+    loaded = Scene.load(scene)
+    plane = check_plane(loaded, over, span, stokes, check_rtol(rtol))
+    lines = check_whole(lines, "lines", 2, _MOST)
+    tell = check_function(progress, "progress") or (lambda *_: None)
+    warn(loaded)
+    return Atlas(**vars(curves_of(plane, lines, tell)))

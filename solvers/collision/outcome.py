@@ -1,0 +1,133 @@
+"""What one collision comes to, in SI units: its outcome, events and energy, as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from ..scene.scene import Scene
+
+if TYPE_CHECKING:
+    import xarray
+
+_OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this part of the largest term
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The energy ledger of a flight, J.
+
+    `initial` and `final` are kinetic, `strings` is the gain of potential, `attraction` the work against van der Waals
+    forces (None without them); `residual` is what is left of initial - final - (all losses and works).
+    """
+
+    initial: float
+    final: float
+    normal_lubrication: float
+    tangential_lubrication: float
+    capillary: float
+    dry_contact: float
+    strings: float
+    attraction: float | None = None
+
+    @property
+    def residual(self) -> float:
+        spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
+        return self.initial - self.final - spent - (self.attraction or 0.0)
+
+    def is_open(self, rtol: float) -> bool:
+        """Whether the residual is beyond what a tolerance leaves, so that the flight must be wrong."""
+        return abs(self.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * self.largest
+
+    @property
+    def largest(self) -> float:
+        """The largest term."""
+        return max(abs(value) for value in self.to_dict().values())
+
+    def to_dict(self) -> dict[str, float]:
+        names = (
+            "initial",
+            "final",
+            "normal_lubrication",
+            "tangential_lubrication",
+            "capillary",
+            "dry_contact",
+            "strings",
+            *(["attraction"] if self.attraction is not None else []),
+        )
+        return {name: getattr(self, name) for name in (*names, "residual")}
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened during a flight, and when (s)."""
+
+    kind: str
+    time: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """One collision as data. SI units and radians; what a stick leaves undefined is None.
+
+    Attributes:
+        outcome: "stick", "stick-rotate-separate" or "bounce".
+        restitution: normal restitution e_n (0 for a stick).
+        tangential_restitution: r_f omega_f/(r_0 omega_0); None head-on.
+        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F all that attracts at first touch; None if nothing does.
+        final_spin: spin of each sphere, of the first if the partner is another one.
+        final_spin_partner: spin of the partner; None without a [partner].
+        rotation: angle turned by the line of centres until separation.
+        until: for a stick, where integration stopped, s.
+        certified: the stick is proved.
+        reversal: the first criterion met, if any.
+        warnings: where the scene leaves the range that a law was made for, a sentence each.
+        trajectory: Dataset over `time`, if asked for.
+    """
+
+    outcome: str
+    restitution: float
+    tangential_restitution: float | None
+    rotation: float | None
+    contact_time: float | None
+    smallest_gap: float | None
+    final_spin: float | None
+    final_rotation_rate: float | None
+    stokes: float
+    centrifugal: float | None
+    capillary: float | None
+    reynolds: float | None
+    speed: float
+    angle: float
+    reversal: str | None
+    certified: bool
+    until: float | None
+    events: tuple[Event, ...]
+    energy: Energy | None
+    angular_momentum_drift: float | None
+    engine: str
+    steps: int
+    generalised_centrifugal: float | None = None
+    final_spin_partner: float | None = None
+    warnings: tuple[str, ...] = ()
+    scene: Scene = field(repr=False, compare=False)
+    trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet collide --json`."""
+        plain = (
+            "outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap",
+            "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
+            "reversal", "certified", "until",
+        )  # fmt: skip
+        result: dict[str, Any] = {name: getattr(self, name) for name in plain}
+        if self.scene.partner is not None:
+            result["final_spin_partner"] = self.final_spin_partner
+        if self.scene.attraction is not None:
+            result["generalised_centrifugal"] = self.generalised_centrifugal
+        if self.reynolds is not None:
+            result["reynolds"] = self.reynolds
+        result["events"] = [{"kind": event.kind, "time": event.time} for event in self.events]
+        result["energy"] = self.energy.to_dict() if self.energy else None
+        result["angular_momentum_drift"] = self.angular_momentum_drift
+        return result | {"engine": self.engine, "steps": self.steps}

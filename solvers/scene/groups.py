@@ -1,0 +1,102 @@
+"""The quantities and dimensionless groups that a scene's entries make, by the emitted formulas."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+from ...generated import scaling
+from ..host import emitted
+from .system import System
+
+Formula = tuple[Callable[..., Any], tuple[str, ...]]
+_VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "generalised_centrifugal")
+
+
+def formulas(scene: System) -> dict[str, Formula]:
+    """Group or scale -> its emitted formula and the names of what that takes, for the scene's partner and laws.
+
+    A formula takes floats or CasADi expressions.
+    """
+    found: dict[str, Formula] = {
+        name: (getattr(scaling, name), arguments)
+        for name, arguments in scaling.ARGUMENTS.items()
+        if name not in _VARIANTS
+    }
+    if scene.wall:
+        found["initial_rate"] = scaling.initial_rate_wall, scaling.ARGUMENTS["initial_rate_wall"]
+        found["centrifugal"] = _nothing, ("surface_tension",)
+    elif scene.partner is not None:
+        for name in ("initial_rate", "centrifugal"):
+            found[name] = getattr(scaling, f"{name}_pair"), scaling.ARGUMENTS[f"{name}_pair"]
+    if scene.bridge is not None and scene.bridge.rupture == "own":
+        law = law_module(scene, "bridge", scene.bridge.law)
+
+        def own(reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any) -> Any:
+            return 2 * reduced_radius * law.rupture_distance(volume, contact_angle) / film_thickness
+
+        found["rupture_gap"] = own, scaling.ARGUMENTS["rupture_gap"]
+    if scene.package is not None:
+        found |= {name: (function, arguments) for name, (arguments, function) in scene.package.groups.items()}
+    return found
+
+
+def _nothing(surface_tension: Any) -> Any:
+    """Ce beside a wall: nothing turns."""
+    return 0 * surface_tension
+
+
+def law_module(scene: System, slot: str, name: str) -> Any:
+    """The emitted module of a law, the library's or the scene's own."""
+    if scene.package is not None and name in scene.package.laws(slot):
+        return scene.package.law(slot, name)
+    return emitted.law(slot, name)
+
+
+def si_values(scene: System, speed: float | None, angle: float | None) -> dict[str, float]:
+    """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
+    particles, liquid = scene.particles, scene.liquid
+    values = {
+        "reduced_radius": scene.reduced_radius,
+        "reduced_mass": scene.reduced_mass,
+        "roughness": particles.roughness,
+        "dry_restitution": particles.dry_restitution,
+        "viscosity": liquid.viscosity,
+        "film_thickness": liquid.film_thickness,
+        "glass_transition_pressure": liquid.glass_transition_pressure,
+    }
+    values |= {name: value for name, value in (("speed", speed), ("angle", angle)) if value is not None}
+    if particles.youngs_modulus is not None and particles.poisson_ratio is not None:
+        values |= {"youngs_modulus": particles.youngs_modulus, "poisson_ratio": particles.poisson_ratio}
+    if liquid.density is not None:
+        values["density"] = liquid.density
+    if scene.bridge is not None:
+        bridge = scene.bridge
+        values |= {
+            "surface_tension": bridge.surface_tension,
+            "volume": bridge.volume,
+            "contact_angle": bridge.contact_angle,
+        }
+    if scene.attraction is not None:
+        values["hamaker"] = scene.attraction.hamaker
+    if scene.radius_ratio is not None and scene.mass_ratio is not None:
+        values |= {"radius_ratio": scene.radius_ratio, "mass_ratio": scene.mass_ratio}
+    if scene.pendulum is not None:
+        values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
+    if scene.package is not None:
+        own = {f"custom.{name}": name for name in scene.package.quantities}
+        values |= {own[entry]: float(value) for entry, value in scene.si if entry in own}
+    return values
+
+
+@lru_cache(maxsize=64)
+def scaled(group: str, scene: System, speed: float | None = None) -> float:
+    """Return a group by its emitted formula; inf where a double overflows."""
+    values = si_values(scene, speed, None)
+    formula, arguments = formulas(scene)[group]
+    try:
+        return float(formula(*(values[name] for name in arguments)))
+    except (OverflowError, ZeroDivisionError):
+        return math.inf
