@@ -1,0 +1,387 @@
+"""What one tree answers, for `two_trees.py`: public functions and commands only, a JSON line an answer.
+
+Floats are written in hexadecimal. What raises answers with the name of the class and the message.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import re
+import subprocess
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import wetdoublet.solvers as wd
+from two_trees import leaves
+
+TASK: dict[str, Any] = json.loads(sys.argv[1]) if __name__ == "__main__" else {}
+QUICK = bool(TASK.get("quick"))
+PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
+CHOICES: dict[str, tuple[str, ...]] = {
+    "preset": ("granulation", "granulation", "granulation", "pendulum", "pendulum", "granulation-dry-bridge"),
+    "bridge.law": (
+        "mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant",
+    ),
+    "bridge.rupture": ("common", "common", "own"),
+    "model.film": ("finite", "finite", "infinite", "cavitating", "constant-volume"),
+    "model.glass": ("literal", "film-corrected"),
+    "model.tangential": ("immersed", "film"),
+    "model.arm": ("midgap", "midgap", "surface"),
+    "pendulum.law": ("exact", "small-angle"),
+    "partner": ("", "", "sphere", "wall"),
+    "attraction": ("", "", "van der Waals"),
+}  # fmt: skip
+FIELDS = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
+BATCH = 10  # impacts of a scene, the first head-on
+NUDGES, NUDGE, ROUNDING = 4, 1e-6, 1e-13  # how conditioning is measured, and what is allowed times it
+MASKS = ((r"\d{4}-\d\d-\d\d", "DATE"), (r"\b\d+(\.\d+)? s of processor time", "TIME"))
+TEXTS = {".c", ".csv", ".h", ".html", ".json", ".md", ".py", ".svg", ".tex", ".toml", ".txt", ""}
+
+
+def plain(value: Any) -> Any:
+    """Anything public as JSON with floats in hexadecimal; a scene within a result is left out."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, wd.Scene):
+        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name != "scene"}
+    if isinstance(value, wd.Scene):
+        return {"toml": value.to_toml(), "si": plain(value.si)}
+    if hasattr(value, "data_vars"):
+        columns = {
+            str(name): {"dims": list(map(str, each.dims)), "attrs": plain(each.attrs), "values": plain(each.values)}
+            for name, each in value.variables.items()
+        }
+        return {"attrs": plain(value.attrs), "variables": columns}
+    if isinstance(value, Mapping):
+        return {str(key): plain(each) for key, each in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(each) for each in value]
+    return value.hex() if isinstance(value, float) else value if isinstance(value, int | None) else str(value)
+
+
+def answer(call: Callable[..., Any], *given: Any, **options: Any) -> Any:
+    """What a call returns and warns of, or raises."""
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        try:
+            found = plain(call(*given, **options))
+        except Exception as error:  # noqa: BLE001 - whatever it is, the other tree must raise it as well
+            return {"raises": type(error).__name__, "message": str(error)}
+    return {"warns": [str(one.message) for one in heard], "returns": found} if heard else found
+
+
+class Out:
+    """The file of answers."""
+
+    def __init__(self, file: str) -> None:
+        self.stream = Path(file).open("w")  # noqa: SIM115 - closed with the process
+
+    def __call__(self, what: str, name: str, value: Any, *, count: int = 1, about: str = "", **more: Any) -> None:
+        record = {"what": what, "name": f"{what}: {name}", "count": count, "about": about, "value": value}
+        self.stream.write(json.dumps(record | more) + "\n")
+        self.stream.flush()
+
+
+def models(count: int) -> list[dict[str, str]]:
+    """Combinations of structures and laws in which every choice comes as often as its share."""
+    random = np.random.default_rng(TASK["seed"])
+    columns = {name: random.permutation(np.resize(some, count)).tolist() for name, some in CHOICES.items()}
+    found = [{name: column[k] for name, column in columns.items()} for k in range(count)]
+    for one in found:  # what a scene refuses, or has not
+        if one["preset"] == "pendulum":
+            one.update({"partner": "", "model.film": "finite"})
+        else:
+            del one["pendulum.law"]
+        if one["preset"] == "granulation-dry-bridge" or (one["preset"] == "pendulum" and one["attraction"]):
+            del one["bridge.law"], one["bridge.rupture"]
+            one["model.film"] = one["model.film"].replace("constant-volume", "finite")
+        if one.get("bridge.law") in ("rabinovich", "lambert", "constant"):
+            one["bridge.rupture"] = "common"
+        if one["model.film"] == "constant-volume":
+            one.update({"model.glass": "literal", "model.tangential": "immersed"})
+    return found
+
+
+def drawn(model: Mapping[str, str], random: np.random.Generator) -> wd.Scene:
+    """A preset with its numbers scaled by up to four and the model's choices; InputError where they do not fit."""
+    preset = wd.Scene.load(model["preset"])
+    entries: dict[str, Any] = {}
+    for name, value in preset.si:
+        factor, part = float(4 ** random.uniform(-1, 1)), float(random.uniform(0, 1))
+        if not isinstance(value, str) and not name.startswith("impact."):
+            bounded = {"particles.dry_restitution": part, "particles.poisson_ratio": part / 2}
+            entries[name] = bounded.get(name, part if name == "bridge.contact_angle" else value * factor)
+    entries |= {name: choice for name, choice in model.items() if "." in name}
+    if "bridge.law" in model and not any(name.startswith("bridge.") for name in entries.keys() - model.keys()):
+        entries |= {"bridge.surface_tension": 0.02, "bridge.volume": 0.01, "bridge.contact_angle": 0.1}
+    if model["attraction"]:
+        entries["attraction.hamaker"] = float(10 ** random.uniform(-20, -18))
+    if model["partner"] == "wall":
+        entries["partner.wall"] = "true"
+    elif model["partner"]:
+        size = 2 * entries["particles.reduced_radius"] * float(4 ** random.uniform(-1, 1))
+        mass = 2 * entries["particles.reduced_mass"] * float(4 ** random.uniform(-1, 1))
+        entries |= {"partner.radius": size, "partner.mass": mass}
+    return preset.with_entries(entries)
+
+
+def scenes(out: Out, number: int, model: Mapping[str, str], count: int) -> Iterator[tuple[str, wd.Scene, Any, Any]]:
+    """Name, scene, Stokes numbers and angles of so many scenes of a model; what is refused is an answer as well."""
+    made = 0
+    for k in range(40 * count):
+        random = np.random.default_rng([TASK["seed"], number, k])
+        name = f"model {number}, scene {k}"
+        try:
+            scene = drawn(model, random)
+        except wd.InputError as error:
+            out("scene refused", name, str(error), about=str(model))
+            continue
+        out("scene", name, plain(scene), about=str(model))
+        stokes = np.exp(random.uniform(np.log(3e-3), np.log(20.0), BATCH))
+        yield name, scene, stokes, np.append(0.0, random.uniform(0.0, 1.5, BATCH - 1))
+        made += 1
+        if made == count:
+            return
+
+
+def tolerances(call: Callable[..., Any], base: Any, scene: wd.Scene, stokes: Any, angle: Any) -> dict[str, str]:
+    """Path -> difference that rounding may make to a number of `base`, from how it moves with what goes in."""
+    old, moved = dict(leaves(base)), dict.fromkeys((path for path, _ in leaves(base)), 0.0)
+    random = np.random.default_rng(TASK["seed"])
+    for _ in range(NUDGES):
+        down = {name: value * (1 - 2 * NUDGE * random.uniform()) for name, value in scene.si if _moves(name, value)}
+        factors = 1 - 2 * NUDGE * random.uniform(size=2)
+        nudged = dict(
+            leaves(answer(call, scene.with_entries(down), stokes=stokes * factors[0], angle=angle * factors[1]))
+        )
+        for path, value in old.items():
+            if _is_number(value):
+                change = abs(_real(nudged.get(path)) - _real(value))
+                moved[path] += change / NUDGE if np.isfinite(change) else np.inf  # it has become another collision
+    found = {}
+    for path, value in old.items():
+        if _is_number(value) and np.isfinite(_real(value)):
+            whole = {"residual": old.get("/energy/initial"), "angular_momentum_drift": (1.0).hex()}.get(
+                path.split("/")[-1]
+            )
+            scale = max(abs(_real(value)), abs(_real(whole)) if whole else 0.0, moved[path])
+            found[path] = (ROUNDING * scale).hex()
+    return found
+
+
+def _moves(name: str, value: Any) -> bool:
+    return isinstance(value, float) and not name.startswith("impact.")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, str) and bool(re.match(r"-?0x|nan|-?inf", value))
+
+
+def _real(value: Any) -> float:
+    return float.fromhex(value) if _is_number(value) else float("nan")
+
+
+def collisions(out: Out) -> None:
+    """By the engines of CasADi."""
+    out("names", "public", list(wd.__all__))
+    size = 5 if QUICK else 20
+    each = max(1, TASK["collisions"] * 3 // 20 // size)
+    for number, model in enumerate(models(size)):
+        for name, scene, stokes, angle in scenes(out, number, model, -(-each // 5)):
+            about = scene.to_toml()
+            for k in range(min(5, each)):
+                impact = {"stokes": float(stokes[k]), "angle": float(angle[k])}
+                for engine in ("rosenbrock", "cvodes") if k < 2 else ("rosenbrock",):
+                    found = answer(wd.collide, scene, engine=engine, **impact)
+                    out(f"collide {engine}", f"{name}, {impact}", found, about=about)
+            found = answer(wd.collide_many, scene, stokes=stokes, angle=angle, engine="rosenbrock", of=FIELDS)
+            out("collide_many rosenbrock", name, found, count=BATCH, about=about)
+    for preset in PRESETS:
+        for engine in ("rosenbrock", "cvodes"):
+            out("trajectory", f"{preset}, {engine}", answer(wd.collide, preset, engine=engine, trajectory=True))
+            loose = answer(wd.collide, preset, engine=engine, ledger=False, rtol=1e-6)
+            out(f"collide {engine}", f"{preset}, no ledger", loose)
+        if not QUICK:  # more than a hundred: integrators are compiled
+            stokes = np.geomspace(3e-3, 20.0, 120)
+            found = answer(wd.collide_many, preset, stokes=stokes, angle=1.0, engine="rosenbrock", of=FIELDS)
+            out("collide_many rosenbrock", preset, found, count=120)
+
+
+def kernels(out: Out) -> None:
+    """By the Taylor kernel."""
+    size = 5 if QUICK else 20
+
+    def asked(what: str, name: str, call: Callable[..., Any], scene: wd.Scene, stokes: Any, angle: Any) -> None:
+        found = answer(call, scene, stokes=stokes, angle=angle)
+        more = {"tolerance": tolerances(call, found, scene, stokes, angle)} if TASK["conditioning"] else {}
+        out(what, name, found, count=np.size(stokes), about=scene.to_toml(), **more)
+
+    def many(scene: wd.Scene, stokes: Any, angle: Any) -> Any:
+        return wd.collide_many(scene, stokes=stokes, angle=angle, engine="taylor", of=FIELDS)
+
+    def one(scene: wd.Scene, stokes: Any, angle: Any) -> Any:
+        found = plain(wd.collide(scene, stokes=float(stokes), angle=float(angle), engine="taylor"))
+        return found if TASK["exact"] else found | {"steps": None}  # a step more is no other answer
+
+    flags = "" if TASK["exact"] else ", flags that ship"
+    for number, model in enumerate(models(size)):
+        for name, scene, stokes, angle in scenes(out, number, model, -(-TASK["collisions"] // size // BATCH)):
+            asked(f"collide_many taylor{flags}", name, many, scene, stokes, angle)
+            for k in (1,) if QUICK else (0, 1, 2):
+                asked(f"collide taylor{flags}", f"{name}, impact {k}", one, scene, stokes[k], angle[k])
+    for preset in PRESETS if TASK["exact"] else ():
+        out("trajectory", f"{preset}, taylor", answer(wd.collide, preset, engine="taylor", trajectory=True))
+        vary = {"liquid.viscosity": np.geomspace(0.5, 2.0, 90) * dict(wd.Scene.load(preset).si)["liquid.viscosity"]}
+        found = answer(wd.collide_many, preset, vary=vary, engine="taylor", of=FIELDS)
+        out("collide_many taylor, vary", preset, found, count=90)
+
+
+def gradients(out: Out) -> None:
+    """Derivatives in parameters, by all methods."""
+    of = ("restitution", "contact_time", "rotation")
+    for number, model in enumerate(models(3 if QUICK else 12)):
+        for name, scene, stokes, angle in scenes(out, number, model, 1 if QUICK else 2):
+            about = scene.to_toml()
+            for hold in ("speed", "stokes"):
+                found = answer(wd.gradients_many, scene, stokes=stokes, angle=angle, of=of, hold=hold, engine="taylor")
+                out("gradients_many", f"{name}, {hold} held", found, count=BATCH, about=about)
+            for k in range(1, 3 if QUICK else 5):
+                for method, engine in (("forward", "rosenbrock"), ("adjoint", "rosenbrock"), ("forward", "cvodes")):
+                    impact = {"stokes": float(stokes[k]), "angle": float(angle[k])}
+                    found = answer(wd.sensitivities, scene, of, method=method, engine=engine, **impact)
+                    out("sensitivities", f"{name}, {impact}, {method}, {engine}", found, about=about)
+    sigma, wrt = {"liquid.viscosity": "5 %", "impact.angle": "1 deg"}, ("liquid.viscosity", "impact.angle")
+    for preset in PRESETS[:1] if QUICK else PRESETS:
+        stokes = np.array([0.8, 1.0, 1.2]) * (wd.Scene.load(preset).stokes or 1.0)
+        out("hessian", preset, answer(wd.sensitivities, preset, of="restitution", wrt=wrt, hessian=True))
+        out("trajectory_sensitivities", preset, answer(wd.trajectory_sensitivities, preset, wrt))
+        out("band", preset, answer(wd.band, preset, sigma, "impact.stokes", stokes, samples=16))
+        box = {"liquid.film_thickness": (0.95, 1.05), "particles.dry_restitution": (0.9, 1.0)}
+        box["liquid.film_thickness"] = tuple(np.array(box["liquid.film_thickness"]) * _entry(preset))
+        out("sobol_indices", preset, answer(wd.sobol_indices, preset, box, samples=16))
+
+
+def _entry(preset: str) -> float:
+    return float(dict(wd.Scene.load(preset).si)["liquid.film_thickness"])
+
+
+def boundaries(out: Out) -> None:
+    """Lines, planes and grids."""
+    for preset in PRESETS:
+        found = wd.boundary(preset, angle=np.radians([0.0, 35.0, 55.0, 70.0]))
+        out("boundary", preset, [plain(found), plain(found.to_dict()), str(found), plain(found.to_dataset())], count=4)
+        moved = answer(wd.boundary_sensitivities, preset, angle=np.radians([55.0]), wrt=("liquid.viscosity",))
+        out("boundary_sensitivities", preset, moved)
+        grid = {"stokes": np.geomspace(0.01, 5.0, 12), "angle": np.linspace(0.0, 1.4, 7)}
+        out("regime_map", preset, answer(wd.regime_map, preset, **grid), count=84)
+    for number, model in enumerate(models(3 if QUICK else 20)):
+        for name, scene, _, angle in scenes(out, number, model, 1):
+            out("boundary", name, answer(wd.boundary, scene, angle=angle[:3]), count=3, about=scene.to_toml())
+    out("atlas", "granulation", answer(wd.atlas, "granulation", span=np.radians([20.0, 65.0])))
+    if not QUICK:
+        rough = {"over": "particles.roughness", "span": ("0.1 um", "4 um")}
+        out("atlas", "granulation, roughness", answer(wd.atlas, "granulation", **rough))
+        out("atlas", "pendulum", answer(wd.atlas, "pendulum", span=np.radians([20.0, 65.0])))
+
+
+QUICK_COMMANDS = """
+--version
+scenes
+scenes granulation -o mine.toml
+scenes pendulum --set liquid.viscosity=3
+collide granulation
+collide granulation --stokes 0.02 --angle 75 --plot flight.png
+collide pendulum --stokes 1.5 --angle 45deg --json
+collide mine.toml --speed 0.54m/s --angle 60deg --engine rosenbrock -o flight.txt
+collide granulation --engine taylor --json --set bridge.law=willett
+collide granulation --stokes 0.003
+collide granulation --engine cvodse
+collide granulation --set liquid.viscosty=3
+collide granulatoin
+collide granulation --rtol 1
+map granulation --stokes log:0.005:0.5:12 --angle 0:85:8
+map granulation --stokes log:0.005:0.5:12 --angle 0:85:8 -o map.nc --plot map.png
+boundary granulation --angle 40:60:3 --plot lines.png
+boundary pendulum --angle 40:60:3 --json
+boundary granulation --angle 55:55:1 --wrt all
+sensitivity granulation
+sensitivity granulation --of restitution,contact_time --plot tornado.png --uncertainty liquid.viscosity=5%
+sensitivity pendulum --wrt liquid.viscosity,impact.angle --method adjoint --json
+export granulation --to c --out exported
+export pendulum --to latex --out exported
+export granulation --to matlab
+diff granulation granulation --set bridge.law=willett
+reproduce factors --out paper
+"""
+COMMANDS = """
+map pendulum --stokes 0.5:3:6 --angle 20:60:5 --vary liquid.viscosity=20Pa_s:40Pa_s:2 -o more.nc
+boundary granulation --angle 30:60 --plot atlas.png
+boundary granulation --angle 50:60 --json
+sensitivity granulation --hessian --wrt liquid.viscosity,impact.angle
+diff library mine.py --latex
+diff granulation granulation-dry-bridge --markdown -o diff.md
+generate mine.py --out mine
+collide granulation --model mine
+reproduce table1 --out paper
+reproduce fig3 --out paper
+generate --check
+verify pendulum
+"""
+
+
+def commands(out: Out) -> None:
+    """Every command: exit status, what it prints, and the files that it leaves."""
+    every = _command(out, "--help").partition("Commands:\n")[2]
+    for name in re.findall(r"^  (\w[\w-]*)", every, flags=re.M):
+        _command(out, f"{name} --help")
+    Path("mine.py").write_text(_command(out, "generate --template"))
+    for line in (QUICK_COMMANDS + ("" if QUICK else COMMANDS)).split("\n"):
+        if line:
+            _command(out, line)
+
+
+def _command(out: Out, line: str) -> str:
+    before = set(Path().rglob("*"))
+    words = [word.replace("_s", " s") if "Pa_s" in word else word for word in line.split()]
+    done = subprocess.run([sys.executable, "-m", "wetdoublet.solvers", *words], capture_output=True, text=True)
+    files = sorted(
+        path for path in set(Path().rglob("*")) - before if path.is_file() and "__pycache__" not in path.parts
+    )
+    left = {str(path): _content(path) for path in files}
+    found = {"exit": done.returncode, "stdout": _masked(done.stdout), "stderr": _masked(done.stderr), "files": left}
+    out("command", line, found)
+    return done.stdout
+
+
+def _content(path: Path) -> Any:
+    if path.suffix == ".nc":
+        import xarray
+
+        with xarray.open_dataset(path, engine="h5netcdf", decode_cf=False) as found:
+            return plain(found.load())
+    if path.suffix in TEXTS:
+        return _masked(path.read_text())
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _masked(text: str) -> str:
+    for folder in TASK["masked"]:
+        text = text.replace(folder, "FOLDER")
+    for pattern, word in MASKS:
+        text = re.sub(pattern, word, text)
+    return text
+
+
+if __name__ == "__main__":
+    home = Path(wd.__file__).resolve().parent
+    if home != Path(TASK["source"]).resolve() / "solvers":
+        sys.exit(f"wetdoublet.solvers is imported from {home}, not from the tree {TASK['source']}")
+    {each.__name__: each for each in (collisions, kernels, gradients, boundaries, commands)}[TASK["kind"]](
+        Out(TASK["file"])
+    )
