@@ -15,7 +15,8 @@ own, with caches of its own, through the public interface (`two_trees_worker.py`
 The flags that ship let the compiler fuse products with sums, and where it does depends on how the code is arranged. The
 tolerance of a number is then 1e-13 times the larger of its size and its conditioning: the sum, over four random
 perturbations of all entries and the impact at once by about 1e-6, of its change per relative perturbation (in BEFORE).
-What cancels (residual of the ledger, drift of the angular momentum) is measured by what it is a difference of.
+What cancels (residual of the ledger, drift of the angular momentum) is measured by what it is a difference of. These
+collisions are integrated to rtol 1e-13: where rounding decides that a step is taken anew, the result moves by as much.
 
 --renamed FILE has lines `old text -> new text`: words renamed on purpose. They are applied to lines, keys and messages
 of BEFORE that AFTER does not have; each use is counted. Exit status: 0 if the trees agree, 1 if not, 2 for bad input.
@@ -38,6 +39,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -134,7 +136,7 @@ def _told(path: str, old: Any, new: Any, tolerance: str | None, renamed: Renamin
     return "\n".join([f"{path}:", *difflib.unified_diff(lines, others, "before", "after", n=1, lineterm="")])
 
 
-def compared(before: Path, after: Path, renamed: Renaming, say: Any = print) -> tuple[int, int]:
+def compared(before: Path, after: Path, renamed: Renaming, say: Any = partial(print, flush=True)) -> tuple[int, int]:
     """How many records two files of JSON lines have between them, and how many differ; tells of both, kind by kind."""
     old, new = _records(before), _records(after)
     total: dict[str, Counter[str]] = defaultdict(Counter)
@@ -149,7 +151,8 @@ def compared(before: Path, after: Path, renamed: Renaming, say: Any = print) -> 
         counts.update(records=1, compared=one["count"], differ=int(bool(found)))
         if found:
             shown = "\n".join(found[:SHOWN] + [f"... {len(found) - SHOWN} more"] * (len(found) > SHOWN))
-            told[one["what"]].append(f"  {name}, {one.get('about', '')}\n" + re.sub("^", "    ", shown, flags=re.M))
+            about = "; ".join(line for line in one.get("about", "").splitlines() if line)
+            told[one["what"]].append(f"  {name}: {about}\n" + re.sub("^", "    ", shown, flags=re.M))
     for what, counts in total.items():
         say(f"{what}: {counts['compared']} in {counts['records']} records, {counts['differ']} records differ")
         for each in told[what][:SHOWN]:
