@@ -48,6 +48,7 @@ FOLDERS = ("derive", "generated", "solvers")
 KINDS = ("collisions", "kernels", "gradients", "boundaries", "commands")
 OFF, SHIPPED = "-ffp-contract=off", ""
 SHOWN = 4  # records of a kind that differ, and differences of a record, that are printed
+_print = partial(print, flush=True)
 _NUMBER = re.compile(r"-?(0x[01]\.[0-9a-f]+p[+-]\d+|inf)|nan")
 
 
@@ -136,13 +137,17 @@ def _told(path: str, old: Any, new: Any, tolerance: str | None, renamed: Renamin
     return "\n".join([f"{path}:", *difflib.unified_diff(lines, others, "before", "after", n=1, lineterm="")])
 
 
-def compared(before: Path, after: Path, renamed: Renaming, say: Any = partial(print, flush=True)) -> tuple[int, int]:
+def compared(before: Path, after: Path, renamed: Renaming, say: Any = _print) -> tuple[int, int]:
     """How many records two files of JSON lines have between them, and how many differ; tells of both, kind by kind."""
     old, new = _records(before), _records(after)
     total: dict[str, Counter[str]] = defaultdict(Counter)
     told: dict[str, list[str]] = defaultdict(list)
+    met: Counter[str] = Counter()
     for name in dict.fromkeys([*old, *new]):
         one = old.get(name) or new[name]
+        met.update(
+            str(value) for path, value in leaves(one["value"]) if path.endswith(("/kind", "/outcome", "/raises"))
+        )
         if name in old and name in new:
             found = differences(old[name], new[name], renamed)
         else:
@@ -159,6 +164,8 @@ def compared(before: Path, after: Path, renamed: Renaming, say: Any = partial(pr
             say(each)
         if len(told[what]) > SHOWN:
             say(f"  ... and {len(told[what]) - SHOWN} more")
+    if met:
+        say("met: " + ", ".join(f"{what} {times}" for what, times in met.most_common()))
     return sum(each["records"] for each in total.values()), sum(each["differ"] for each in total.values())
 
 
@@ -239,9 +246,9 @@ def main() -> int:
         running = [[pool.submit(tree.run, kind, flags, options) for tree in trees] for kind, flags in jobs]
         counts = [compared(*(each.result() for each in pair), renamed) for pair in running]
     for words in renamed.words:
-        print(f"renamed {renamed.uses[' -> '.join(words)]} times: {' -> '.join(words)}")  # noqa: T201
+        _print(f"renamed {renamed.uses[' -> '.join(words)]} times: {' -> '.join(words)}")
     records, differ = (sum(each) for each in zip(*counts))
-    print(f"{records} records, {differ} differ" if differ else f"{records} records: the trees agree")  # noqa: T201
+    _print(f"{records} records, {differ} differ" if differ else f"{records} records: the trees agree")
     return 1 if differ else 0
 
 

@@ -24,7 +24,7 @@ TASK: dict[str, Any] = json.loads(sys.argv[1]) if __name__ == "__main__" else {}
 QUICK = bool(TASK.get("quick"))
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
 CHOICES: dict[str, tuple[str, ...]] = {
-    "preset": ("granulation", "granulation", "granulation", "pendulum", "pendulum", "granulation-dry-bridge"),
+    "preset": ("granulation", "granulation", "granulation", "pendulum", "pendulum", "pendulum", "granulation-dry-bridge"),
     "bridge.law": (
         "mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant",
     ),
@@ -32,12 +32,17 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "model.film": ("finite", "finite", "infinite", "cavitating", "constant-volume"),
     "model.glass": ("literal", "film-corrected"),
     "model.tangential": ("immersed", "film"),
-    "model.arm": ("midgap", "midgap", "surface"),
+    "model.arm": ("midgap", "surface"),
     "pendulum.law": ("exact", "small-angle"),
     "partner": ("", "", "sphere", "wall"),
     "attraction": ("", "", "van der Waals"),
 }  # fmt: skip
 FIELDS = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
+SPANS = {  # decades by which a preset's value is scaled, so that each criterion is the first one somewhere
+    "particles.roughness": (-1.0, 1.6), "particles.youngs_modulus": (-6.0, 0.5),
+    "liquid.glass_transition_pressure": (-0.5, 5.0),
+}  # fmt: skip
+MOST = {"particles.dry_restitution": 1.0, "particles.poisson_ratio": 0.5, "bridge.contact_angle": 1.2}
 BATCH = 10  # impacts of a scene, the first head-on
 NUDGES, NUDGE, ROUNDING = 4, 1e-6, 1e-13  # how conditioning is measured, and what is allowed times it
 MASKS = ((r"\d{4}-\d\d-\d\d", "DATE"), (r"\b\d+(\.\d+)? s of processor time", "TIME"))
@@ -113,10 +118,9 @@ def drawn(model: Mapping[str, str], random: np.random.Generator) -> wd.Scene:
     preset = wd.Scene.load(model["preset"])
     entries: dict[str, Any] = {}
     for name, value in preset.si:
-        factor, part = float(4 ** random.uniform(-1, 1)), float(random.uniform(0, 1))
+        factor, part = float(10 ** random.uniform(*SPANS.get(name, (-0.6, 0.6)))), float(random.uniform(-0.2, 1.2))
         if not isinstance(value, str) and not name.startswith("impact."):
-            bounded = {"particles.dry_restitution": part, "particles.poisson_ratio": part / 2}
-            entries[name] = bounded.get(name, part if name == "bridge.contact_angle" else value * factor)
+            entries[name] = min(max(part, 0.0), 1.0) * MOST[name] if name in MOST else value * factor
     entries |= {name: choice for name, choice in model.items() if "." in name}
     if "bridge.law" in model and not any(name.startswith("bridge.") for name in entries.keys() - model.keys()):
         entries |= {"bridge.surface_tension": 0.02, "bridge.volume": 0.01, "bridge.contact_angle": 0.1}
@@ -143,7 +147,7 @@ def scenes(out: Out, number: int, model: Mapping[str, str], count: int) -> Itera
             out("scene refused", name, str(error), about=str(model))
             continue
         out("scene", name, plain(scene), about=str(model))
-        stokes = np.exp(random.uniform(np.log(3e-3), np.log(20.0), BATCH))
+        stokes = np.exp(random.uniform(np.log(3e-3), np.log(8.0), BATCH))
         yield name, scene, stokes, np.append(0.0, random.uniform(0.0, 1.5, BATCH - 1))
         made += 1
         if made == count:
