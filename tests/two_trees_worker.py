@@ -13,6 +13,7 @@ import subprocess
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ TASK: dict[str, Any] = json.loads(sys.argv[1]) if __name__ == "__main__" else {}
 QUICK = bool(TASK.get("quick"))
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
 CHOICES: dict[str, tuple[str, ...]] = {
-    "preset": ("granulation", "granulation", "granulation", "pendulum", "pendulum", "pendulum", "granulation-dry-bridge"),
+    "preset": ("granulation",) * 3 + ("pendulum",) * 3 + ("granulation-dry-bridge",),
     "bridge.law": (
         "mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant",
     ),
@@ -195,15 +196,13 @@ def collisions(out: Out) -> None:
     """By the engines of CasADi."""
     out("names", "public", list(wd.__all__))
     size = 5 if QUICK else 20
-    each = max(1, TASK["collisions"] * 3 // 20 // size)
     for number, model in enumerate(models(size)):
-        for name, scene, stokes, angle in scenes(out, number, model, -(-each // 5)):
+        for name, scene, stokes, angle in scenes(out, number, model, -(-TASK["collisions"] // size // BATCH)):
             about = scene.to_toml()
-            for k in range(min(5, each)):
-                impact = {"stokes": float(stokes[k]), "angle": float(angle[k])}
-                for engine in ("rosenbrock", "cvodes") if k < 2 else ("rosenbrock",):
-                    found = answer(wd.collide, scene, engine=engine, **impact)
-                    out(f"collide {engine}", f"{name}, {impact}", found, about=about)
+            for engine, impact in product(("rosenbrock", "cvodes"), zip(stokes.tolist(), angle.tolist())):
+                given = dict(zip(("stokes", "angle"), impact))
+                found = answer(wd.collide, scene, engine=engine, **given)
+                out(f"collide {engine}", f"{name}, {given}", found, about=about)
             found = answer(wd.collide_many, scene, stokes=stokes, angle=angle, engine="rosenbrock", of=FIELDS)
             out("collide_many rosenbrock", name, found, count=BATCH, about=about)
     for preset in PRESETS:
