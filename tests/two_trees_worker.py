@@ -299,6 +299,7 @@ collide pendulum --stokes 1.5 --angle 45deg --json
 collide mine.toml --speed 0.54m/s --angle 60deg --engine rosenbrock -o flight.txt
 collide granulation --engine taylor --json --set bridge.law=willett
 collide granulation --stokes 0.003
+collide granulation --stokes 0.3
 collide granulation --engine cvodse
 collide granulation --set liquid.viscosty=3
 collide granulatoin
