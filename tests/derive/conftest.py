@@ -12,9 +12,9 @@ from wetdoublet.derive.checks import Check, symbolic_checks
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.structure import structures
 
-_ROOT = derive.__module__.rsplit(".", 1)[0]
+_ROOT = derive.__module__.rsplit(".", 2)[0]
 # What is remembered of forces and models; mechanics, laws and scaling are functions of their arguments alone.
-_DERIVED = ("forces", "rates", "model", "invariants", "checks")
+_DERIVED = ("physics.forces", "equations", "checks")
 
 
 @pytest.fixture(scope="session")
@@ -36,7 +36,7 @@ def _modules() -> list[ModuleType]:
 def _forget() -> None:
     """Clear what is cached of forces and models."""
     for module in _modules():
-        if module.__name__.removeprefix(f"{_ROOT}.").split(".")[0] in _DERIVED:
+        if module.__name__.removeprefix(f"{_ROOT}.").startswith(_DERIVED):
             for value in list(vars(module).values()):
                 if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
                     value.cache_clear()

@@ -113,7 +113,7 @@ for package in ("wetdoublet.generated", "wetdoublet.solvers"):
             count += 1
 assert "sympy" not in sys.modules
 try:
-    import wetdoublet.derive.model
+    import wetdoublet.derive.equations.model
 except ImportError:
     print(count)
 """
@@ -159,8 +159,8 @@ def test_derive_imports_nothing_downstream():
     for path in sources:
         depth = len(path.relative_to(DERIVE).parts)  # that many dots reach derive itself
         for level, module in _imports(path.read_text()):
-            words = set(module.split("."))
-            assert not words & {"solvers", "generated", "casadi", "numpy", "wetdoublet"}, (path.name, module)
+            top = module.split(".")[0]
+            assert level or top not in {"casadi", "numpy", "wetdoublet"}, (path.name, module)
             assert level <= depth, (path.name, module)
 
 

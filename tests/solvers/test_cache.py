@@ -151,7 +151,7 @@ def test_a_damaged_unit_is_read_again(shelf: Path, tmp_path: Path):
 _RACE = """
 import os, sys, time
 from pathlib import Path
-from wetdoublet.solvers.cache import kept
+from wetdoublet.solvers.host.user_cache import kept
 
 def made():
     meeting = Path(sys.argv[1])
@@ -197,7 +197,7 @@ def test_a_folder_that_others_can_write_to_is_refused(mode: int, shelf: Path):
     """Nothing is taken from it, nothing is put there, one line says so, and what serves in its place is removed."""
     shelf.mkdir()
     shelf.chmod(mode)
-    program = 'from wetdoublet.solvers import cache; print(cache.kept("a.b", lambda: b"own"), cache.has("a."))'
+    program = 'from wetdoublet.solvers.host import user_cache as cache; print(cache.kept("a.b", lambda: b"own"), cache.has("a."))'
     done = in_process(program)
     assert done.stdout == "b'own' True\n"
     assert done.stderr.startswith(f"{shelf}: others can write to it; what is derived or compiled is kept in ")
@@ -208,10 +208,10 @@ def test_a_folder_that_others_can_write_to_is_refused(mode: int, shelf: Path):
 
 _FULL = """
 import os, subprocess, sys
-from wetdoublet.solvers import cache
+from wetdoublet.solvers.host import user_cache as cache
 for name in ("a.b", "c.d"):
     cache.kept(name, lambda: b"1" * 100_000)
-again = "from wetdoublet.solvers import cache; print(len(cache.kept('a.b', lambda: b'made again')))"
+again = "from wetdoublet.solvers.host import user_cache as cache; print(len(cache.kept('a.b', lambda: b'made again')))"
 subprocess.run([sys.executable, "-c", again], check=True)
 with cache.room() as place:
     (place / "object").write_bytes(bytes(1 << 20))
@@ -243,7 +243,7 @@ def test_no_folder_at_all(tmp_path: Path):
     """A cache whose place is a file: everything works, and one line names it."""
     (tmp_path / "file").write_text("")
     done = in_process(
-        "from wetdoublet.solvers import cache; print(cache.kept('a.b', lambda: b'own'))",
+        "from wetdoublet.solvers.host import user_cache as cache; print(cache.kept('a.b', lambda: b'own'))",
         WETDOUBLET_CACHE=str(tmp_path / "file" / "cache"),
     )
     assert done.stdout == "b'own'\n"
@@ -252,8 +252,8 @@ def test_no_folder_at_all(tmp_path: Path):
 
 _MAKING = """
 import time
-from wetdoublet.solvers import cache
-from wetdoublet.solvers.locks import held_file
+from wetdoublet.solvers.host import user_cache as cache
+from wetdoublet.solvers.host.locks import held_file
 with cache.room() as place, held_file(cache.folder(), ".making-"):
     (place / "half.o").write_text("")
     print("made", flush=True)
@@ -275,7 +275,7 @@ def test_what_a_kill_leaves_is_swept(shelf: Path):
         assert len(list(shelf.iterdir())) == 4
         running[0].kill()
         running[0].wait()
-        assert in_process("from wetdoublet.solvers import cache; cache.kept('a.b', bytes)").returncode == 0
+        assert in_process("from wetdoublet.solvers.host import user_cache as cache; cache.kept('a.b', bytes)").returncode == 0
         assert sorted(path.is_dir() for path in shelf.glob(".making-*")) == [False, True]
         assert len(list(shelf.glob(".making-*/half.o"))) == 1
     finally:
@@ -287,7 +287,7 @@ def test_what_a_kill_leaves_is_swept(shelf: Path):
 _SWEEPING = """
 import sys
 from pathlib import Path
-from wetdoublet.solvers.locks import held_file, held_folder, sweep
+from wetdoublet.solvers.host.locks import held_file, held_folder, sweep
 
 place = Path(sys.argv[1])
 for _ in range(100):

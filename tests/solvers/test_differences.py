@@ -22,7 +22,7 @@ from wetdoublet.solvers.model.model import choose, load
 
 from .command import run
 
-GENERATED = Path(differences.__file__).parents[1] / "generated"
+GENERATED = Path(differences.__file__).parents[2] / "generated"
 MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in ("__init__.py", "assemble.py"))
 
 

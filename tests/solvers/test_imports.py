@@ -14,7 +14,7 @@ HEAVY = ("sympy", "pint", "xarray", "matplotlib", "loky", "scipy")
 PROGRAM = """
 import atexit, json, sys
 atexit.register(lambda: sys.stderr.write("loaded " + json.dumps(sorted({m.split(".")[0] for m in sys.modules}))))
-from wetdoublet.solvers.cli import main
+from wetdoublet.solvers.commands.cli import main
 main(sys.argv[1:])
 """
 
@@ -46,5 +46,5 @@ def test_an_input_error_loads_no_integrator() -> None:
 def test_no_public_name_is_a_modules() -> None:
     """A module of the same name would take its place, once something had imported it."""
     modules = {module.name for module in pkgutil.iter_modules(solvers.__path__)}
-    assert modules > {"cli", "scene"}
+    assert modules > {"scene", "settings"}
     assert not modules & set(solvers.__all__)

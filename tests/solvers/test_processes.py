@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="what a session'
 LARGE = ["map", "granulation", "--stokes", "log:0.005:0.5:400", "--angle", "1:85:400", "--engine", "cvodes"]
 KEEPING = """
 import time
-from wetdoublet.solvers.locks import TEMPORARY, held_folder, temporary
+from wetdoublet.solvers.host.locks import TEMPORARY, held_folder, temporary
 with held_folder(temporary()[0], TEMPORARY) as folder:
     (folder / "something").touch()
     print(folder, flush=True)

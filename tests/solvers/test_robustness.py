@@ -23,8 +23,8 @@ from wetdoublet.solvers.engines.casadi.replay import Flown
 # the command, made to collide the same spheres for ever, and to say when it has begun
 LONG = """
 import sys
-from wetdoublet.solvers import simulate
-from wetdoublet.solvers.cli import main
+from wetdoublet.solvers.collision import collide as simulate
+from wetdoublet.solvers.commands.cli import main
 once = simulate.collide
 def collide(*args, **options):
     once(*args, **options)

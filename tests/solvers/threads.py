@@ -55,7 +55,7 @@ MANY = {"stokes": np.geomspace(0.01, 0.3, 300), "angle": np.linspace(0.0, 1.4, 3
 FEW = {"stokes": np.geomspace(0.02, 0.3, 6), "angle": 0.9}
 WRT = ("liquid.viscosity", "bridge.volume", "impact.angle")
 MODEL = Path(tempfile.gettempdir()) / f"wetdoublet-threads-{os.getpid()}" / "mine.py"
-SCENE = Path(solvers.__file__).parent / "presets" / "pendulum.toml"
+SCENE = Path(solvers.__file__).parent / "scene" / "presets" / "pendulum.toml"
 
 
 def _png(figure: Any) -> bytes:
