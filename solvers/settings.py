@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from .errors import InputError, did_you_mean
 from .scene.schema import Field, Range
-
-if TYPE_CHECKING:
-    from .scene.scene import Scene
 
 ENGINES = ("cvodes", "rosenbrock", "taylor")
 RTOL = 1e-9  # unless something else is asked for
@@ -40,15 +35,3 @@ def check_plugin(engine: object, label: str = "engine") -> str | None:
     if found == "taylor":
         raise InputError(label, found, ", ".join(ENGINES[:2]), "has no derivatives of this kind")
     return found
-
-
-def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
-    """The engine for `count` collisions of a scene, if it is not asked for: the Taylor kernel where they are not few.
-
-    What the kernel does not know, or a machine without a compiler, is Rosenbrock's, even where the kernel is asked for.
-    """
-    if asked not in (None, "taylor") or (asked is None and count <= FEW):
-        return asked or "rosenbrock"
-    from .engines.taylor.build import knows
-
-    return "taylor" if knows(scene) else "rosenbrock"

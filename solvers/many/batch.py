@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..scene.scene import Scene
 from ..scene.schema import unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array
-from ..settings import bulk_engine, check_engine, check_rtol
+from ..settings import check_engine, check_rtol
 
 QUANTITIES: dict[str, tuple[str, str]] = {
     "restitution": ("1", "normal restitution e_n"),

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
+from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
@@ -22,7 +23,7 @@ from ..scene.groups import si_values
 from ..scene.ranges import MOST
 from ..scene.scene import Scene
 from ..scene.user_model import Package
-from ..settings import RTOL, bulk_engine, check_engine, check_rtol
+from ..settings import RTOL, check_engine, check_rtol
 from .batch import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
 from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
 from .journal import Journal

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from .. import boundary
+from ..boundaries.boundary import boundary
 from ..boundaries.line import ready
 from ..boundaries.look import Look
 from ..engines.taylor.build import knows

@@ -133,6 +133,7 @@ def test_a_damaged_derivation_is_derived_again(shelf: Path, capfd: pytest.Captur
     assert "was damaged: it is made again" in capfd.readouterr().err
 
 
+_CACHE = "from wetdoublet.solvers.host import user_cache as cache"
 _INCH = 'from wetdoublet.solvers.scene.units import quantity; print(quantity("1 inch", "m", "x", "a length"))'
 
 
@@ -197,7 +198,7 @@ def test_a_folder_that_others_can_write_to_is_refused(mode: int, shelf: Path):
     """Nothing is taken from it, nothing is put there, one line says so, and what serves in its place is removed."""
     shelf.mkdir()
     shelf.chmod(mode)
-    program = 'from wetdoublet.solvers.host import user_cache as cache; print(cache.kept("a.b", lambda: b"own"), cache.has("a."))'
+    program = f'{_CACHE}; print(cache.kept("a.b", lambda: b"own"), cache.has("a."))'
     done = in_process(program)
     assert done.stdout == "b'own' True\n"
     assert done.stderr.startswith(f"{shelf}: others can write to it; what is derived or compiled is kept in ")
@@ -275,7 +276,7 @@ def test_what_a_kill_leaves_is_swept(shelf: Path):
         assert len(list(shelf.iterdir())) == 4
         running[0].kill()
         running[0].wait()
-        assert in_process("from wetdoublet.solvers.host import user_cache as cache; cache.kept('a.b', bytes)").returncode == 0
+        assert in_process(f"{_CACHE}; cache.kept('a.b', bytes)").returncode == 0
         assert sorted(path.is_dir() for path in shelf.glob(".making-*")) == [False, True]
         assert len(list(shelf.glob(".making-*/half.o"))) == 1
     finally:

@@ -1,0 +1,149 @@
+"""The rules of the house, read from the imports: arrows go one way, and there are no circles.
+
+`python tests/test_house.py` prints the rooms by floors, and what each imports.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections import defaultdict
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+Graph = dict[str, set[str]]
+# From what stands on nothing to what nothing stands on. A room imports from rooms above it in this list, never below.
+ORDER = (
+    "derive.vocabulary", "derive.physics", "derive.equations", "derive.user_model", "derive.user", "derive.checks",
+    "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
+    "solvers.settings", "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
+    "solvers.boundaries", "solvers.sensitivity", "solvers.verify", "solvers.export", "solvers.paper",
+    "solvers.benchmarks",
+    "solvers.commands", "solvers", "solvers.__main__",
+)  # fmt: skip
+
+
+@cache
+def modules() -> dict[str, Path]:
+    """Dotted name below the root -> file; `generated` is one."""
+    found = {}
+    for top in ("derive", "solvers"):
+        for path in sorted((ROOT / top).rglob("*.py")):
+            parts = path.relative_to(ROOT).with_suffix("").parts
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+@cache
+def imports() -> Graph:
+    """File -> files that it imports: types, and imports within functions, included."""
+    return {name: {each for each in _imported(name, path) if each != name} for name, path in modules().items()}
+
+
+def _imported(name: str, path: Path) -> set[str]:
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom):
+            base = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
+            base = base[: len(base) - node.level + 1] if node.level else []
+            source = ".".join([*base, *(node.module or "").split(".")]).strip(".")
+            source = source.removeprefix("wetdoublet.")
+            for alias in node.names:
+                whole = f"{source}.{alias.name}"
+                found.add(whole if whole in modules() else source)
+    return {"generated" if each.startswith("generated") else each for each in found if _ours(each)}
+
+
+def _ours(name: str) -> bool:
+    return name in modules() or name.startswith("generated")
+
+
+def room(name: str) -> str:
+    """The folder directly in derive/ or solvers/ that a file lies in, or the file that is left there."""
+    return ".".join(name.split(".")[:2])
+
+
+@cache
+def rooms() -> Graph:
+    """Room -> rooms that it imports from."""
+    found: Graph = defaultdict(set)
+    for name, those in imports().items():
+        found[room(name)] |= {room(each) for each in those} - {room(name)}
+    return dict(found)
+
+
+def circles(graph: Graph) -> list[list[str]]:
+    """What is left of a graph when all that stands on nothing but what is gone has been taken away, again and again."""
+    left = {name: set(those) for name, those in graph.items()}
+    while True:
+        free = {name for name, those in left.items() if not those & left.keys()}
+        if not free:
+            break
+        left = {name: those for name, those in left.items() if name not in free}
+    while True:  # and what nothing in a circle stands on
+        used = set().union(*left.values()) if left else set()
+        if left.keys() <= used:
+            break
+        left = {name: those for name, those in left.items() if name in used}
+    return [sorted(left)] if left else []
+
+
+def floors(graph: Graph) -> list[list[str]]:
+    """Rooms by floors: each stands on those below."""
+    height: dict[str, int] = {}
+
+    def of(name: str) -> int:
+        if name not in height:
+            height[name] = 1 + max((of(each) for each in graph.get(name, ())), default=-1)
+        return height[name]
+
+    for name in graph:
+        of(name)
+    found: list[list[str]] = [[] for _ in range(1 + max(height.values()))]
+    for name, floor in height.items():
+        found[floor].append(name)
+    return found
+
+
+def test_there_is_no_circle_of_files() -> None:
+    """Imports for types and imports within functions count."""
+    assert circles(imports()) == []
+
+
+def test_rooms_stand_on_rooms_above_them_in_the_list() -> None:
+    """No arrow against the order, no circle, at most 32 rooms on at most 18 floors."""
+    assert circles(rooms()) == []
+    everything = {*rooms(), *set().union(*rooms().values())}
+    wrong = [(name, each) for name, those in rooms().items() for each in those if _rank(name) <= _rank(each)]
+    assert everything - {"derive"} <= set(ORDER)
+    assert wrong == []
+    assert len(everything) <= 32
+    assert len(floors(rooms())) <= 18
+
+
+def _rank(name: str) -> int:
+    return -1 if name == "derive" else ORDER.index(name)
+
+
+def test_the_engines_do_not_know_of_each_other() -> None:
+    """Neither imports from the other's folder."""
+    for one, other in (("casadi", "taylor"), ("taylor", "casadi")):
+        own = [name for name in imports() if name.startswith(f"solvers.engines.{one}")]
+        assert len(own) > 3
+        assert not [
+            (name, each) for name in own for each in imports()[name] if each.startswith(f"solvers.engines.{other}")
+        ]
+
+
+def test_every_room_says_what_it_is_for() -> None:
+    """The `__init__.py` of each folder begins with a docstring."""
+    folders = {path.parent for path in modules().values()}
+    assert not [folder for folder in folders if not ast.get_docstring(ast.parse((folder / "__init__.py").read_text()))]
+
+
+if __name__ == "__main__":
+    assert not circles(rooms()), circles(rooms())
+    for floor, names in enumerate(floors(rooms())):
+        for each in sorted(names):
+            sys.stdout.write(f"{floor:2}  {each:24} {', '.join(sorted(rooms().get(each, ())))}\n")
