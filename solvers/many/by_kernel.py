@@ -2,36 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
 from ...generated import scaling
 from ..engines.taylor.call import Impacts, answers
-from ..errors import InputError
+from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
+from ..scene.quantities import quantities
+from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Request
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions between two signs of life; memory stays flat
-# Entries that are a quantity of the model as they stand, and those that are twice one.
-_PLAIN = {
-    "particles.reduced_radius": 1.0,
-    "particles.radius": 0.5,
-    "particles.reduced_mass": 1.0,
-    "particles.mass": 0.5,
-    **dict.fromkeys(("particles.roughness", "particles.dry_restitution"), 1.0),
-    **dict.fromkeys(("particles.youngs_modulus", "particles.poisson_ratio"), 1.0),
-    **dict.fromkeys(("liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure"), 1.0),
-    **dict.fromkeys(("bridge.surface_tension", "bridge.volume", "bridge.contact_angle"), 1.0),
-    **dict.fromkeys(("pendulum.length", "pendulum.gravity", "attraction.hamaker"), 1.0),
-}
-_RENAMED = {
-    "radius": "reduced_radius",
-    "mass": "reduced_mass",
-    "length": "string_length",
-}
 _MOST = 1e30  # magnitude of an SI quantity, and its inverse the least
 _NEVER = ("glass_transition_pressure", "youngs_modulus")  # so large that a criterion is never met
 _NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall judge
@@ -70,7 +56,7 @@ def impacts_of(request: Request) -> tuple[Impacts, np.ndarray]:
     values: dict[str, np.ndarray] = {}
     with np.errstate(all="ignore"):  # what leaves a double's range is not usual
         if request.vary:
-            values, sound = _quickly(request) if _plain(request) else _one_by_one(request)
+            values, sound = _columns(request)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
         else:
             sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
@@ -90,44 +76,36 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     return usual
 
 
-def _plain(request: Request) -> bool:
-    """Whether every entry that varies is a quantity by itself, and judged by itself."""
+def _columns(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Quantities of every collision where entries vary, and which the rules for entries together leave beyond doubt."""
     scene = request.scene
-    own = {f"custom.{name}" for name in scene.package.quantities} if scene.package is not None else set()
-    if not all(name in _PLAIN or name in own for name in request.vary) or scene.partner is not None:
-        return False
-    bare = scene.attraction is not None and "particles.roughness" in request.vary  # it keeps the gap open
-    return not bare and not any(given == "particles.density" for given, _ in scene.given)
+    entries: dict[str, Any] = {name: value for name, value in scene.si if not isinstance(value, str)}
+    if scene.pendulum is not None:
+        entries["pendulum.gravity"] = scene.pendulum.gravity
+    entries = {name: value for name, value in entries.items() if not name.startswith("impact.")}
+    found = quantities(entries | dict(request.vary), scene.wall)
+    values = {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
+    return values, _sound(scene, values)
 
 
-def _quickly(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    values = {name: np.full(request.size, value) for name, value in si_values(request.scene, None, None).items()}
-    for name, column in request.vary.items():
-        own = name.partition(".")[2]
-        values[_RENAMED.get(own, own)] = column * _PLAIN.get(name, 1.0)
+def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Where the rules of `scene.entry_rules` hold with room to spare; elsewhere the scene itself shall judge."""
     film = values["film_thickness"]
     sound = values["roughness"] < film * (1 - _NEAR)
     rupture = film
-    if request.scene.bridge is not None:
-        formula, arguments = formulas(request.scene)["rupture_gap"]
+    if scene.bridge is not None:
+        formula, arguments = formulas(scene)["rupture_gap"]
         gap = np.asarray(formula(*(values[name] for name in arguments)))
         sound &= (gap > 1 + _NEAR) & np.isfinite(gap)
         rupture = gap * film
-    if request.scene.pendulum is not None:
+    if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    return values, sound
-
-
-def _one_by_one(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """By way of the scene of every collision: entries that others are made of."""
-    rows, sound = [], np.ones(request.size, bool)
-    for k in range(request.size):
-        try:
-            rows.append(si_values(request.scene_of(k), None, None))
-        except InputError:
-            sound[k] = False
-            rows.append(rows[-1] if rows else si_values(request.scene, None, None))
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}, sound
+    if scene.attraction is not None and scene.particles.youngs_modulus is None:
+        sound &= values["roughness"] > 0  # it keeps the gap open
+    for ratio in ("radius_ratio", "mass_ratio"):
+        if scene.partner is not None and ratio in values:
+            sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))
+    return sound
 
 
 def _block(request: Request, found: np.ndarray, impacts: Impacts) -> Block:

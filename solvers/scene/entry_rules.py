@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, shown
 from . import user_model as custom
+from .quantities import partner_mass, sphere
 from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, ONE_OF_EACH, REQUIRED_TABLES, TABLES, unknown_entry
 from .tables import Attraction, Bridge, Partner, Pendulum, Table
 
@@ -103,31 +104,22 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
 
 
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries of `Particles`: a = R/2 and m = M/2, M = 4/3 pi R^3 rho, from whichever was given."""
-    of = _of("particles", values)
-    if "radius" in of:
-        of["reduced_radius"] = of.pop("radius") / 2
-    if "density" in of:
-        of["mass"] = _weighed(2 * of["reduced_radius"], of.pop("density"))
-    if "mass" in of:
-        of["reduced_mass"] = of.pop("mass") / 2
-    return of
+    """Return the entries of `Particles`: a = R/2 and m = M/2 from whichever was given."""
+    of = {key: value for key, value in _of("particles", values).items() if key not in ("radius", "mass", "density")}
+    return of | sphere(values)
 
 
 def partner(values: Mapping[str, Any]) -> Partner | None:
     """Return the partner, its mass from whatever was given; None if the spheres are equal."""
     of = _of("partner", values)
     if "density" in of:
-        of["mass"] = _weighed(of["radius"], of.pop("density"))
+        of["mass"] = partner_mass(values)
+        del of["density"]
     return Partner(**of) if of else None
 
 
 def _of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
     return {name.partition(".")[2]: value for name, value in values.items() if name.startswith(table + ".")}
-
-
-def _weighed(radius: float, density: float) -> float:
-    return 4 / 3 * math.pi * radius * radius * radius * density  # inf rather than OverflowError
 
 
 def table(kind: type[Table], values: Mapping[str, Any]) -> Table | None:
@@ -178,13 +170,13 @@ def _check_partner(scene: System) -> None:
     if scene.pendulum is not None:
         raise InputError(entry, given[entry], "no [partner] beside [pendulum]", "is given together with strings")
     for name, ratio in (("partner.radius", scene.radius_ratio), ("partner.mass", scene.mass_ratio)):
-        if ratio is not None and not _FARTHEST**-1 <= ratio <= _FARTHEST:
+        if ratio is not None and not FARTHEST**-1 <= ratio <= FARTHEST:
             known = name if name in given else "partner.density"
-            accepted = f"a partner of {_FARTHEST**-1:g} to {_FARTHEST:g} times the sphere's, or wall = true"
+            accepted = f"a partner of {FARTHEST**-1:g} to {FARTHEST:g} times the sphere's, or wall = true"
             raise InputError(known, given[known], accepted, "is too far from the sphere's")
 
 
-_FARTHEST = 1e4  # ratio of radii or masses: beyond, the equations of a pair lose digits; a wall is their limit
+FARTHEST = 1e4  # ratio of radii or masses: beyond, the equations of a pair lose digits; a wall is their limit
 
 
 def _check_laws(scene: System) -> None:

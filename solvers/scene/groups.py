@@ -9,6 +9,7 @@ from typing import Any
 
 from ...generated import scaling
 from ..host import emitted
+from .quantities import quantities
 from .system import System
 
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
@@ -57,38 +58,13 @@ def law_module(scene: System, slot: str, name: str) -> Any:
 
 def si_values(scene: System, speed: float | None, angle: float | None) -> dict[str, float]:
     """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
-    particles, liquid = scene.particles, scene.liquid
-    values = {
-        "reduced_radius": scene.reduced_radius,
-        "reduced_mass": scene.reduced_mass,
-        "roughness": particles.roughness,
-        "dry_restitution": particles.dry_restitution,
-        "viscosity": liquid.viscosity,
-        "film_thickness": liquid.film_thickness,
-        "glass_transition_pressure": liquid.glass_transition_pressure,
+    entries: dict[str, Any] = {
+        name: value for name, value in scene.si if not (isinstance(value, str) or name.startswith("impact."))
     }
-    values |= {name: value for name, value in (("speed", speed), ("angle", angle)) if value is not None}
-    if particles.youngs_modulus is not None and particles.poisson_ratio is not None:
-        values |= {"youngs_modulus": particles.youngs_modulus, "poisson_ratio": particles.poisson_ratio}
-    if liquid.density is not None:
-        values["density"] = liquid.density
-    if scene.bridge is not None:
-        bridge = scene.bridge
-        values |= {
-            "surface_tension": bridge.surface_tension,
-            "volume": bridge.volume,
-            "contact_angle": bridge.contact_angle,
-        }
-    if scene.attraction is not None:
-        values["hamaker"] = scene.attraction.hamaker
-    if scene.radius_ratio is not None and scene.mass_ratio is not None:
-        values |= {"radius_ratio": scene.radius_ratio, "mass_ratio": scene.mass_ratio}
     if scene.pendulum is not None:
-        values |= {"string_length": scene.pendulum.length, "gravity": scene.pendulum.gravity}
-    if scene.package is not None:
-        own = {f"custom.{name}": name for name in scene.package.quantities}
-        values |= {own[entry]: float(value) for entry, value in scene.si if entry in own}
-    return values
+        entries["pendulum.gravity"] = scene.pendulum.gravity  # which has a default
+    impact = {"impact.speed": speed, "impact.angle": angle}
+    return quantities(entries | {name: value for name, value in impact.items() if value is not None}, scene.wall)
 
 
 @lru_cache(maxsize=64)

@@ -13,6 +13,7 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
+from .quantities import shared
 from .schema import FIELDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
@@ -244,12 +245,12 @@ class Scene:
     @property
     def reduced_radius(self) -> float:
         """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 beside a wall."""
-        return self.particles.reduced_radius * _shared(self.radius_ratio)
+        return float(self.particles.reduced_radius * shared(self.radius_ratio))
 
     @property
     def reduced_mass(self) -> float:
         """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 beside a wall."""
-        return self.particles.reduced_mass * _shared(self.mass_ratio)
+        return float(self.particles.reduced_mass * shared(self.mass_ratio))
 
     # ---- lengths, and the impact both ways
 
@@ -320,8 +321,3 @@ def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[s
         return order.index(name.partition(".")[0]), impact.index(name) if name in impact else 0
 
     return sorted(entries.items(), key=place)
-
-
-def _shared(ratio: float | None) -> float:
-    """A reduced quantity over that of two equal spheres; exactly 1 for a ratio of 1."""
-    return 2.0 if ratio is None else 2 * ratio / (1 + ratio)

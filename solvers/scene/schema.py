@@ -46,6 +46,10 @@ class Field:
     """One entry: a quantity (with `unit`), a plain number (without), a choice (with `choices`) or a `flag`.
 
     A flag is there, as true, or left out.
+
+    Arguments:
+        gives: the quantity of the vocabulary that the entry times `factor` is, if it has another name; empty if it
+            takes other entries as well to make one (`quantities`).
     """
 
     name: str
@@ -56,6 +60,15 @@ class Field:
     choices: tuple[str, ...] = ()
     required: bool = False
     flag: bool = False
+    gives: str | None = None
+    factor: float = 1.0
+
+    @property
+    def quantity(self) -> str:
+        """Name in the vocabulary of what the entry is; empty if it is no quantity by itself."""
+        if self.choices or self.flag:
+            return ""
+        return self.name.partition(".")[2] if self.gives is None else self.gives
 
     @property
     def accepts(self) -> str:
@@ -139,10 +152,10 @@ def _table(*fields: Field) -> dict[str, Field]:
 
 FIELDS: dict[str, Field] = _table(
     Field("particles.reduced_radius", "a reduced radius a = R/2", '"50 um"', unit="m"),
-    Field("particles.radius", "a radius R", '"100 um"', unit="m"),
+    Field("particles.radius", "a radius R", '"100 um"', unit="m", gives="reduced_radius", factor=0.5),
     Field("particles.reduced_mass", "a reduced mass m = M/2", '"5.2e-6 g"', unit="kg"),
-    Field("particles.mass", "the mass M of one sphere", '"1.04e-5 g"', unit="kg"),
-    Field("particles.density", "the density of the spheres", '"2500 kg/m^3"', unit="kg/m^3"),
+    Field("particles.mass", "the mass M of one sphere", '"1.04e-5 g"', unit="kg", gives="reduced_mass", factor=0.5),
+    Field("particles.density", "the density of the spheres", '"2500 kg/m^3"', unit="kg/m^3", gives=""),
     Field("particles.roughness", "a roughness", '"0.2 um"', NOT_NEGATIVE, unit="m", required=True),
     Field("particles.dry_restitution", "a number", "0.99", FRACTION, required=True),
     Field("particles.youngs_modulus", "a Young's modulus", '"70 GPa"', unit="Pa"),
@@ -157,18 +170,18 @@ FIELDS: dict[str, Field] = _table(
     Field("bridge.law", "a law", "mikami", choices=BRIDGE_LAWS),
     Field("bridge.rupture", "a rupture distance", "common", choices=("common", "own")),
     Field("attraction.hamaker", "a Hamaker constant", '"1e-19 J"', NOT_NEGATIVE, unit="J", required=True),
-    Field("partner.radius", "the radius R of the partner", '"200 um"', unit="m"),
-    Field("partner.mass", "the mass M of the partner", '"8.3e-5 g"', unit="kg"),
-    Field("partner.density", "the density of the partner", '"2500 kg/m^3"', unit="kg/m^3"),
+    Field("partner.radius", "the radius R of the partner", '"200 um"', unit="m", gives=""),
+    Field("partner.mass", "the mass M of the partner", '"8.3e-5 g"', unit="kg", gives=""),
+    Field("partner.density", "the density of the partner", '"2500 kg/m^3"', unit="kg/m^3", gives=""),
     Field("partner.wall", "a wall", "true", flag=True),
-    Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True),
+    Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True, gives="string_length"),
     Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2"),
     Field("pendulum.law", "a law", "exact", choices=("exact", "small-angle")),
     Field("model.arm", "an arm", "midgap", choices=("midgap", "surface")),
     Field("model.tangential", "a logarithm", "immersed", choices=("immersed", "film")),
     Field("model.glass", "a criterion", "literal", choices=("literal", "film-corrected")),
     Field("model.film", "a film", "finite", choices=FILM_LAWS),
-    Field("impact.stokes", "a Stokes number", "0.03"),
+    Field("impact.stokes", "a Stokes number", "0.03", gives=""),
     Field("impact.speed", "a normal approach speed", '"0.54 m/s"', unit="m/s"),
     Field("impact.angle", "an impact angle", '"60 deg"', IMPACT_ANGLE, unit="rad"),
 )

@@ -5,7 +5,6 @@ Everything is differentiated in theta, p = p_ref (1 + theta), or p = scale theta
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -18,6 +17,7 @@ from ..errors import InputError, did_you_mean
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
 from ..scene.groups import Formula, formulas
+from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
@@ -25,11 +25,6 @@ IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
 HOLDS = ("speed", "stokes")
 SCALES = ("length", "time", "rate", "energy")
 _ONE_VARIABLE = ("impact.speed", "impact.stokes")
-_BODIES = ("particles", "partner")
-_OWN_NAMES = {  # of the vocabulary, where it differs from the key of the scene file
-    "liquid.density": "density",
-    "pendulum.length": "string_length",
-}
 
 
 def known(scene: Scene) -> tuple[str, ...]:
@@ -100,44 +95,6 @@ def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarr
     return np.array([float(values[name]) for name in kind.entries])
 
 
-def _shared(half_radius: Any, half_mass: Any, values: Mapping[str, Any], wall: bool) -> dict[str, Any]:
-    """A and m of the pair from R_1/2 and M_1/2, and the ratios of an unequal one."""
-    if wall:
-        return {"reduced_radius": 2 * half_radius, "reduced_mass": 2 * half_mass}
-    if "partner.radius" not in values:
-        return {"radius_ratio": 1.0, "mass_ratio": 1.0}
-    radius = values["partner.radius"]
-    sphere = 4 / 3 * math.pi * radius**3
-    mass = values["partner.mass"] if "partner.mass" in values else sphere * values["partner.density"]
-    ratios = {"radius_ratio": radius / (2 * half_radius), "mass_ratio": mass / (2 * half_mass)}
-    return ratios | {
-        "reduced_radius": 2 * half_radius * radius / (2 * half_radius + radius),
-        "reduced_mass": 2 * half_mass * mass / (2 * half_mass + mass),
-    }
-
-
-def vocabulary(values: Mapping[str, Any], wall: bool = False) -> dict[str, Any]:
-    """Entries by dotted name -> the quantities that the groups are made of; numbers or CasADi expressions."""
-    found = {
-        _OWN_NAMES.get(name, name.partition(".")[2]): value
-        for name, value in values.items()
-        if name.partition(".")[0] not in _BODIES or name.partition(".")[2] not in ("radius", "mass", "density")
-    }
-    found.pop("stokes", None)
-    if "particles.radius" in values:
-        found["reduced_radius"] = values["particles.radius"] / 2
-    if "particles.mass" in values:
-        found["reduced_mass"] = values["particles.mass"] / 2
-    if "particles.density" in values:
-        radius = 2 * found["reduced_radius"]
-        found["reduced_mass"] = 2 / 3 * math.pi * radius**3 * values["particles.density"]
-    found |= _shared(found["reduced_radius"], found["reduced_mass"], values, wall)
-    if "impact.stokes" in values:
-        per_speed = scaling.stokes(found["reduced_radius"], found["reduced_mass"], found["viscosity"], 1.0)
-        found["speed"] = values["impact.stokes"] / per_speed
-    return found
-
-
 def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
     """What a parameter that is zero is measured in."""
     return values["liquid.film_thickness"] if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
@@ -175,7 +132,7 @@ def way(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> Way:
         unit = zero * _scale_of_zero(moved, base) + (1 - zero) * base[moved]
         values[moved] += theta[k] * unit
         units.append(_impact(base, wall)[name] if name in _ONE_VARIABLE else unit)
-    known_values = vocabulary(values, wall)
+    known_values = quantities(values, wall)
     numbers: dict[str, Any] = {"elastic_gap": SX(0)}
     numbers |= {name: known_values[name] for name in groups if name in known_values}
     for name, (formula, arguments) in kind.formulas.items():
@@ -200,6 +157,6 @@ def way(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> Way:
 
 def _impact(base: Mapping[str, SX], wall: bool) -> dict[str, SX]:
     """Speed and Stokes number of the reference."""
-    of = vocabulary(base, wall)
+    of = quantities(base, wall)
     stokes = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], of["speed"])
     return {"impact.speed": of["speed"], "impact.stokes": stokes}

@@ -1,0 +1,65 @@
+"""A scene entry's way into the model: one table, for scenes, batches and sensitivities."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from wetdoublet.derive.vocabulary.quantities import VOCABULARY
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.scene.groups import si_values
+from wetdoublet.solvers.scene.quantities import quantities
+from wetdoublet.solvers.scene.schema import FIELDS
+
+NUMBERS = [name for name, field in FIELDS.items() if not (field.choices or field.flag)]
+FULL = {
+    "particles.radius": 1e-4, "particles.density": 2500.0, "particles.roughness": 2e-7,
+    "particles.dry_restitution": 0.9, "particles.youngs_modulus": 7e10, "particles.poisson_ratio": 0.2,
+    "liquid.viscosity": 2.0, "liquid.film_thickness": 8e-6, "liquid.glass_transition_pressure": 2e7,
+    "liquid.density": 1e3, "bridge.surface_tension": 0.025, "bridge.volume": 0.1, "bridge.contact_angle": 0.3,
+    "attraction.hamaker": 1e-19, "partner.radius": 2e-4, "partner.density": 2000.0, "pendulum.length": 0.5,
+    "pendulum.gravity": 9.8, "impact.stokes": 0.03, "impact.angle": 1.0,
+}  # fmt: skip
+OTHERS = {
+    "particles.reduced_radius": ("particles.radius", 5e-5), "particles.reduced_mass": ("particles.density", 5e-9),
+    "particles.mass": ("particles.density", 1e-8), "partner.mass": ("partner.density", 7e-8),
+    "impact.speed": ("impact.stokes", 0.5),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_every_number_reaches_the_model(name: str) -> None:
+    """What an entry is, or takes part in, are quantities of the derivation; and they change with it."""
+    entries = dict(FULL)
+    if name in OTHERS:
+        instead, value = OTHERS[name]
+        del entries[instead]
+        entries[name] = value
+    before = quantities(entries)
+    after = quantities(entries | {name: entries[name] * 1.01})
+    assert {key for key in before if before[key] != after[key]}
+    assert set(before) <= set(VOCABULARY)
+    if FIELDS[name].quantity not in ("", "reduced_radius", "reduced_mass"):  # those are the pair's
+        factor = before[FIELDS[name].quantity] / entries[name]
+        assert after[FIELDS[name].quantity] == pytest.approx(1.01 * factor * entries[name], rel=1e-12)
+
+
+def test_arrays_take_the_same_way_as_scenes() -> None:
+    """Quantities of columns are those of each scene, bit for bit: densities and partners too."""
+    scene = Scene.load("granulation").with_entries({"partner.radius": 1.5e-4, "partner.density": 2200.0})
+    columns = {"particles.radius": np.array([8e-5, 1.1e-4]), "partner.density": np.array([1500.0, 2700.0])}
+    entries = {name: value for name, value in scene.si if name not in ("particles.reduced_radius", "impact.stokes")}
+    found = quantities(entries | columns)
+    for k in range(2):
+        given = {name: float(column[k]) for name, column in columns.items()}
+        one = Scene.from_dict(
+            {
+                table: {
+                    key: given.get(f"{table}.{key}", value)
+                    for name, value in (entries | given).items() if name.split(".")[0] == table
+                    for key in [name.split(".")[1]]
+                }
+                for table in {name.split(".")[0] for name in entries}
+            }
+        )  # fmt: skip
+        expected = si_values(one, None, None)
+        assert {name: np.broadcast_to(found[name], 2)[k] for name in expected} == expected
