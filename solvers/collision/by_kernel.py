@@ -8,13 +8,13 @@ import numpy as np
 
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, recorded
-from ..model.cohesion import generalised_centrifugal
 from ..model.dimensionless import Numbers
 from ..model.model import choose, load
 from ..model.phases import CLOSING, OPENING, Phase
 from ..scene.scene import Scene
 from ..settings import STEPS
-from .outcome import Energy, Event
+from .assemble import Finding, assembled
+from .outcome import Energy
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -56,47 +56,23 @@ def collision(
     if energy is not None and separated and energy.is_open(rtol):
         return None  # the flight is wrong, whatever else it looks like
     happened = told.events[0, : found["events"]]
-
-    def shown(position: int, scale: float) -> float | None:
-        if not separated:
-            return None
-        return float(found["shown"][position]) * scale if n.oblique else 0.0
-
-    def partner_spin() -> float | None:
-        if scene.wall:
-            return 0.0 if separated else None
-        unequal = choose(scene, n.oblique, fold=True).structure.startswith("oblique_pair")
-        return shown(4 if unequal else 3, n.rate)
-
-    time = float(found["time"]) * n.time
-    return Collision(
+    model = load(choose(scene, n.oblique, fold=True))
+    finding = Finding(
         outcome=outcome,
-        restitution=float(found["shown"][0]) if separated else 0.0,
-        tangential_restitution=shown(1, 1.0) if n.oblique else None,
-        rotation=float(found["turned"]) if separated else None,
-        contact_time=time if separated else None,
-        smallest_gap=float(found["smallest_gap"]) * n.length if separated else None,
-        final_rotation_rate=shown(2, n.rate),
-        final_spin=shown(3, n.rate),
-        final_spin_partner=None if scene.partner is None else partner_spin(),
-        stokes=n.stokes,
-        centrifugal=n.centrifugal,
-        generalised_centrifugal=generalised_centrifugal(scene, n),
-        capillary=n.capillary,
-        reynolds=n.reynolds,
-        speed=n.speed,
-        angle=n.angle,
         reversal=reversal,
         certified=bool(found["certified"]),
-        until=None if separated else time,
-        events=tuple(Event(_KINDS[int(each["kind"])], float(each["time"]) * n.time) for each in happened),
-        energy=energy,
-        angular_momentum_drift=None if told.ledger is None else _drift(scene, n, told.ledger[0]),
+        outputs=dict(zip(model.names("outputs"), found["shown"].tolist())) if separated else {},
+        rotation=float(found["turned"]),
+        time=float(found["time"]),
+        smallest_gap=float(found["smallest_gap"]),
+        events=[(_KINDS[int(each["kind"])], float(each["time"])) for each in happened],
         engine="taylor",
         steps=int(found["steps"]),
-        scene=scene,
+        energy=energy,
+        drift=None if told.ledger is None else _drift(scene, n, told.ledger[0]),
         trajectory=_trajectory(scene, n, rtol, told, ledger) if trajectory else None,
     )
+    return assembled(scene, n, finding)
 
 
 def _energy(scene: Scene, n: Numbers, book: np.void) -> Energy:

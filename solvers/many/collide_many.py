@@ -204,7 +204,7 @@ def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:
 
 def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
     """One collision by the reference engine."""
-    from ..collision.collide import by_casadi
+    from ..collision.by_casadi import by_casadi
 
     n = numbers(scene, speed, angle)
     one = by_casadi(scene, n, request.rtol, "cvodes", ledger=False, trajectory=False).to_dict()

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.collision import collide as simulate
+from wetdoublet.solvers.collision import by_casadi
 from wetdoublet.solvers.engines.casadi.replay import Stopped
 
 IMPACTS = {"granulation": (0.06, "60 deg"), "pendulum": (1.5, "45 deg")}
@@ -24,7 +24,7 @@ def test_the_located_flight_answers_where_an_engine_cannot(
     def stops(path: Any, _plugin: str, _tolerance: Any, _kind: Any, start: Any) -> Any:
         raise Stopped("gave up", path.steps[0], 0.0, start)
 
-    monkeypatch.setattr(simulate, "fly", stops)
+    monkeypatch.setattr(by_casadi, "fly", stops)
     found = collide(preset, stokes=stokes, angle=angle, engine=engine, trajectory=True)
     assert (found.engine, found.outcome, found.reversal) == ("rosenbrock", usual.outcome, usual.reversal)
     assert [event.kind for event in found.events] == [event.kind for event in usual.events]

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide
-from wetdoublet.solvers.collision import collide as simulate
-from wetdoublet.solvers.collision.collide import _compute
+from wetdoublet.solvers.collision import by_casadi
+from wetdoublet.solvers.collision.by_casadi import _compute
 from wetdoublet.solvers.engines.casadi import integrators
 from wetdoublet.solvers.engines.casadi.replay import Flown
 
@@ -131,7 +131,7 @@ def test_nothing_extra_is_integrated(monkeypatch: pytest.MonkeyPatch) -> None:
         flows.append(found[2])
         return found
 
-    monkeypatch.setattr(simulate, "_compute", watched)
+    monkeypatch.setattr(by_casadi, "_compute", watched)
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")
     assert (flows[0].extras, tuple(flows[0].model.state)) == (("rotation",), ("gap", "opening", "orbit"))

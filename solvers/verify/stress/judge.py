@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ...certificates import NoProof
-from ...collision.collide import by_casadi
+from ...collision.by_casadi import by_casadi
 from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant
 from ...errors import ComputationError, ModelWarning

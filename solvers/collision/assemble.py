@@ -1,0 +1,91 @@
+"""What an engine finds of one collision, in dimensionless numbers, put together as its result in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..model.cohesion import generalised_centrifugal
+from ..model.dimensionless import Numbers
+from ..scene.scene import Scene
+from .outcome import Energy, Event
+from .result import Collision
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What an engine finds: times in x0/v0, gaps in x0, rates in omega0; the ledger and the trajectory are in SI.
+
+    Arguments:
+        outputs: the model's outputs where it separates, by name; else empty.
+        rotation: angle turned until then, rad.
+        time: of the end.
+        drift: |L/L(0) - 1| at the end, where L is conserved.
+    """
+
+    outcome: str
+    reversal: str | None
+    certified: bool
+    outputs: Mapping[str, float]
+    rotation: float
+    time: float
+    smallest_gap: float
+    events: Sequence[tuple[str, float]]
+    engine: str
+    steps: int
+    energy: Energy | None = None
+    drift: float | None = None
+    trajectory: xarray.Dataset | None = None
+
+
+def assembled(scene: Scene, n: Numbers, found: Finding) -> Collision:
+    """The result of a collision; what a stick leaves undefined is None."""
+    separated = found.outcome != "stick"
+    time = found.time * n.time
+
+    def rate(name: str) -> float | None:
+        if not separated:
+            return None
+        return found.outputs[name] * n.rate if n.oblique else 0.0
+
+    return Collision(
+        outcome=found.outcome,
+        restitution=found.outputs["restitution"] if separated else 0.0,
+        tangential_restitution=found.outputs["tangential_restitution"] if separated and n.oblique else None,
+        rotation=found.rotation if separated else None,
+        contact_time=time if separated else None,
+        smallest_gap=found.smallest_gap * n.length if separated else None,
+        final_spin=rate("final_spin"),
+        final_spin_partner=_partner_spin(scene, rate("final_spin"), found.outputs, n),
+        final_rotation_rate=rate("final_rotation_rate"),
+        stokes=n.stokes,
+        centrifugal=n.centrifugal,
+        generalised_centrifugal=generalised_centrifugal(scene, n),
+        capillary=n.capillary,
+        reynolds=n.reynolds,
+        speed=n.speed,
+        angle=n.angle,
+        reversal=found.reversal,
+        certified=found.certified and not separated,
+        until=None if separated else time,
+        events=tuple(Event(kind, at * n.time) for kind, at in found.events),
+        energy=found.energy,
+        angular_momentum_drift=found.drift,
+        engine=found.engine,
+        steps=found.steps,
+        scene=scene,
+        trajectory=found.trajectory,
+    )
+
+
+def _partner_spin(scene: Scene, own: float | None, outputs: Mapping[str, float], n: Numbers) -> float | None:
+    """Spin of the partner: its own, that of an equal, or none for a wall."""
+    if scene.partner is None or own is None:
+        return None
+    if scene.wall:
+        return 0.0
+    return outputs["final_spin_partner"] * n.rate if n.oblique and "final_spin_partner" in outputs else own

@@ -1,0 +1,169 @@
+"""One collision by CVODES or Rosenbrock: located, flown, and its ledger closed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..engines.casadi.integrators import tolerance as told
+from ..engines.casadi.locate import Path, locate
+from ..engines.casadi.replay import Flown, Stopped, as_located, fly
+from ..errors import ComputationError
+from ..model.dimensionless import Numbers
+from ..model.model import Model, choose, load
+from ..model.phases import Flow, Region
+from ..scene.scene import Scene
+from .assemble import Finding, assembled
+from .outcome import Energy
+from .result import Collision
+
+if TYPE_CHECKING:
+    import xarray
+
+Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], Path]
+_TIGHTEST = 1e-13
+_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
+
+
+def by_casadi(
+    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find = locate
+) -> Collision:
+    """By CVODES or Rosenbrock: what `collide` does with one of them.
+
+    Arguments:
+        find: what locates the flight; it is the same for both engines.
+    """
+    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find)
+    return _result(scene, n, *found, trajectory)
+
+
+def _compute(
+    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find = locate
+) -> tuple[Path, Flown, Flow, str, float]:
+    """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
+
+    Where no tolerance helps, the located flight itself is the answer. Also returns the engine that answers and the
+    tolerance that it took.
+    """
+    small = load(choose(scene, n.oblique, fold=True))
+    choice = choose(scene, n.oblique, full=ledger or trajectory, fold=True)
+    flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
+    tolerance = rtol
+    while True:
+        try:
+            located = find(small, n.groups, tolerance, ())
+        except ComputationError as error:
+            raise n.in_si(error) from None
+        start = flow.model.start(flow.model.group_values(n.groups))
+        try:
+            flown = fly(located, plugin, told(tolerance, plugin, n.groups), flow, start)
+        except Stopped as failure:
+            if failure.missed and tolerance > _TIGHTEST:
+                tolerance = tolerance * 1e-2 if tolerance > 200 * _TIGHTEST else _TIGHTEST
+                continue
+            try:
+                located = find(flow.model, n.groups, tolerance, flow.extras)
+            except ComputationError:
+                raise n.in_si(_failure(failure, flow.model, plugin)) from None
+            return located, as_located(located, choice), flow, "rosenbrock", tolerance
+        return located, flown, flow, plugin, tolerance
+
+
+def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
+    """What is integrated along: the rotation where it is not a state, the ledger's terms that the model has."""
+    rotation = ("rotation",) if model.has("turning_rate") and not model.strings else ()
+    return rotation + (tuple(name for name in model.names("energy_rates") if name in _LEDGER) if ledger else ())
+
+
+def _failure(failure: Stopped, model: Model, plugin: str) -> ComputationError:
+    return ComputationError(
+        f"{plugin} {failure.why}",
+        phase=str(failure.step.phase),
+        time=failure.time,
+        state=dict(zip(model.state, map(float, failure.y), strict=False)),
+        advice="try --engine rosenbrock" if plugin == "cvodes" else "try --rtol 1e-8, or another impact",
+    )
+
+
+def _result(
+    scene: Scene, n: Numbers, path: Path, flown: Flown, flow: Flow, plugin: str, rtol: float, trajectory: bool
+) -> Collision:
+    model, separated = flow.model, path.separated
+    p = model.group_values(n.groups)
+    energy = _ledger(model, flown, p, n) if "normal_lubrication" in flow.extras else None
+    if energy is not None and separated:
+        _demand_closed(energy, rtol)
+    finding = Finding(
+        outcome=path.outcome,
+        reversal=path.reversal,
+        certified=path.certified,
+        outputs=model.values("outputs", flown.y, p) if separated else {},
+        rotation=_rotation(flown, model),
+        time=flown.time,
+        smallest_gap=flown.smallest_gap,
+        events=flown.events,
+        engine=plugin,
+        steps=flown.steps,
+        energy=energy,
+        drift=_drift(model, flown, p) if "normal_lubrication" in flow.extras else None,
+        trajectory=_trajectory(scene, path, flown, model, n, plugin, rtol) if trajectory else None,
+    )
+    return assembled(scene, n, finding)
+
+
+def _rotation(flown: Flown, model: Model) -> float:
+    if model.strings and model.oblique:
+        return float(flown.y[list(model.state).index("rotation")])
+    return flown.extra("rotation") if "rotation" in flown.extras else 0.0
+
+
+def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
+    first = model.values("energies", model.start(p), p)
+    last = model.values("energies", flown.y, p)
+
+    def taken(name: str) -> float:
+        return flown.extra(name) if name in flown.extras else 0.0
+
+    return Energy(
+        initial=first["kinetic"] * n.energy,
+        final=last["kinetic"] * n.energy,
+        normal_lubrication=flown.extra("normal_lubrication") * n.energy,
+        tangential_lubrication=taken("tangential_lubrication") * n.energy,
+        capillary=taken("capillary") * n.energy,
+        attraction=taken("attraction") * n.energy if "attraction" in model.works else None,
+        dry_contact=flown.dry_loss * n.energy,
+        strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
+    )
+
+
+def _demand_closed(energy: Energy, rtol: float) -> None:
+    if energy.is_open(rtol):
+        raise ComputationError(
+            f"the energy ledger is open by {abs(energy.residual) / energy.largest:.1e} of its largest term",
+            advice="try a smaller --rtol, or the other --engine; please report the scene",
+        )
+
+
+def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
+    """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
+    if model.strings or model.wall:
+        return None
+    if not model.oblique:
+        return 0.0
+    return abs(model.values("angular_momentum", flown.y, p)["angular_momentum"] - 1.0)
+
+
+def _trajectory(
+    scene: Scene, path: Path, flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float
+) -> xarray.Dataset:
+    from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
+
+    attrs = attributes(scene, path.outcome, plugin, rtol)
+    tolerance, p = told(rtol, plugin, n.groups), model.group_values(n.groups)
+    pieces = [stretch(piece, model, flown, p, plugin, tolerance) for piece in flown.pieces]
+    try:
+        return dataset(pieces, model, n, flown.y, attrs)
+    except ComputationError as error:
+        raise n.in_si(error) from None
