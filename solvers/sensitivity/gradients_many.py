@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import xarray
 
 _SOON = 1000  # steps within which what separates mostly has
-_LONG = 10 * STEPS  # what creeps crawls without derivatives (runtime/crawl.h), and by single steps with them
+_LONG = 10 * STEPS  # what creeps crawls without derivatives (runtime/implicit.h), and by single steps with them
 _STRETCH = 4096  # collisions a thread takes at a time
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 

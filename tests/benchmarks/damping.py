@@ -1,4 +1,4 @@
-"""Prints the table of solvers/engines/taylor/runtime/damped.h: `python tests/benchmarks/damping.py` (needs scipy).
+"""Prints the table of solvers/engines/taylor/runtime/damped_sum.h: `python tests/benchmarks/damping.py` (needs scipy).
 
 For each order, the three factors that keep |R(z)| <= 0.6 from z = 2.5 up to the largest z that allows it, by linear
 programming; the largest z by bisection.

@@ -1,4 +1,4 @@
-"""Flights that creep for long (runtime/crawl.h): beside a saddle, and in a film that opens slowly."""
+"""Flights that creep for long (runtime/implicit.h): beside a saddle, and in a film that opens slowly."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_creeping_in_a_film_as_rosenbrock():
 
 def test_flights_that_crawl_to_no_avail_keep_to_their_budget():
     """At 1e-9 rad without a bridge rounding decides when the doublet parts: handed over once the budget is spent, but
-    for what one stay in crawl.h may take beyond it (its 4000 tries, and the flight to there).
+    for what one stay in implicit.h may take beyond it (its 4000 tries, and the flight to there).
     """
     scene = Scene.load("granulation-dry-bridge")
     impact = engine.Impacts(scene, scene.speed_of(np.array([1e-3])), np.array([1e-9]), {})

@@ -1,4 +1,4 @@
-"""The damped sum of creeping flights (solvers/engines/taylor/runtime/damped.h): its table, and what comes of it."""
+"""The damped sum of creeping flights (solvers/engines/taylor/runtime/damped_sum.h): its table, and what comes of it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.compiler import compiler
 
-HEADER = (library._RUNTIME / "damped.h").read_text()
+HEADER = (library._RUNTIME / "damped_sum.h").read_text()
 ROWS = {
     int(order): (tuple(Fraction(each) for each in row.split(",")), Fraction(reach))
     for row, order, reach in re.findall(r"\{([\d., ]+)\}, /\* (\d+): ([\d.]+) \*/", HEADER)

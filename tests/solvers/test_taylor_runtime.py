@@ -68,7 +68,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     found = compiler()
     assert found is not None
     text = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
-    text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "whole.h", "roots.h"))
+    text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "whole_series.h", "roots.h"))
     (folder / "runtime.c").write_text(text + HARNESS)
     command = [*found.command, *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)

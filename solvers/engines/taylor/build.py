@@ -41,8 +41,9 @@ FLAGS = (
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _RUNTIME = Path(__file__).resolve().parent / "runtime"
 _DRIVER = (
-    "roots.h", "barrier.h", "proofs.h", "ledger.h", "along.h", "queue.h", "rules.h", "events.h", "damped.h",
-    "meeting.h", "carry.h", "tape.h", "quantities.h", "back.h", "near.h", "crawl.h", "trajectory.h", "lanes.h",
+    "roots.h", "energy_barrier.h", "certificates.h", "ledger.h", "tangents.h", "queue.h", "transitions.h", "events.h",
+    "damped_sum.h", "saltation.h", "tangent_step.h", "tape.h", "chain_to_si.h", "adjoint.h", "nearness.h", "implicit.h",
+    "step_record.h", "driver.h",
 )  # fmt: skip
 LARGEST_ORDER = 16
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
@@ -123,15 +124,15 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     parts = [*(f"#define {name} {value}" for name, value in settings.items()), declarations(variant.ledger)]
-    first = ("vector.h", "series.h", "whole.h") if variant.gradients else ("vector.h", "series.h")
+    first = ("vector.h", "series.h", "whole_series.h") if variant.gradients else ("vector.h", "series.h")
     parts += [(_RUNTIME / name).read_text() for name in first]
     parts += emitted
     wanted = {
         "ledger.h": variant.ledger,
-        "trajectory.h": variant.trajectory,
-        **dict.fromkeys(("along.h", "meeting.h", "quantities.h", "near.h"), variant.gradients),
-        "carry.h": variant.gradients and not variant.backward,
-        **dict.fromkeys(("tape.h", "back.h"), variant.backward),
+        "step_record.h": variant.trajectory,
+        **dict.fromkeys(("tangents.h", "saltation.h", "chain_to_si.h", "nearness.h"), variant.gradients),
+        "tangent_step.h": variant.gradients and not variant.backward,
+        **dict.fromkeys(("tape.h", "adjoint.h"), variant.backward),
     }
     parts += [(_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)]
     return "\n".join(parts)

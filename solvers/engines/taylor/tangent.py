@@ -36,8 +36,8 @@ class Carried:
     Arguments:
         answers: of ANSWER, a collision each.
         slopes: (collisions, quantities, RESULTS); zero where nothing separated.
-        near: (collisions, 3); of what separated, the least measure of its nearness to a boundary, which (along.h), and
-            the least of those measures that are not in DISTANCES.
+        near: (collisions, 3); of what separated, the least measure of its nearness to a boundary, which
+            (runtime/tangents.h), and the least of those measures that are not in DISTANCES.
         quantities: names in the vocabulary, in the order of `slopes`.
         by_energy: sticks are proved by their energy, a level below a barrier.
     """

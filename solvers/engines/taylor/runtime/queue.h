@@ -63,7 +63,7 @@ typedef struct {
     long waiting[LANES];
     double rows[LANES][FIXED];
     double starts[LANES][STATES];
-    int parks, resumes; /* flights that wait for crawl.h, and that come from there */
+    int parks, resumes; /* flights that wait for implicit.h, and that come from there */
     double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */

@@ -30,7 +30,7 @@ struct tape {
     int full;
 };
 
-/* A mode that is gone from the states may not be from their derivatives: no step that would enlarge it (damped.h). */
+/* A mode that is gone from the states may not be from their derivatives: no step that would enlarge it (damped_sum.h). */
 static const double STEADY = 6.0, STEADY_DAMPED = 13.0;
 
 static inline vec held_for_derivatives(const flights *l, const fixed *f, const series *s, vec h, mask creeps)

@@ -1,8 +1,8 @@
 /* Derivatives of the restitution by all groups at once: a flight's tape is read from its end.
  *
- * `of` holds the restitution's derivatives by the states. What a step does to a direction (carry.h) is linear, a product of
- * matrices; here the same product is taken from the other side, so that it costs one direction whatever the number of groups,
- * and is the same but for rounding. The flight goes first, without directions: its steps are those of the states, at a
+ * `of` holds the restitution's derivatives by the states. What a step does to a direction (tangent_step.h) is linear, a
+ * product of matrices; here the same product is taken from the other side, so that it costs one direction whatever the number
+ * of groups, and is the same but for rounding. The flight goes first, without directions: its steps are those of the states, at a
  * tolerance that allows for that. What no tolerance allows for is a mode that decays faster than a step's series can tell;
  * such flights, and long ones, are for directions that hold the step.
  */

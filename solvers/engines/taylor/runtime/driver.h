@@ -194,10 +194,10 @@ static void fly(queue *q)
         spent |= only_if_full(q, l.alive);
         slow_ones = 0;
 #elif GRADIENTS
-        slow_ones = q->asked ? 0 : slow_ones; /* crawl.h knows nothing of derivatives */
+        slow_ones = q->asked ? 0 : slow_ones; /* implicit.h knows nothing of derivatives */
 #endif
 #if WITH_TRAJECTORY
-        /* only a series makes a row, and crawl.h knows no purpose */
+        /* only a series makes a row, and implicit.h knows no purpose */
         slow_ones = q->step_room || q->t->purpose != WHOLE ? 0 : slow_ones;
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)

@@ -1,6 +1,6 @@
 /* Flights that creep for long: past a saddle, or in a film that strings press, a slow mode is all that is left.
  *
- * A Taylor step is held to 13 decay times of the fast modes (damped.h), and near a separatrix there are 1e4 such steps.
+ * A Taylor step is held to 13 decay times of the fast modes (damped_sum.h), and near a separatrix there are 1e4 such steps.
  * Lanes that have crept for PATIENCE steps are parked; as soon as all lanes of a vector are such, or nothing else is left,
  * they go on together by the linearly implicit Euler method, extrapolated (Deuflhard, SIAM Rev. 27, 505 (1985); Hairer &
  * Wanner, Solving ODEs II, IV.9): L-stable, so that steps follow the slow mode alone. Every lane has its own step.
