@@ -14,6 +14,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import committed, structures
 from .casadi.assemble import ASSEMBLE
+from .casadi.automaton import automaton_digest, automaton_module, provenance
 from .casadi.modules import (
     _PROVENANCE,
     law_digest,
@@ -27,6 +28,9 @@ from .casadi.modules import (
     structure_module,
     structure_tangent,
 )
+from .document.automaton import DIAGRAM, automaton_page
+from .document.diagram import diagram
+from .taylor.automaton import automaton_header, effects_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
@@ -49,9 +53,19 @@ def emitted() -> Mapping[str, str]:
         "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
         "assemble.py": f"# {_PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": scaling_module(),
+        "automaton.py": automaton_module(),
+        "automaton.md": automaton_page(provenance()),
+        DIAGRAM: diagram(provenance()),
+        "taylor/automaton.h": automaton_header(provenance()),
+        "taylor/effects.h": effects_header(provenance()),
         "py.typed": "",
     }
-    manifest: dict[str, dict[str, object]] = {"laws": {}, "structures": {}, "scaling": {"scaling": scaling_digest()}}
+    manifest: dict[str, dict[str, object]] = {
+        "laws": {},
+        "structures": {},
+        "scaling": {"scaling": scaling_digest()},
+        "automaton": {"automaton": automaton_digest()},
+    }
     for slot, laws in LAWS.items():
         for law in laws.values():
             files[f"laws/{law.module}.py"] = law_module(law)

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import LOOSEST, OUTCOMES
 from ..collision.collide import collide
-from ..engines.casadi.locate import LOOSEST
 from ..host.compiler import compiler
-from ..many.collide_many import OUTCOMES, collide_many
+from ..many.collide_many import collide_many
 from ..model.model import choose, load
 from ..scene.scene import Scene
 from ..settings import ENGINES

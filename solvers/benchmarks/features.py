@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..certificates import NoProof, Proof
 from ..collision.collide import collide
 from ..engines.casadi import locate as locating
 from ..engines.taylor import call as engine
 from ..host.compiler import compiler
-from ..many.collide_many import OUTCOMES, collide_many
+from ..many.collide_many import collide_many
 from ..model.model import Model
 from ..model.phases import Phase
 from ..scene.scene import Scene

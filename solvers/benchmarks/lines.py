@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
 from ..collision.collide import collide
 from ..formatting.markdown import ms, table
 from ..host.compiler import compiler
-from ..many.collide_many import OUTCOMES, collide_many
+from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 
 Record = dict[str, Any]

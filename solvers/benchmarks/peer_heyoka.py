@@ -15,8 +15,9 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import CRITERIA
 from ..certificates.choice import energy_proof
-from ..engines.casadi.locate import CRITERIA, Locate
+from ..engines.casadi.locate import Locate
 from ..errors import ComputationError
 from ..model.dimensionless import Numbers
 from ..model.model import Choice, choose, load

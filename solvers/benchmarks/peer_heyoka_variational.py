@@ -17,7 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from ..engines.casadi.locate import CRITERIA, Locate
+from ...generated.automaton import CRITERIA
+from ..engines.casadi.locate import Locate
 from ..errors import ComputationError
 from ..model.dimensionless import Numbers
 from ..model.model import Choice, choose, load

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..engines.casadi.locate import CRITERIA, Locate
+from ...generated.automaton import CRITERIA
+from ..engines.casadi.locate import Locate
 from ..formatting.markdown import table
 from ..model.dimensionless import Numbers
 from ..model.model import choose, load

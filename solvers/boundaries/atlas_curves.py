@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError
 from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
@@ -19,7 +20,6 @@ from .continuation import crossings
 from .found import LATTICE, Curve, Curves, Point
 from .plane import ANGLE, Plane
 from .regions import Slab, apart, labelled, slabs
-from .samples import OUTCOMES
 from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 

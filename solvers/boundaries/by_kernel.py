@@ -10,16 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..collision.by_kernel import FELL_BACK, TURNED
+from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, EventKind, Purpose, Status
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.endless import CHATTER, limits
-from ..engines.taylor.record import Purpose, Recorded, Steps, recorded
+from ..engines.taylor.endless import limits
+from ..engines.taylor.record import Recorded, Steps, recorded
 from ..model.dimensionless import Numbers
 from ..model.model import choose
 from ..scene.scene import Scene
-from .samples import BOUNCE, OUTCOMES, ROTATE, STICK
 
-NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/queue.h)
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
 LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
@@ -93,8 +91,10 @@ def looked(
             return None
         answers = told.answers
         part = np.zeros(which.size, LOOK)
-        part["outcome"] = np.where(answers["status"] <= 1, answers["outcome"], -1)
-        part["creeps"], part["chatters"] = (answers["status"] == status for status in (NO_BUDGET, CHATTER))
+        part["outcome"] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
+        part["creeps"], part["chatters"] = (
+            answers["status"] == status for status in (Status.NO_BUDGET, Status.CHATTER)
+        )
         part["at_touch"] = answers["time"] == 0
         part["restitution"] = answers["shown"][:, 0]
         part["glass"] = told.peaks
@@ -151,7 +151,7 @@ def approach(
     steps = Steps(rows, told.steps.turned)
     end = float(rows["time"][-1] + rows["length"][-1])
     last = steps.states(np.array([end]))[:, 0]
-    if told.answers["status"][0] > 1 and not abs(last[1]) < creeping:
+    if told.answers["status"][0] > LAST_ANSWER and not abs(last[1]) < creeping:
         return None
 
     def at(times: np.ndarray) -> np.ndarray:
@@ -176,20 +176,20 @@ def escaping(
         budget: steps.
     """
     told = _flown(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
-    if told is None or told.steps is None or told.answers["status"][0] > NO_BUDGET:
+    if told is None or told.steps is None or told.answers["status"][0] > Status.NO_BUDGET:
         return None
-    decided = bool(told.answers["status"][0] < NO_BUDGET)
+    decided = bool(told.answers["status"][0] < Status.NO_BUDGET)
     answer, rows, size = told.answers[0], told.steps.rows, start.size
     happened = told.events[0, : answer["events"]]
     separated = bool(answer["outcome"])
-    fell_back = not separated and happened.size > 0 and int(happened["kind"][-1]) == FELL_BACK
+    fell_back = not separated and happened.size > 0 and int(happened["kind"][-1]) == EventKind.FELL_BACK
     if not rows.size:
         end = start.copy()
         end[1] = answer["shown"][0] if separated else end[1]
         return Escaping(decided, separated, fell_back, end, np.zeros(1), start[:, None])
     ends = rows["time"] + rows["length"]
     # phases that end at rest in the gap, by the times at which they do
-    turns = happened["time"][np.isin(happened["kind"], (TURNED, FELL_BACK))]
+    turns = happened["time"][np.isin(happened["kind"], (EventKind.TURNED, EventKind.FELL_BACK))]
     lasts = np.append(np.flatnonzero(np.diff(rows["phase"])), rows.size - 1)
     resting_end = dict(zip(rows["phase"][lasts].tolist(), np.isin(ends[lasts], turns).tolist(), strict=True))
     looked_at = np.array([not resting_end[phase] for phase in rows["phase"].tolist()])

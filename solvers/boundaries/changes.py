@@ -8,11 +8,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..errors import ComputationError
 from .line import Line
 from .look import Look
 from .roots import Function, root, sample
-from .samples import BOUNCE, OUTCOMES, ROTATE, STICK, known
+from .samples import known
 
 # What happens at a change: a criterion is just met; a doublet begins to escape, not reversed or reversed; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"

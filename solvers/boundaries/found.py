@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..scene.scene import Scene
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
 from .plane import ANGLE
 from .regions import Slab, labelled, slabs
-from .samples import OUTCOMES
 
 STOKES = (1e-4, 100.0)  # between which changes are looked for, unless something else is asked
 LATTICE = (65, 193)  # columns and rows from which curves are sought, where there is a kernel

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..many.collide_many import OUTCOMES
+from ...generated.automaton import OUTCOMES
 from .found import Curves, Lines
 from .plane import ANGLE
 

@@ -14,6 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..certificates import Barrier, energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, locator, plain, tolerance
 from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
@@ -22,7 +23,7 @@ from ..engines.taylor.call import variant
 from ..errors import ComputationError
 from ..model.dimensionless import Numbers, numbers
 from ..model.model import Model, choose, load
-from ..model.phases import CLOSING, Flow
+from ..model.phases import Flow
 from ..scene.scene import Scene
 from ..settings import RTOL
 from . import by_kernel
@@ -191,7 +192,7 @@ class Probe(Locate):
 
     def _fly(self) -> bool:
         over = super()._fly()
-        fell_back = bool(self.path.steps) and "fell back" in self.path.steps[-1].kinds
+        fell_back = bool(self.path.steps) and KINDS[EventKind.FELL_BACK] in self.path.steps[-1].kinds
         return over or fell_back or self.phase.resting
 
 
@@ -201,7 +202,7 @@ class _Located:
     def __init__(self, probe: Locate, path: Path) -> None:
         self.probe, self.path = probe, path
         self.separated = path.separated
-        self.fell_back = bool(path.ends) and "fell back" in path.steps[-1].kinds
+        self.fell_back = bool(path.ends) and KINDS[EventKind.FELL_BACK] in path.steps[-1].kinds
         self.end = path.y if path.separated or not path.ends else path.ends[-1]
 
     @cached_property

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...generated import scaling
-from ..engines.casadi.locate import CRITERIA, Locate
+from ...generated.automaton import CRITERIA, OUTCOMES, Purpose
+from ..engines.casadi.locate import Locate
 from ..engines.taylor.build import knows
 from ..engines.taylor.call import RIGID
-from ..engines.taylor.record import Purpose
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import numbers
 from ..model.model import choose, load
@@ -19,7 +19,7 @@ from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
 from . import by_kernel
-from .samples import OUTCOMES, SAMPLE
+from .samples import SAMPLE
 
 BY_KERNEL, BY_ROSENBROCK = 100, 10  # samples a decade of the Stokes number that a line begins with
 _MARGIN = 500  # steps of a flight for a margin: one that creeps for longer shows none

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import LAST_ANSWER, Purpose
 from ..engines.taylor.build import knows
 from ..engines.taylor.call import answers
-from ..engines.taylor.record import Purpose, recorded
+from ..engines.taylor.record import recorded
 from ..errors import InputError
 from ..host.cores import usable_cores
 from ..many.batch import Request, checked_numbers, checked_vary
@@ -112,7 +113,7 @@ class Plane:
             told = answers(impacts, self.rtol, threads=threads)
             if told is not None:
                 where = np.flatnonzero(sound)
-                outcome[where] = np.where(told["status"] <= 1, told["outcome"], -1)
+                outcome[where] = np.where(told["status"] <= LAST_ANSWER, told["outcome"], -1)
                 reversal[where] = told["reversal"]
         left = np.flatnonzero(outcome < 0) if not self.kernel else _middles(outcome < 0)[:most]
         if left.size:
@@ -131,7 +132,7 @@ class Plane:
             told = recorded(impacts, oblique, self.rtol, trajectory=True, budget=STEPS, purpose=Purpose.ESCAPE,
                             keep=False, fold=False)  # fmt: skip
             if told is not None:
-                known = told.answers["status"] <= 1
+                known = told.answers["status"] <= LAST_ANSWER
                 found[np.flatnonzero(sound)] = np.where(known, told.answers["reversal"], -2)
         return found
 

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from ...generated.automaton import OUTCOMES
 from ..collision.text import degrees, name_of, prefix
 from ..errors import InputError
 from ..formatting import ticks
@@ -26,7 +27,6 @@ from .atlas_curves import LINES, curves_of
 from .found import Curve, Curves, Lines, Point
 from .plane import ANGLE, check_plane
 from .plot_labels import place_names
-from .samples import OUTCOMES
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene

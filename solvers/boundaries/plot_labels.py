@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .samples import OUTCOMES
+from ...generated.automaton import OUTCOMES
 
 _CELL = 3.0  # pixels
 _CLEAR = 2  # cells between a name and what is not of its region

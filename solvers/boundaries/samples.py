@@ -11,8 +11,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-STICK, ROTATE, BOUNCE = "stick", "stick-rotate-separate", "bounce"
-OUTCOMES = (STICK, ROTATE, BOUNCE)
 SAMPLE = np.dtype(
     [
         ("stokes", "f8"),

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from casadi import SX, Function
 
+from ...generated.automaton import CLOSING
 from ..host.thread_caches import own_cache
 from ..model.model import Model
-from ..model.phases import CLOSING, Phase
+from ..model.phases import Phase
 from .base import SAFETY
 from .quadrature import panels
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...generated.automaton import CLOSING
 from ..model.model import Model
-from ..model.phases import CLOSING, Phase
+from ..model.phases import Phase
 from .base import SAFETY, Proof
 from .chatter import CYCLES, STILL, Cycles
 from .quadrature import panels

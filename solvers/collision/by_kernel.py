@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, recorded
 from ..model.dimensionless import Numbers
 from ..model.model import choose, load
-from ..model.phases import CLOSING, OPENING, Phase
+from ..model.phases import Phase
 from ..scene.scene import Scene
 from ..settings import STEPS
 from .assemble import Finding, assembled
@@ -22,18 +23,10 @@ if TYPE_CHECKING:
 
     from ..engines.casadi.trajectory import Stretch
 
-_OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
-# In the order of runtime/queue.h; a stop at a half turn or where the rotation reverses is among them.
-_KINDS = (
-    "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
-    "rotation reverses", "half turn",
-)  # fmt: skip
-TURNED, FELL_BACK = (_KINDS.index(kind) for kind in ("turned", "fell back"))
-
 
 def kind_of(answer: np.void) -> tuple[str, str | None]:
     """Outcome of an answer, and the first criterion met."""
-    return _OUTCOMES[answer["outcome"]], _KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
+    return OUTCOMES[answer["outcome"]], KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
 
 
 def collision(
@@ -47,7 +40,7 @@ def collision(
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
     told = recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
-    if told is None or told.answers["status"][0] > 1:
+    if told is None or told.answers["status"][0] > LAST_ANSWER:
         return None
     energy = None if told.ledger is None else _energy(scene, n, told.ledger[0])
     found = told.answers[0]
@@ -65,7 +58,7 @@ def collision(
         rotation=float(found["turned"]),
         time=float(found["time"]),
         smallest_gap=float(found["smallest_gap"]),
-        events=[(_KINDS[int(each["kind"])], float(each["time"])) for each in happened],
+        events=[(KINDS[int(each["kind"])], float(each["time"])) for each in happened],
         engine="taylor",
         steps=int(found["steps"]),
         energy=energy,
@@ -101,7 +94,7 @@ def _trajectory(scene: Scene, n: Numbers, rtol: float, told: Recorded, full: boo
 
     assert told.steps is not None
     model = load(choose(scene, n.oblique, full=full, fold=True))
-    attrs = attributes(scene, _OUTCOMES[told.answers["outcome"][0]], "taylor", rtol)
+    attrs = attributes(scene, OUTCOMES[told.answers["outcome"][0]], "taylor", rtol)
     return dataset(stretches(told.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs)
 
 

@@ -6,6 +6,7 @@ import math
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from ...generated.automaton import BOUNCE, KINDS, STICK, EventKind
 from .outcome import Energy, Event, Outcome
 
 if TYPE_CHECKING:
@@ -13,13 +14,13 @@ if TYPE_CHECKING:
 
 WIDTH = 88
 CUT_OFFS = {
-    "half turn": "half a turn, the strings cross",
-    "rotation reverses": "the strings turn the rotation back",
+    KINDS[EventKind.HALF_TURN]: "half a turn, the strings cross",
+    KINDS[EventKind.ROTATION_REVERSES]: "the strings turn the rotation back",
 }
 CRITERIA = {
-    "glass": "reversed by the glass criterion, the liquid's own pressure",
-    "elastic": "reversed by the elastic criterion, the spheres' deformation",
-    "rough": "reversed by contact of the surfaces' roughness",
+    KINDS[EventKind.GLASS]: "reversed by the glass criterion, the liquid's own pressure",
+    KINDS[EventKind.ELASTIC]: "reversed by the elastic criterion, the spheres' deformation",
+    KINDS[EventKind.ROUGH]: "reversed by contact of the surfaces' roughness",
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
 _MANY = 40  # events: more are rebound after rebound
@@ -72,9 +73,9 @@ def _cut(text: str, longest: int) -> str:
 
 def reason(collision: Outcome) -> str:
     """Return why the collision ended as it did, in words."""
-    if collision.outcome == "bounce":
-        return CRITERIA[collision.reversal or "glass"]
-    if collision.outcome != "stick":
+    if collision.outcome == BOUNCE and collision.reversal is not None:
+        return CRITERIA[collision.reversal]
+    if collision.outcome != STICK:
         return "escaped by centrifugal force, no criterion met"
     return _stuck(collision)
 
@@ -95,7 +96,7 @@ def _stuck(collision: Outcome) -> str:
     if last in CUT_OFFS:
         return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
     when = "" if collision.until else " at first touch"
-    if not collision.certified and len(collision.events) > _MANY and last == "fell back":
+    if not collision.certified and len(collision.events) > _MANY and last == KINDS[EventKind.FELL_BACK]:
         return "decided, not proved: rebound after rebound, none higher than the one before"
     if not collision.certified:
         return f"decided{when}, not proved: energy below the barrier"

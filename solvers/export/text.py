@@ -6,12 +6,13 @@ import math
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
+from ...generated.automaton import OUTCOMES
 from .differences import Differences
 
 if TYPE_CHECKING:
     from ...derive.emit.compare import Change
 
-_SHORT = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B"}
+_SHORT = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 _HEADS = ("angle (deg)", "St", "A", "e_n A", "B", "e_n B", "B - A")
 
 

@@ -65,7 +65,7 @@ def module(name: str) -> ModuleType:
     path = name.replace(".", "/") + ".py"
     if not committed(path):
         return executed(f"{_PACKAGE}.{name}", text(name).encode())
-    for each in (path, "assemble.py", "scaling.py"):
+    for each in (path, "assemble.py", "scaling.py", "automaton.py"):
         _verified(each)
     return import_module(f"{_PACKAGE}.{name}")
 

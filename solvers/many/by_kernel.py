@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
+from ...generated.automaton import LAST_ANSWER
 from ..engines.taylor.call import Impacts, answers
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
@@ -39,7 +40,7 @@ def collided(
         found = answers(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
         if found is None:
             return which
-        kept = found["status"] <= 1
+        kept = found["status"] <= LAST_ANSWER
         if part.size == kept.size and kept.all():  # nearly always: then nothing is copied
             finished(part, _block(request, found, impacts))
             continue

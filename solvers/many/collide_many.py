@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..engines.casadi.locate import Path, locate
 from ..errors import ComputationError, WetDoubletError
 from ..formatting.labelled import Column, labelled
@@ -30,7 +31,6 @@ from .by_kernel import collided
 if TYPE_CHECKING:
     import xarray
 
-OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 FAILED = -1
 _BLOCK = 50  # collisions a worker takes at a time
 _ALONE = FEW  # fewer collisions are not worth starting workers for

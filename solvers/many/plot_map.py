@@ -15,10 +15,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of, quantity
 from ..formatting import ticks
 from ..scene.scene import Scene
-from .collide_many import FAILED, OUTCOMES
+from .collide_many import FAILED
 from .regime_map import scene_of
 
 if TYPE_CHECKING:

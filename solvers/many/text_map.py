@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
-from .collide_many import FAILED, OUTCOMES
+from .collide_many import FAILED
 from .regime_map import scene_of
 
 if TYPE_CHECKING:

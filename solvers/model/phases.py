@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from casadi import SX, densify, fmax, if_else, logic_and, vertcat
+from casadi import SX, densify, fmax, fmin, if_else, logic_and, vertcat
 
+from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
+from ...generated.automaton import Event as Row
 from ..host.thread_caches import own_cache
 from .model import Choice, Model, load
-
-CLOSING, OPENING = -1, 1
 
 
 @dataclass(frozen=True)
@@ -138,31 +138,35 @@ def event_table(flow: Flow, watch: Watch, motion: SX, level: SX) -> tuple[Event,
     """
     model, region = flow.model, flow.region
     found = model("events")
-    table: list[Event] = []
-    if region.resting:
-        if "release" in found:
-            table.append(Event("release", found["release"], dips=True))
-    else:
-        closing = (1 - motion) / 2  # the pressure is no criterion while opening
-        pressure = model.groups["glass_number"] - found["glass"]
-        table.append(Event("glass", model.groups["glass_number"] - closing * pressure, dips=True))
-        table.append(Event("contact", model.state["gap"] - model.contact_gap))
-        table.append(Event("turning", motion * found["turning"], dips=True))
-        if region.film and "film_edge" in found:
-            table.append(Event("film_edge", found["film_edge"]))
-        else:
-            table.append(Event("rupture", found["rupture"]))
-            if not region.film:
-                table.append(Event("film_edge", -found["film_edge"]))
-        if watch.tangential_edge:
-            table.append(Event("tangential_edge", found["tangential_edge"] * (1 if region.shear else -1)))
-    if "half_turn" in found:
-        table += [Event("half_turn", found["half_turn"]), Event("unwinding", found["unwinding"], dips=True)]
+    table = [
+        Event(row.name, _guard(row, found, region, motion), row.dips)
+        for row in EVENTS
+        if all(name in found for name in row.functions)
+        and (watch.tangential_edge or not row.within_reach)
+        and all(
+            getattr(region, part) == value
+            for part, value in row.where
+            if part != "motion" and VOID_WITHOUT.get(part, "turning") in found
+        )
+    ]
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
     elif watch.certificate == "tethered":
         table.append(Event("certified", tethered_margin(model, level)))
     return tuple(table)
+
+
+def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
+    """The function of an event, positive before it; 1 in the direction of motion in which it is not watched."""
+    value = found[row.functions[0]]
+    for name in row.functions[1:]:
+        value = fmin(value, found[name])
+    if row.follows == "motion":
+        value = motion * value
+    elif row.follows:
+        value = value * (1 if getattr(region, row.follows) else -1)
+    directions = [wanted for part, wanted in row.where if part == "motion"]
+    return if_else(motion == directions[0], value, 1) if directions else value
 
 
 def tethered_margin(model: Model, margin: SX | float) -> SX:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ...generated.automaton import BOUNCE, ROTATE
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from .desk import Desk, Line, outcomes
@@ -47,9 +48,7 @@ def make(desk: Desk, folder: Path) -> Part:
     _draw(curves, folder / "fig4b.png")
     largest = max((curve for curve in curves), key=lambda curve: float(curve.restitution.max()))
     where = int(largest.restitution.argmax())
-    rotating = max(
-        (c for c in curves if c.outcome == "stick-rotate-separate"), key=lambda c: float(c.restitution.max())
-    )
+    rotating = max((c for c in curves if c.outcome == ROTATE), key=lambda c: float(c.restitution.max()))
     at_15, apart = lines[1], _apart(curves)
     used = described(scene)
     rows = (
@@ -118,7 +117,7 @@ def _curves(scene: Scene, lines: list[Line], points: int) -> tuple[list[Curve], 
 
 def _apart(curves: list[Curve]) -> float:
     """Largest difference between the bounces at 15 deg and head-on."""
-    head_on, at_15 = (next(c for c in curves if c.angle == angle and c.outcome == "bounce") for angle in CURVES[:2])
+    head_on, at_15 = (next(c for c in curves if c.angle == angle and c.outcome == BOUNCE) for angle in CURVES[:2])
     start = max(head_on.stokes[0], at_15.stokes[0])
     stokes = np.linspace(start, _REACH, 400)[1:]
     values = [np.interp(stokes, curve.stokes, curve.restitution) for curve in (head_on, at_15)]
@@ -171,7 +170,7 @@ def _against_stokes(axes: Axes, curves: list[Curve]) -> None:
 def _against_centrifugal(axes: Axes, curves: list[Curve]) -> None:
     inset = axes.inset_axes((0.63, 0.13, 0.345, 0.27))
     for curve in curves:
-        if curve.outcome == "stick-rotate-separate":
+        if curve.outcome == ROTATE:
             ce = curve.per_square * curve.stokes**2
             colour = _COLOURS[CURVES.index(curve.angle)]
             inset.plot(ce, curve.restitution, color=colour, linewidth=1)

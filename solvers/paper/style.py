@@ -11,6 +11,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...generated.automaton import OUTCOMES
 from ..host.files import save
 
 COLUMN = 8.8  # cm
@@ -19,8 +20,8 @@ _INCH = 2.54
 
 BLUE, ORANGE, GREEN, PURPLE, YELLOW, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"  # Okabe-Ito
 INK, GREY = "#202020", "#6E6E6E"
-FILLS = {"stick": "#BFDDF0", "stick-rotate-separate": "#FBE3A6", "bounce": "#F4F4F4"}
-LETTERS = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B"}
+FILLS = dict(zip(OUTCOMES, ("#BFDDF0", "#FBE3A6", "#F4F4F4"), strict=True))
+LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
 
 _RC: Any = {  # matplotlib types its keys one by one

@@ -14,15 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
+from ...generated.automaton import CLOSING, CRITERIA, KINDS, EventKind
 from ..boundaries.line import approach, smooth_escape
 from ..certificates import energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
-from ..engines.casadi.locate import CRITERIA, Locate, Path, Step
+from ..engines.casadi.locate import Locate, Path, Step
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.dimensionless import Numbers, numbers
 from ..model.model import Model, choose, load
-from ..model.phases import CLOSING, Flow
+from ..model.phases import Flow
 from ..scene.scene import Scene
 from .result import Near
 
@@ -54,7 +55,7 @@ def checked(scene: Scene, n: Numbers, finder: Locate, path: Path, rtol: float) -
     if not path.separated:
         near = _stick(scene, n, finder, path, least)
     else:
-        if "rests" in path.kinds:
+        if KINDS[EventKind.RESTS] in path.kinds:
             near = Near("chatter (it rests on the solids before it separates)", 0.0, "rebound speed")
             raise refused(near, least)
         near = _nearest(scene, n, list(_suspects(finder, path)), least)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute, vertcat
 
+from ...generated.automaton import KINDS, EventKind
 from ..boundaries.changes import FREE, GRAZE, REVERSED, Change
 from ..boundaries.line import WITHOUT_SOLIDS, Probe
 from ..boundaries.saddle import Saddle, barrier_of, saddle_of
@@ -133,7 +134,7 @@ def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: fl
     if barrier is not None and barrier.gap < rim * (1 - 1e-12):
         saddle = saddle_of(probe, barrier)
         return None if saddle is None else _at_saddle(probe, path, saddle)
-    if path.steps and "fell back" in path.steps[-1].kinds:
+    if path.steps and KINDS[EventKind.FELL_BACK] in path.steps[-1].kinds:
         return _at_rim(probe, path)
     probe = _probe(scene, angle, stokes * _FREE_RIM, reversed_, rtol)
     path = probe.run()

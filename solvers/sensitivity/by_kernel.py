@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import Path
 from ..engines.taylor.call import Impacts, order_for
 from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, carried, differentiates
@@ -123,8 +124,8 @@ def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Ne
     if found is None:
         return None
     answer = found.flown.answers[0]
-    outcome = ("stick", "stick-rotate-separate", "bounce")[answer["outcome"]]
-    if answer["status"] > 1 or outcome != path.outcome or found.flown.near[0, 1] == CHATTERS:
+    outcome = OUTCOMES[answer["outcome"]]
+    if answer["status"] > LAST_ANSWER or outcome != path.outcome or found.flown.near[0, 1] == CHATTERS:
         return None
     return Slopes(found.value[:, 0], found.first[:, 0], None)
 

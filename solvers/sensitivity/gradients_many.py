@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
+from ...generated.automaton import STICK as STICKS
 from ..engines.taylor.call import Impacts, order_for
 from ..engines.taylor.tangent import DISTANCES, Carried, carried
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
 from ..many.batch import requested
-from ..many.collide_many import FAILED, OUTCOMES, outcome_attributes
+from ..many.collide_many import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL, STEPS, check_engine
@@ -172,7 +174,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     if found is None:
         return which
     answers, measures = found.flown.answers, found.flown.near
-    late = np.flatnonzero(answers["status"] > 1)
+    late = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if back and late.size:  # long flights have directions that hold the step
         held = flown(which[late], asked.rtol, _SOON, False)
         if held is None:
@@ -183,7 +185,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(asked, which, found, far)
     # what creeps for long mostly sticks: without derivatives first
-    slow = np.flatnonzero(answers["status"] > 1)
+    slow = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if slow.size:
         plain = _without(asked, which[slow], asked.rtol)
         answers[slow], measures[slow] = plain.answers, plain.near
@@ -198,7 +200,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
             again = flown(part, sharper, _LONG, backward)
             if again is not None:
                 _keep(asked, part, again, again.flown.answers["outcome"] > 0)
-                part = part[again.flown.answers["status"] > 1]
+                part = part[again.flown.answers["status"] > LAST_ANSWER]
             if not part.size:
                 break
     stuck = which[_sticks(asked, which, answers, found.flown.by_energy)]
@@ -238,14 +240,14 @@ def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarra
 
 def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
     """Sticks that are ones on either side as well, as solvers/sensitivity/boundary_distance.py looks at them."""
-    stuck = (answers["outcome"] == 0) & (answers["status"] <= 1)
-    sure = stuck & (answers["status"] == 1) & by_energy
+    stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
+    sure = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
     look = np.flatnonzero(stuck & ~sure)
     least = limit(asked.rtol)
     for factor in (1 - least, 1 + least):
         if look.size:
             aside = _without(asked, which[look], min(asked.rtol, 1e-10), factor).answers
-            stays = (aside["outcome"] == 0) & (aside["status"] <= 1)
+            stays = (aside["outcome"] == OUTCOMES.index(STICKS)) & (aside["status"] <= LAST_ANSWER)
             stuck[look[~stays]] = False
             look = look[stays]
     sticks: np.ndarray = stuck

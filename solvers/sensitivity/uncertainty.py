@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..many.batch import QUANTITIES as MANY
 from ..many.batch import checked_numbers
-from ..many.collide_many import OUTCOMES, collide_many
+from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, Field
 from .gradients_many import gradients_many

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..errors import WetDoubletError
@@ -27,7 +28,6 @@ LOSSES = {
     "strings": "strings",
 }
 TERMS = ("rotation_released", *LOSSES)
-_CODES = {"stick": 0, "stick-rotate-separate": 1, "bounce": 2}
 
 
 def restitution_budget(
@@ -67,7 +67,7 @@ def restitution_budget(
             except WetDoubletError as failure:
                 reason[j, k] = str(failure)
                 continue
-            outcome[j, k] = _CODES[one.outcome]
+            outcome[j, k] = OUTCOMES.index(one.outcome)
             for name, value in terms(one).items():
                 values[name][j, k] = value
     data = {name: (("angle", "stokes"), array) for name, array in values.items()}

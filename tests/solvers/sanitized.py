@@ -23,7 +23,8 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor.call import Impacts, answers
-from wetdoublet.solvers.engines.taylor.record import Purpose, recorded
+from wetdoublet.generated.automaton import Purpose
+from wetdoublet.solvers.engines.taylor.record import recorded
 from wetdoublet.solvers.engines.taylor.tangent import carried
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.cores import usable_cores

@@ -1,7 +1,6 @@
 """Find the sequence of phases and events of a collision: a Rosenbrock flow per phase, frozen at its first event.
 
-What is decided by rule and not by an integrator is decided here: criteria already true on entry, the order of
-coincident ones, resting contact, the proof of a stick.
+The events, what they do and the rules of a rebound are those of `generated/automaton.py`; this interprets them.
 """
 
 from __future__ import annotations
@@ -10,22 +9,36 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ....generated.automaton import (
+    BOUNCE,
+    CHATTER_PHASES,
+    CLOSING,
+    CRITERIA,
+    EVENTS,
+    KINDS,
+    LOOSEST,
+    MOST_OBLIQUE,
+    OPENING,
+    REST_SPEED,
+    ROTATE,
+    STICK,
+    Event,
+    EventKind,
+)
 from ...certificates import OrbitalProof, Proof, proof_for
 from ...errors import ComputationError
 from ...model.model import Model
-from ...model.phases import CLOSING, OPENING, Flow, Phase, Watch
+from ...model.phases import Flow, Phase, Watch
 from ...settings import CALL, STEPS
 from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, plain, tolerance
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
-LOOSEST = 1e-6  # a looser tolerance leaves sticks unproved that are far from any boundary, for nothing gained
-REST_SPEED = 1e-9  # of v0: a weaker rebound into an inward force rests (docs/physics.md)
-MOST_OBLIQUE = 1e9  # centrifugal force over v0^2/x0: the gap then changes by its inverse
-CRITERIA = ("glass", "elastic", "rough")
 _NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
-_CHATTER = 100  # phases: as many are no approach and escape, but rebounds
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
+_EVENTS = {event.name: event for event in EVENTS}
+_ENDS = ("separate", "cut off")
+_GAP, _VELOCITY = 0, 1  # places in the state
 
 
 @dataclass(frozen=True)
@@ -76,8 +89,8 @@ class Path:
     @property
     def outcome(self) -> str:
         if not self.separated:
-            return "stick"
-        return "bounce" if self.reversal else "stick-rotate-separate"
+            return STICK
+        return BOUNCE if self.reversal else ROTATE
 
 
 class Locate:
@@ -99,10 +112,10 @@ class Locate:
         self.groups = groups
         self.proof: Proof = proof_for(model, self.p, rtol)
         self.contact_gap = max(groups["elastic_gap"], groups["rough_gap"])
-        rupture = groups["rupture_gap"] if model.bridge else 1.0
+        self.rupture_gap = groups["rupture_gap"] if model.bridge else 1.0
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
-        own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < rupture
+        own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < self.rupture_gap
         self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
         works = self.proof.watches == "energy" or any(work in extras for work in model.works)
         self.extras = tuple(name for name in extras if name not in model.works) + (model.works if works else ())
@@ -133,7 +146,12 @@ class Locate:
     def _held_in_chatter(self) -> bool:
         """Whether a doublet in long chatter is held by the momentum of its orbit as it is; it is then a stick."""
         phases, proof = len(self.path.steps), self.proof
-        if phases < _CHATTER or phases % _NOW_AND_THEN or not isinstance(proof, OrbitalProof) or self.model.strings:
+        if (
+            phases < CHATTER_PHASES
+            or phases % _NOW_AND_THEN
+            or not isinstance(proof, OrbitalProof)
+            or self.model.strings
+        ):
             return False
         if not (proof.holds(self.y) or proof.settles(self.y)):
             return False
@@ -146,7 +164,7 @@ class Locate:
         self.spent += max(steps, CALL)
         if self.spent > self.steps:
             phases = len(self.path.steps)
-            what = "this is chatter without end" if phases > _CHATTER else "it creeps beyond bounds"
+            what = "this is chatter without end" if phases > CHATTER_PHASES else "it creeps beyond bounds"
             raise self._error(
                 f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
                 f"{what}: try a larger --rtol, or another impact",
@@ -187,7 +205,7 @@ class Locate:
                     self.path.certified = self.proof.theorem
                     return True
             elif stop.event is not None:
-                return self._act(stop.event, flown)
+                return self._act(_EVENTS[stop.event], flown)
             elif self._proved():
                 self._stop(Step(self.phase, flown, None, ()))
                 self.path.certified = self.proof.theorem
@@ -236,11 +254,12 @@ class Locate:
         The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. And whatever is
         below zero where nothing was found was lost beside another function's minimum in the same step.
         """
-        ahead = "contact" if self.phase.motion == CLOSING else "rupture"
         crossed = [
-            self._refined(find, stop, name, level)
-            for name in (ahead, "film_edge", "tangential_edge", "half_turn")
-            if name in find.events and find.value(name, stop.y, self.p, self.phase.motion, level) < 0
+            self._refined(find, stop, row.name, level)
+            for row in EVENTS
+            if not row.dips
+            and row.name in find.events
+            and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
         ]
         return min(crossed, key=lambda found: found.time, default=stop)
 
@@ -268,60 +287,84 @@ class Locate:
                 break
         return Stop(event, after, y_after, False)
 
-    def _act(self, event: str, flown: float) -> bool:
-        """What an event does; True if it ends the flight."""
-        phase = self.phase
-        if event in ("glass", "contact"):
-            self._reverse("glass" if event == "glass" else self._contact_kind(), flown, event)
-            return False
-        if event == "turning":
-            kind = "turned" if phase.motion == CLOSING else "fell back"
-            self._next(Step(phase, flown, event, (kind,)), self._towards(-phase.motion))
-        elif event == "film_edge":
-            shear = 1 - phase.film if self.edge == 1.0 else phase.shear
-            self._next(Step(phase, flown, event, ("film edge",)), phase.with_(film=1 - phase.film, shear=shear))
-        elif event == "tangential_edge":
-            self._next(Step(phase, flown, event, ("tangential edge",)), phase.with_(shear=1 - phase.shear))
-        elif event == "release":
-            opening = self._opening(phase.with_(resting=False))
-            self._next(Step(phase, flown, event, ("released",)), opening)
-        elif event == "rupture":
-            self._stop(Step(phase, flown, event, ("rupture",)))
-            self.path.separated = True
-            return True
-        else:
-            self._stop(
-                Step(phase, flown, event, ({"half_turn": "half turn", "unwinding": "rotation reverses"}[event],))
-            )
-            return True
-        return False
+    def _act(self, event: Event, flown: float) -> bool:
+        """The effect of an event; True if it ends the collision."""
+        before, phase = self.phase, self.phase
+        word = self._word(event)
+        for action in event.actions:
+            if action == "reverse":
+                self._reverse(word, flown, event.name)
+                return False
+            phase = self._done(action, phase)
+        self._next(Step(before, flown, event.name, (word,)), phase)
+        return event.actions[-1] in _ENDS
+
+    def _word(self, event: Event) -> str:
+        if event.chosen_by == "motion":
+            return event.words[self.phase.motion == OPENING]
+        if event.chosen_by == "larger gap":
+            elastic, rough = self.groups["elastic_gap"], self.groups["rough_gap"]
+            return event.words[not (elastic >= rough and elastic > 0)]
+        return event.words[0]
+
+    def _done(self, action: str, phase: Phase) -> Phase:
+        """The phase after an action, which may change the state as well."""
+        match action:
+            case "gap = contact":
+                self._put(_GAP, self.contact_gap)
+            case "gap = film edge":
+                self._put(_GAP, 1.0)
+            case "gap = tangential edge":
+                self._put(_GAP, self.edge)
+            case "gap = rupture":
+                self._put(_GAP, self.rupture_gap)
+            case "velocity = 0":
+                self._put(_VELOCITY, 0.0)
+            case "turn":
+                return self._towards(-phase.motion, phase)
+            case "cross film edge":
+                film = 1 - phase.film
+                return phase.with_(film=film, shear=film if self.edge == 1.0 else phase.shear)
+            case "cross tangential edge":
+                return phase.with_(shear=1 - phase.shear)
+            case "open":
+                return self._opening(phase.with_(resting=False))
+            case "separate":
+                self.path.separated = True
+            case "cut off":
+                pass
+            case _:
+                raise NotImplementedError(action)
+        return phase
+
+    def _put(self, position: int, value: float) -> None:
+        """A state put exactly where the event has it, so that what is decided there does not depend on rounding."""
+        self.y = np.array(self.y)
+        self.y[position] = value
+        self.path.y = self.y
 
     def _next(self, step: Step, phase: Phase) -> None:
         self._stop(step)
         self.phase = phase
 
-    def _contact_kind(self) -> str:
-        elastic, rough = self.groups["elastic_gap"], self.groups["rough_gap"]
-        return "elastic" if elastic >= rough and elastic > 0 else "rough"
-
     def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
-        """Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures.
+        """Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left.
 
         What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
         """
-        at_touch = self.y[0] >= 1.0  # or so near that the gap has rounded to it
         after = self.model.values("reversal", self.y, self.p)
         self.path.dry_loss += self.model.values("reversal_loss", self.y, self.p)["dry_contact"]
         self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
-        if at_touch and not self.model.bridge:
-            self.path.separated = True
-            self._next(Step(self.phase, flown, event, (kind, "rupture"), reverses=True), self._opening(self.phase))
-            return
         kinds: tuple[str, ...] = (kind,)
+        if self.y[0] >= self.rupture_gap:
+            self.path.separated = True
+            kinds += (KINDS[EventKind.RUPTURE],)
+            self._next(Step(self.phase, flown, event, kinds, reverses=True), self._opening(self.phase))
+            return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
         holds = inward > 0 and self._too_weak(after["opening"], inward)
         if holds:
-            kinds += ("rests",)
+            kinds += (KINDS[EventKind.RESTS],)
             self.path.dry_loss += float(self.y[1]) ** 2 / 2
             self.y[1] = 0.0
             phase = self.phase.with_(resting=True, motion=OPENING)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
 
+from ....generated.automaton import EVENTS
 from ...host.thread_caches import own_cache
 from ...model.model import Choice
 from ...model.phases import Flow, Watch, event_table, expressions
@@ -140,7 +141,8 @@ def _flight(
     motion = float(step.phase.motion)
     parameters = np.append(p, [motion, 0.0])
     duration = step.duration
-    scale = float(p[list(flow.model.groups).index("glass_number")]) if step.event == "glass" else 1.0
+    size = next(event.scale for event in EVENTS if event.name == step.event)
+    scale = float(p[list(flow.model.groups).index(size)]) if size else 1.0
     nearer = np.inf
     for _ in range(_TRIES):
         landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))

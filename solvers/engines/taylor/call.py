@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ....generated.automaton import LOOSEST
 from ...model.model import Choice, choose
 from ...scene.groups import si_values
 from ...scene.scene import Scene
@@ -23,7 +24,6 @@ from .endless import decide
 from .layout import ANSWER, Task, names
 
 _CHUNK = 4096  # collisions a thread takes at a time
-_LOOSEST = 1e-6  # as solvers/engines/casadi/locate.py has it
 RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
 
 
@@ -134,7 +134,7 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
     Arguments:
         made: answers to be filled, zeros of ANSWER.
     """
-    asked = Task(library, impacts.angle.size, min(rtol, _LOOSEST), budget)
+    asked = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
     given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
     given |= si_values(impacts.scene, None, None)
     given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}

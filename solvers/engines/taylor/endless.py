@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....generated.automaton import OUTCOMES, STICK, Status
 from ...certificates import OrbitalProof, comes_to, proof_for
 from ...model.dimensionless import numbers
 from ...model.model import Choice, load
 from ...scene.scene import Scene
-
-CHATTER = 4  # status of a collision that has spent its steps in many phases (runtime/queue.h)
-_SPENT = 2  # ... or in few
-_DECIDED, _STICK = 0, 0
 
 
 def decide(
@@ -22,13 +19,13 @@ def decide(
     A doublet that circles in and out of its film loses less with every turn: thousands of turns decide nothing that
     the last state does not. `shown` has that state from the opening velocity on.
     """
-    for k in np.flatnonzero(answers["status"] == CHATTER).tolist():
+    for k in np.flatnonzero(answers["status"] == Status.CHATTER).tolist():
         told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
         if proof is None:
             continue
         y = _state(proof, told)
         if proof.holds(y) or proof.settles(y):
-            told["status"], told["outcome"], told["certified"] = _DECIDED, _STICK, proof.proves
+            told["status"], told["outcome"], told["certified"] = Status.DECIDED, OUTCOMES.index(STICK), proof.proves
             told["shown"] = 0.0
 
 
@@ -49,7 +46,7 @@ def limits(
     found: list[bool | None] = []
     for k in range(answers.size):
         both = earlier[k], answers[k]
-        circles = all(told["status"] in (_SPENT, CHATTER) for told in both)
+        circles = all(told["status"] in (Status.NO_BUDGET, Status.CHATTER) for told in both)
         proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
         found.append(None if proof is None else comes_to(proof, *(_state(proof, told) for told in both)))
     return found

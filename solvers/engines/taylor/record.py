@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 
+from ....generated.automaton import Purpose
 from ...model.model import choose
 from ...settings import STEPS
 from .build import kernel, knows
@@ -15,14 +15,6 @@ from .endless import decide
 from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
 
 _ROOM = 64, 256  # events and steps of a collision
-
-
-class Purpose(IntEnum):
-    """What a flight with its steps is for: in the order of runtime/queue.h."""
-
-    WHOLE = 0
-    APPROACH = 1  # it ends where it turns or is reversed, and nothing is proved
-    ESCAPE = 2  # it ends where it falls back or rests, and is proved a stick only while it approaches
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ....generated.automaton import LOOSEST
 from ...host.compiler import compiler
 from ...model.model import choose
 from ...scene.scene import Scene
@@ -26,7 +27,6 @@ DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` n
 }
 STRICTER = 4.0  # steps that no direction holds are held to a tolerance stricter by this
 _CHUNK = 1024  # collisions whose derivatives are in work at a time
-_LOOSEST = 1e-6
 
 
 @dataclass(frozen=True)
@@ -67,18 +67,18 @@ def carried(
         backward: of the restitution alone, taken back along the flight: for the price of one direction. Flights of more
             than some hundred steps are handed over.
     """
-    library = _library(impacts.scene, oblique, order or order_for(min(rtol, _LOOSEST)), rotation, backward)
+    library = _library(impacts.scene, oblique, order or order_for(min(rtol, LOOSEST)), rotation, backward)
     if library is None:
         return None
     if backward:
-        budget, rtol = min(budget, MOST_STEPS), min(rtol, _LOOSEST) / STRICTER
+        budget, rtol = min(budget, MOST_STEPS), min(rtol, LOOSEST) / STRICTER
     quantities, groups = names(library, "quantity_names"), names(library, "group_names")
     count, results = impacts.angle.size, 1 if backward else RESULTS
     answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(quantities), results))
     near = np.full(count, np.inf, NEARNESS)
     for first in range(0, count, _CHUNK):
         part = slice(first, min(first + _CHUNK, count))
-        asked = task(library, impacts.part(part), min(rtol, _LOOSEST), budget, answers[part])
+        asked = task(library, impacts.part(part), min(rtol, LOOSEST), budget, answers[part])
         asked.number("asked", _asked(library, quantities, moved))
         asked.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
         asked.buffer("gradients", slopes[part])

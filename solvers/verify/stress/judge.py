@@ -13,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
+from ....generated.automaton import OUTCOMES
 from ...certificates import NoProof
 from ...collision.by_casadi import by_casadi
 from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant
 from ...errors import ComputationError, ModelWarning
-from ...many.collide_many import OUTCOMES, collide_many
+from ...many.collide_many import collide_many
 from ...model.model import choose, load
 from ...model.phases import Phase
 from ...model.validity import remarks

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ....generated.automaton import OUTCOMES
 from ...boundaries.boundary import boundary
 from ...boundaries.trace import SHARPEST
 from ...errors import InputError
-from ...many.collide_many import OUTCOMES, collide_many
+from ...many.collide_many import collide_many
 from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
 from .verdict import FAST, RTOL, Case, Found, Issue, Verdict, physical_reason

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from ....generated.automaton import OUTCOMES
 from ...boundaries.changes import GRAZE
 from ...formatting.ticks import plain
 from ...host.files import save
@@ -20,7 +21,7 @@ from .verdict import FAST
 
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8}
 _COLOURS = {"taylor": "#E69F00", "rosenbrock": "#D55E00", "cvodes": "#0072B2", "LSODA": "#CC79A7"}
-_MARKERS = {"stick": "o", "stick-rotate-separate": "^", "bounce": "s"}
+_MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 
 
 def draw(found: Stress, folder: Path) -> list[Path]:

@@ -9,12 +9,12 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
+from ....generated.automaton import OUTCOMES
 from ...engines.taylor.build import Variant, kernel
 from ...engines.taylor.call import variant
 from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.workers import undisturbed, workers
-from ...many.collide_many import OUTCOMES
 from ...model.model import choose
 from .judge import SHARE, fast_kernel, judge, runs
 from .sample import SEED, sample

@@ -1,0 +1,100 @@
+"""The automaton as a Python module: enumerations, tables and constants that the solvers read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+
+from ...equations import automaton
+from .modules import _PROVENANCE, digest
+
+_DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
+_EVENT_FIELDS = {
+    "name": "str",
+    "functions": "tuple[str, ...]",
+    "where": "tuple[tuple[str, int], ...]",
+    "words": "tuple[str, ...]",
+    "actions": "tuple[str, ...]",
+    "follows": "str",
+    "dips": "bool",
+    "within_reach": "bool",
+    "scale": "str",
+    "chosen_by": "str",
+}
+
+
+def automaton_digest() -> str:
+    """Digest of the tables."""
+    tables = ("COMPONENTS", "WORDS", "ACTIONS", "EVENTS", "RULES", "OUTCOMES", "STATUSES", "PURPOSES", "CONSTANTS")
+    return digest(*(row for table in tables for row in getattr(automaton, table)))
+
+
+def provenance() -> str:
+    """What every file of the automaton begins with."""
+    return f"{_PROVENANCE}\nAutomaton sha256 {automaton_digest()}"
+
+
+def automaton_module() -> str:
+    """Text of `generated/automaton.py`."""
+    words = [word.word for word in automaton.WORDS]
+    lines = [f"# {line}" for line in provenance().splitlines()]
+    lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
+    lines += ["from enum import IntEnum", "from typing import NamedTuple", ""]
+    lines += [f"CLOSING, OPENING = {automaton.CLOSING}, {automaton.OPENING}", ""]
+    for each in automaton.OUTCOMES:
+        lines.append(f'{each.name} = "{each.word}"  # {each.condition}')
+    lines.append(f"OUTCOMES = ({', '.join(each.name for each in automaton.OUTCOMES)})  # by number")
+    lines += ["", *_numbers("EventKind", "Number of an event in a report; KINDS has its word.",
+                            [(word.name, word.meaning) for word in automaton.WORDS])]  # fmt: skip
+    lines += ["", *_tuple("KINDS", words)]
+    lines += [f"CRITERIA = {_text(automaton.CRITERIA)}  # in the order in which they apply on entry", ""]
+    lines += _numbers("Status", "What the kernel says of a collision; up to LAST_ANSWER its outcome stands.",
+                      [(each.name, each.meaning) for each in automaton.STATUSES])  # fmt: skip
+    last = [each.name for each in automaton.STATUSES if each.answers][-1]
+    lines += ["", "", f"LAST_ANSWER = Status.{last}", ""]
+    lines += _numbers("Purpose", "What the kernel integrates a collision for.",
+                      [(each.name, each.meaning) for each in automaton.PURPOSES])  # fmt: skip
+    lines += ["", ""]
+    for constant in automaton.CONSTANTS:
+        lines += [f"{constant.name} = {constant.value!r}  # {constant.meaning}"]
+    lines += ["", *_events()]
+    return "\n".join(lines) + "\n"
+
+
+def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[str]:
+    lines = ["", f"class {name}(IntEnum):", f'    """{doc}"""', ""]
+    return lines + [f"    {member} = {number}  # {meaning}" for number, (member, meaning) in enumerate(members)]
+
+
+def _events() -> list[str]:
+    declared = [field.name for field in fields(automaton.Event)]
+    assert sorted(declared) == sorted(_EVENT_FIELDS), "every field of an event is emitted"
+    lines = [
+        "",
+        "class Event(NamedTuple):",
+        '    """A guard and its effect; `generated/automaton.md` explains them."""',
+        "",
+    ]
+    lines += [f"    {name}: {kind}" for name, kind in _EVENT_FIELDS.items()]
+    void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
+    lines += ["", "", "# Conditions on a part of the mode that are void where a structure lacks an event function."]
+    lines += ["VOID_WITHOUT = {", *(f'    "{name}": "{event}",' for name, event in void.items()), "}", ""]
+    lines += ["EVENTS = (  # in order of precedence among coincident ones"]
+    for event in automaton.EVENTS:
+        lines.append("    Event(")
+        lines += [f"        {name}={_text(getattr(event, name))}," for name in _EVENT_FIELDS]
+        lines.append("    ),")
+    return [*lines, ")"]
+
+
+def _tuple(name: str, values: Sequence[str]) -> list[str]:
+    return [f"{name} = (", *(f"    {_text(value)}," for value in values), ")"]
+
+
+def _text(value: object) -> str:
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, tuple):
+        inside = ", ".join(_text(each) for each in value)
+        return f"({inside}{',' if len(value) == 1 else ''})"
+    return repr(value)

@@ -1,0 +1,107 @@
+"""The automaton as C: enumerations and constants, and the switch of the kernel over an event's effect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ...equations import automaton
+from ...equations.automaton import Event
+from .layout import comment
+
+_KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
+
+# An action as the kernel does it; "reverse" is a function of the word. The functions are in `engines/taylor/runtime/`.
+_STATEMENTS = {
+    "gap = contact": ("l->y[GAP][lane] = f->contact[lane];",),
+    "gap = film edge": ("l->y[GAP][lane] = 1.0;",),
+    "gap = tangential edge": ("l->y[GAP][lane] = f->edge[lane];",),
+    "gap = rupture": ("l->y[GAP][lane] = f->end[lane];",),
+    "velocity = 0": ("l->y[OPENING][lane] = 0.0;",),
+    "turn": ("l->closing[lane] = ~l->closing[lane];",),
+    "cross film edge": (
+        "l->film[lane] = 1.0 - l->film[lane];",
+        "if (f->edge[lane] == 1.0)",
+        "    l->shear[lane] = l->film[lane];",
+    ),
+    "cross tangential edge": ("l->shear[lane] = 1.0 - l->shear[lane];",),
+    "open": ("opens(l, f, lane);",),
+    "separate": ("separated(q, l, f, lane);",),
+    "cut off": ("finish(q, l, f, lane, DECIDED, STICK, 0);",),
+}
+
+
+def automaton_header(provenance: str) -> str:
+    """Text of `generated/taylor/automaton.h`: enumerations and constants of the rules."""
+    lines = comment(provenance)
+    lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", ""]
+    lines += comment("What is watched for, in order of precedence among coincident events.")
+    lines += _enumeration(event_name(event) for event in automaton.EVENTS)
+    lines += ["", *comment("What is reported.")]
+    lines += _described((_KIND[word.word], word.meaning) for word in automaton.WORDS)
+    lines += ["", *comment("How a collision ends.")]
+    lines += _described((each.name, each.condition) for each in automaton.OUTCOMES)
+    last = [each.name for each in automaton.STATUSES if each.answers][-1]
+    lines += ["", *comment(f"What is said of a collision; up to {last} the outcome stands.")]
+    lines += _described((each.name, each.meaning) for each in automaton.STATUSES)
+    lines += [f"enum {{ LAST_ANSWER = {last} }};"]
+    lines += ["", *comment("What a collision is integrated for.")]
+    lines += _described((each.name, each.meaning) for each in automaton.PURPOSES)
+    lines.append("")
+    for constant in automaton.CONSTANTS:
+        if isinstance(constant.value, int):
+            lines.append(f"enum {{ {constant.name} = {constant.value} }}; /* {constant.meaning} */")
+        else:
+            lines.append(f"static const double {constant.name} = {constant.value!r}; /* {constant.meaning} */")
+    return "\n".join([*lines, "", "#endif"]) + "\n"
+
+
+def effects_header(provenance: str) -> str:
+    """Text of `generated/taylor/effects.h`: the switch over an event's effect."""
+    lines = comment(
+        f"{provenance}\n\nWhat an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions"
+        " that it calls, are known."
+    )
+    body = ["switch (event) {"]
+    for event in automaton.EVENTS:
+        body += [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
+    body.append("}")
+    head = "static void act(queue *q, flights *l, fixed *f, int lane, int event)"
+    return "\n".join([*lines, "", head, "{", *(f"    {line}" for line in body), "}"]) + "\n"
+
+
+def event_name(event: Event) -> str:
+    """Its name among the enumerated ones."""
+    return f"AT_{event.name.upper()}"
+
+
+def _effect(event: Event) -> list[str]:
+    """Statements: the word is noted first, except where a rule of the action notes its own."""
+    *landing, last = event.actions
+    word = _chosen(event)
+    if last == "reverse":
+        return [*_done(landing), f"reverse(q, l, f, lane, {word});"]
+    if last == "separate":  # notes its word
+        return [*_done(landing), *_done([last])]
+    noted = f"note(q, l->index[lane], {word}, l->time[lane]);"
+    return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event.actions)]
+
+
+def _chosen(event: Event) -> str:
+    names = [_KIND[word] for word in event.words]
+    if event.chosen_by == "motion":
+        return f"l->closing[lane] ? {names[0]} : {names[1]}"
+    if event.chosen_by == "larger gap":
+        return f"contact_is_elastic(f, lane) ? {names[0]} : {names[1]}"
+    return names[0]
+
+
+def _done(actions: Iterable[str]) -> list[str]:
+    return [line for action in actions for line in _STATEMENTS[action]]
+
+
+def _enumeration(names: Iterable[str]) -> list[str]:
+    return ["enum {", *(f"    {name}," for name in names), "};"]
+
+
+def _described(members: Iterable[tuple[str, str]]) -> list[str]:
+    return ["enum {", *(f"    {name}, /* {meaning} */" for name, meaning in members), "};"]

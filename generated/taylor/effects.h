@@ -1,0 +1,55 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Automaton sha256 ca8dcd5763ad973f15b6275a8dc15c37328efb4c4b9c21439995dbcba37b2525
+ *
+ * What an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions that it calls,
+ * are known. */
+
+static void act(queue *q, flights *l, fixed *f, int lane, int event)
+{
+    switch (event) {
+    case AT_TURNING:
+        note(q, l->index[lane], l->closing[lane] ? KIND_TURNED : KIND_FELL_BACK, l->time[lane]);
+        new_phase(l, lane);
+        l->y[OPENING][lane] = 0.0;
+        l->closing[lane] = ~l->closing[lane];
+        break;
+    case AT_GLASS:
+        reverse(q, l, f, lane, KIND_GLASS);
+        break;
+    case AT_CONTACT:
+        l->y[GAP][lane] = f->contact[lane];
+        reverse(q, l, f, lane, contact_is_elastic(f, lane) ? KIND_ELASTIC : KIND_ROUGH);
+        break;
+    case AT_RUPTURE:
+        l->y[GAP][lane] = f->end[lane];
+        separated(q, l, f, lane);
+        break;
+    case AT_FILM_EDGE:
+        note(q, l->index[lane], KIND_FILM_EDGE, l->time[lane]);
+        new_phase(l, lane);
+        l->y[GAP][lane] = 1.0;
+        l->film[lane] = 1.0 - l->film[lane];
+        if (f->edge[lane] == 1.0)
+            l->shear[lane] = l->film[lane];
+        break;
+    case AT_TANGENTIAL_EDGE:
+        note(q, l->index[lane], KIND_TANGENTIAL_EDGE, l->time[lane]);
+        new_phase(l, lane);
+        l->y[GAP][lane] = f->edge[lane];
+        l->shear[lane] = 1.0 - l->shear[lane];
+        break;
+    case AT_RELEASE:
+        note(q, l->index[lane], KIND_RELEASED, l->time[lane]);
+        new_phase(l, lane);
+        opens(l, f, lane);
+        break;
+    case AT_HALF_TURN:
+        note(q, l->index[lane], KIND_HALF_TURN, l->time[lane]);
+        finish(q, l, f, lane, DECIDED, STICK, 0);
+        break;
+    case AT_UNWINDING:
+        note(q, l->index[lane], KIND_ROTATION_REVERSES, l->time[lane]);
+        finish(q, l, f, lane, DECIDED, STICK, 0);
+        break;
+    }
+}
