@@ -21,9 +21,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from wetdoublet.generated.automaton import Purpose
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor.call import Impacts, answers
-from wetdoublet.generated.automaton import Purpose
 from wetdoublet.solvers.engines.taylor.record import recorded
 from wetdoublet.solvers.engines.taylor.tangent import carried
 from wetdoublet.solvers.host.compiler import compiler

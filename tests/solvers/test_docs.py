@@ -5,9 +5,9 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
+from wetdoublet.generated.automaton import KINDS
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Energy
-from wetdoublet.generated.automaton import KINDS
 from wetdoublet.solvers.scene.schema import FIELDS, TABLES
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -19,7 +19,7 @@ from ...host.remarks import say_once
 from ...host.thread_caches import once
 from ...host.user_cache import has, kept, loaded
 from ...model.model import Choice, choose
-from .headers import headers, tangents
+from .headers import automaton, headers, tangents
 from .layout import MOST_STEPS, RESULTS, declarations
 
 if TYPE_CHECKING:
@@ -123,7 +123,8 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    parts = [*(f"#define {name} {value}" for name, value in settings.items()), declarations(variant.ledger)]
+    rules, effects = automaton()
+    parts = [*(f"#define {name} {value}" for name, value in settings.items()), declarations(variant.ledger), rules]
     first = ("vector.h", "series.h", "whole_series.h") if variant.gradients else ("vector.h", "series.h")
     parts += [(_RUNTIME / name).read_text() for name in first]
     parts += emitted
@@ -134,7 +135,9 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "tangent_step.h": variant.gradients and not variant.backward,
         **dict.fromkeys(("tape.h", "adjoint.h"), variant.backward),
     }
-    parts += [(_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)]
+    own = {name: (_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)}
+    own["transitions.h"] += effects
+    parts += own.values()
     return "\n".join(parts)
 
 

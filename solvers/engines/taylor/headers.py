@@ -11,6 +11,12 @@ _NONE = "#error "  # how a header begins that could not be emitted
 
 
 @once
+def automaton() -> tuple[str, str]:
+    """Texts of the headers of the automaton: its enumerations and constants, and the switch over an event's effect."""
+    return emitted.header("taylor/automaton.h"), emitted.header("taylor/effects.h")
+
+
+@once
 def headers(choice: Choice) -> tuple[str, ...] | None:
     """Texts of the headers of a choice, laws first; None where a law has no recurrence, which is said once."""
     return _sound("no Taylor kernel", _texts(choice, tangent=False))

@@ -9,7 +9,7 @@
 #endif
 
 #if PROOF_BY_FILM
-enum { DEPTHS = ATTRACTION ? 48 : 16 };
+enum { DEPTHS = ATTRACTION ? ATTRACTED_FILM_DEPTHS : FILM_DEPTHS };
 
 /* Velocity that the film takes between two gaps. */
 #if defined(FILM_RESISTANCE_WORK)
@@ -33,7 +33,7 @@ static vec film_takes(const constants *c, vec low, vec high)
 /* From `start` down to contact in steps of equal ratio: the gap after each. */
 static inline vec ratio_of_depths(vec start, vec contact)
 {
-    return vec_exp(vec_log(vec_max(contact, start*1e-40)/start)*(1.0/DEPTHS));
+    return vec_exp(vec_log(vec_max(contact, start*LEAST_DEPTH)/start)*(1.0/DEPTHS));
 }
 
 #if !ATTRACTION

@@ -204,7 +204,7 @@ static void fly(queue *q)
             park(q, &l, &f, __builtin_ctz(slow_ones));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
             int lane = __builtin_ctz(failed);
-            int status = lost[lane] ? NOT_FINITE : l.phases[lane] > MANY_PHASES ? CHATTER : NO_BUDGET;
+            int status = lost[lane] ? NOT_FINITE : l.phases[lane] > CHATTER_PHASES ? CHATTER : NO_BUDGET;
             finish(q, &l, &f, lane, status, STICK, 0);
         }
     }

@@ -19,8 +19,6 @@ typedef struct {
     vec touch;                 /* capillary work at first touch */
 } barrier;
 
-static const double SAFETY = 30.0; /* of the tolerance of the largest energy, as solvers/certificates/base.py has it */
-
 static const double NODES[6] = {
     0.125233408511468916, 0.367831498998180194, 0.587317954286617447,
     0.769902674194304687, 0.904117256370474857, 0.981560634246719251};

@@ -128,7 +128,7 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     vec part = one;
     mask turns = moves & ~(least_of(s->opening, h) > 0.0);
     if (bits(turns)) {
-        look(found, turns, s->opening, zero, -away, h, splat_mask(TURNED_KIND));
+        look(found, turns, s->opening, zero, -away, h, splat_mask(AT_TURNING));
         mask turned = (found->time <= 1.0) & (found->time > 0.0);
         part = choose(turned, found->time, one);
         found->time = choose(turned, one, found->time);
@@ -139,17 +139,17 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     if (bits(moves & closing)) {
         close = moves & closing & ~((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h) > 0.0));
         if (bits(close))
-            look(found, close, s->glass.result, zero, one, h, splat_mask(GLASS));
+            look(found, close, s->glass.result, zero, one, h, splat_mask(AT_GLASS));
     }
     /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
-    mask event = (edge & splat_mask(FILM_EDGE)) |
-                 (~edge & ((closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE))));
+    mask event = (edge & splat_mask(AT_FILM_EDGE)) |
+                 (~edge & ((closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE))));
 #else
     vec target = choose(closing, f->contact, f->end);
-    mask event = (closing & splat_mask(ELASTIC)) | (~closing & splat_mask(RUPTURE));
+    mask event = (closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE));
 #endif
     close = moves & ~(away*(to - target) > 0.0);
     if (bits(close))
@@ -158,21 +158,21 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     mask own = moves & (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
     close = own & (closing ^ (l->shear != 0.0)) & ~(away*(to - f->edge) > 0.0);
     if (bits(close))
-        look(found, close, s->gap, f->edge, away, h, splat_mask(TANGENTIAL_EDGE));
+        look(found, close, s->gap, f->edge, away, h, splat_mask(AT_TANGENTIAL_EDGE));
 #endif
     close = l->alive & l->resting;
     if (bits(close)) {
         close &= ~(-s->acceleration[0] > reach(s->acceleration, h));
         if (bits(close))
-            look(found, close, s->acceleration, zero, -one, h, splat_mask(RELEASED));
+            look(found, close, s->acceleration, zero, -one, h, splat_mask(AT_RELEASE));
     }
 #if OBLIQUE && STRINGS
     close = l->alive & ~(s->rotation[0] + reach(s->rotation, h) < M_PI);
     if (bits(close))
-        look(found, close, s->rotation, splat(M_PI), -one, h, splat_mask(HALF_TURN));
+        look(found, close, s->rotation, splat(M_PI), -one, h, splat_mask(AT_HALF_TURN));
     close = l->alive & ~(s->orbit[0] > reach(s->orbit, h));
     if (bits(close))
-        look(found, close, s->orbit, zero, one, h, splat_mask(UNWINDS));
+        look(found, close, s->orbit, zero, one, h, splat_mask(AT_UNWINDING));
 #endif
     found->time *= part;
 }

@@ -102,13 +102,13 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
 {
     double gap = at[GAP][lane], opening = at[OPENING][lane], contact = f->contact[lane];
     int closing = l->closing[lane] != 0;
-    if (event == GLASS && h == 0.0)
+    if (event == AT_GLASS && h == 0.0)
         along_near(a, lane, fabs(log(1.0 - spare(&f->c, at)[lane])), TOUCH);
-    else if (event == GLASS)
+    else if (event == AT_GLASS)
         along_near(a, lane, flatness(f, s, at, h, lane), GLASS_GRAZE);
-    if (contact > 0.0 && (event == GLASS || (event == TURNED_KIND && closing)))
+    if (contact > 0.0 && (event == AT_GLASS || (event == AT_TURNING && closing)))
         along_near(a, lane, fabs(log(gap/contact)), CONTACT_GRAZE);
-    if (event == ELASTIC) {
+    if (event == AT_CONTACT) {
         double slowing = s->opening[1][lane];
         for (int k = 2; k <= ORDER; k++)
             slowing += k*s->opening[k][lane]*pow(h, k - 1);
@@ -121,15 +121,15 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
 #if PROOF_BY_ENERGY
     int saddle;
     double off = near_saddle(f, gap, lane, &saddle);
-    if (event == TURNED_KIND && saddle)
+    if (event == AT_TURNING && saddle)
         along_near(a, lane, off, PASSAGE);
 #endif
-    if (event == RUPTURE && (BRIDGE || STRINGS || ATTRACTION))
+    if (event == AT_RUPTURE && (BRIDGE || STRINGS || ATTRACTION))
         along_near(a, lane, opening*opening, RIM);
-    else if (event == RUPTURE && (!OBLIQUE || WALL))
+    else if (event == AT_RUPTURE && (!OBLIQUE || WALL))
         along_near(a, lane, opening, RIM);
 #if OBLIQUE && STRINGS
-    if (event == RUPTURE) {
+    if (event == AT_RUPTURE) {
         double first = 4.0 + f->c.aspect[lane];
         along_near(a, lane, 1.0 - at[ROTATION][lane]/M_PI, HALF_TURNED);
         along_near(a, lane, at[ORBIT][lane]/(first*first), UNWOUND);
@@ -142,7 +142,7 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
     const vec(*a)[TERMS] = (const void *)s;
     carried *along = &l->along;
     mask moves = l->alive & ~l->resting;
-    mask close = moves & l->closing & ~(falls & (event == GLASS));
+    mask close = moves & l->closing & ~(falls & (event == AT_GLASS));
     if (bits(close)) { /* the limit without motion falls with the gap, so where the start is far the end is */
         vec start[STATES];
         memcpy(start, l->y, sizeof start);
@@ -176,7 +176,7 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
             along_near(along, lane, slowest(s, h[lane], lane), PASSAGE);
     }
 #endif
-    falls &= (event == GLASS) | (event == ELASTIC) | (event == TURNED_KIND) | (event == RUPTURE);
+    falls &= (event == AT_GLASS) | (event == AT_CONTACT) | (event == AT_TURNING) | (event == AT_RUPTURE);
     if (!bits(falls))
         return;
     vec at[STATES];

@@ -1,17 +1,9 @@
 /* Collisions on their way: quantities in, constants and proofs at first touch, lanes filled and emptied, answers out. */
 
-enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE, RESTS, RELEASED, RUPTURE, UNWINDS, HALF_TURN };
-enum { STICK, SEPARATES, BOUNCES };
-enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE }; /* CHATTER: no budget, after many phases */
-enum { MANY_PHASES = 400, SHOWN = 8 };
 static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
-static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
-
-/* Purposes: a whole collision; the approach alone, without the glass criterion and with nothing proved; one that is over
- * when it falls back or rests, and is proved a stick only while it approaches (solvers/boundaries/line.py). */
-enum { WHOLE, APPROACH, ESCAPE };
+static const double TIGHTEST = 1e-14;
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
 

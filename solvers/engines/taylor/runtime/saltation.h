@@ -21,12 +21,12 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
         m.rate[state] = rate;
         m.at[state] = sum_at(a[state], h);
     }
-    m.contact = falls & (event == ELASTIC);
-    m.end = falls & (event == RUPTURE);
-    m.edge = falls & (event == TANGENTIAL_EDGE);
-    m.gap = m.contact | m.end | m.edge | (falls & (event == FILM_EDGE));
-    m.turned = falls & (event == TURNED_KIND);
-    m.glass = falls & (event == GLASS);
+    m.contact = falls & (event == AT_CONTACT);
+    m.end = falls & (event == AT_RUPTURE);
+    m.edge = falls & (event == AT_TANGENTIAL_EDGE);
+    m.gap = m.contact | m.end | m.edge | (falls & (event == AT_FILM_EDGE));
+    m.turned = falls & (event == AT_TURNING);
+    m.glass = falls & (event == AT_GLASS);
     vec limit;
     glass_pressure_margin_slopes(
         m.at[GAP], -m.at[OPENING], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);

@@ -1,9 +1,9 @@
-/* What events do, by the rules of solvers/engines/casadi/locate.py. */
+/* The rules of derive/equations/automaton.py; what each event does is emitted beside them, in effects.h. */
 
 static void separated(queue *q, flights *l, fixed *f, int lane)
 {
-    note(q, l->index[lane], RUPTURE, l->time[lane]);
-    finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCES : SEPARATES, 0);
+    note(q, l->index[lane], KIND_RUPTURE, l->time[lane]);
+    finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);
 }
 
 /* The phase that opens from here; from first touch, beyond the film at once. */
@@ -17,10 +17,23 @@ static void opens(flights *l, const fixed *f, int lane)
         l->shear[lane] = 0.0;
 }
 
-/* Reversal by the solids; a rebound too weak to leave rests, one at first touch without a bridge ruptures. */
+/* A new phase begins, and what holds on its entry is looked at. */
+static void new_phase(flights *l, int lane)
+{
+    l->phases[lane]++;
+    l->fresh[lane] = -1;
+}
+
+/* Whether the solids meet at the elastic length and not at the roughness. */
+static int contact_is_elastic(const fixed *f, int lane)
+{
+    double elastic = f->c.elastic_gap[lane], rough = f->c.rough_gap[lane];
+    return elastic >= rough && elastic > 0.0;
+}
+
+/* Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left. */
 static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
 {
-    int at_touch = l->time[lane] == 0.0 && l->phases[lane] == 0;
     vec after[STATES];
 #if WITH_LEDGER
     book_reversal(q->books + l->index[lane], &f->c, l->y, lane);
@@ -35,10 +48,9 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
     l->y[OPENING][lane] = after[OPENING][lane];
     if (l->reversal[lane] < 0)
         l->reversal[lane] = kind;
-    l->phases[lane]++;
-    l->fresh[lane] = -1;
+    new_phase(l, lane);
     note(q, l->index[lane], kind, l->time[lane]);
-    if (at_touch && !BRIDGE) {
+    if (l->y[GAP][lane] >= f->end[lane]) { /* the gap at which the two part */
         separated(q, l, f, lane);
         return;
     }
@@ -49,7 +61,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         return;
     }
     if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
-        note(q, l->index[lane], RESTS, l->time[lane]);
+        note(q, l->index[lane], KIND_RESTS, l->time[lane]);
 #if GRADIENTS
         along_near(&l->along, lane, 0.0, CHATTERS);
 #endif
@@ -88,50 +100,5 @@ static void criteria_met(queue *q, flights *l, fixed *f)
 #endif
     EACH_LANE(lane)
         if (any >> lane & 1)
-            reverse(q, l, f, lane, glass >> lane & 1 ? GLASS : elastic >> lane & 1 ? ELASTIC : ROUGH);
-}
-
-/* What an event does to a lane. */
-static void act(queue *q, flights *l, fixed *f, int lane, int event)
-{
-    long index = l->index[lane];
-    double now = l->time[lane];
-    if (event == GLASS) {
-        reverse(q, l, f, lane, GLASS);
-        return;
-    }
-    if (event == ELASTIC) { /* contact: whichever is met first */
-        double elastic = f->c.elastic_gap[lane], rough = f->c.rough_gap[lane];
-        l->y[GAP][lane] = f->contact[lane];
-        reverse(q, l, f, lane, elastic >= rough && elastic > 0.0 ? ELASTIC : ROUGH);
-        return;
-    }
-    if (event == RUPTURE) {
-        l->y[GAP][lane] = f->end[lane];
-        separated(q, l, f, lane);
-        return;
-    }
-    l->phases[lane]++;
-    l->fresh[lane] = -1;
-    if (event == TURNED_KIND) {
-        note(q, index, l->closing[lane] ? TURNED_KIND : FELL_BACK, now);
-        l->y[OPENING][lane] = 0.0;
-        l->closing[lane] = ~l->closing[lane];
-    } else if (event == FILM_EDGE) {
-        note(q, index, FILM_EDGE, now);
-        l->y[GAP][lane] = 1.0;
-        l->film[lane] = 1.0 - l->film[lane];
-        if (f->edge[lane] == 1.0)
-            l->shear[lane] = l->film[lane];
-    } else if (event == TANGENTIAL_EDGE) {
-        note(q, index, TANGENTIAL_EDGE, now);
-        l->y[GAP][lane] = f->edge[lane];
-        l->shear[lane] = 1.0 - l->shear[lane];
-    } else if (event == RELEASED) {
-        note(q, index, RELEASED, now);
-        opens(l, f, lane);
-    } else { /* the experiment's own cut-offs */
-        note(q, index, event, now);
-        finish(q, l, f, lane, DECIDED, STICK, 0);
-    }
+            reverse(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : elastic >> lane & 1 ? KIND_ELASTIC : KIND_ROUGH);
 }
