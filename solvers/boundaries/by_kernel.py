@@ -19,7 +19,7 @@ from ..model.model import choose
 from ..scene.scene import Scene
 from .samples import BOUNCE, OUTCOMES, ROTATE, STICK
 
-NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/queue.h)
+NO_BUDGET = 2  # status of a flight that has spent its steps (runtime/state.h)
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
 LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at

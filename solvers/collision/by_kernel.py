@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..engines.casadi.trajectory import Stretch
 
 _OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
-# In the order of runtime/queue.h; a stop at a half turn or where the rotation reverses is among them.
+# In the order of runtime/state.h; a stop at a half turn or where the rotation reverses is among them.
 _KINDS = (
     "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
     "rotation reverses", "half turn",

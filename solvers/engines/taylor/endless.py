@@ -9,7 +9,7 @@ from ...model.dimensionless import numbers
 from ...model.model import Choice, load
 from ...scene.scene import Scene
 
-CHATTER = 4  # status of a collision that has spent its steps in many phases (runtime/queue.h)
+CHATTER = 4  # status of a collision that has spent its steps in many phases (runtime/state.h)
 _SPENT = 2  # ... or in few
 _DECIDED, _STICK = 0, 0
 

@@ -18,7 +18,7 @@ _ROOM = 64, 256  # events and steps of a collision
 
 
 class Purpose(IntEnum):
-    """What a flight with its steps is for: in the order of runtime/queue.h."""
+    """What a flight with its steps is for: in the order of runtime/state.h."""
 
     WHOLE = 0
     APPROACH = 1  # it ends where it turns or is reversed, and nothing is proved

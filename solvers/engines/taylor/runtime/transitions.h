@@ -1,4 +1,12 @@
 /* What events do, by the rules of solvers/engines/casadi/locate.py. */
+#pragma once
+
+#include "certificates.h"
+#include "ledger.h"
+#include "queue.h"
+#include "state.h"
+#include "tangents.h"
+#include "tape.h"
 
 static void separated(queue *q, flights *l, fixed *f, int lane)
 {
