@@ -24,7 +24,7 @@ def resolved(text: str, made: Mapping[str, str]) -> str:
         made: texts of the files that are not in the runtime's folder, by name.
 
     Examples:
-        >>> resolved('#include "settings.h"\\nint order = ORDER;\n', {"settings.h": "#define ORDER 9\n"})
+        >>> resolved('#include "settings.h"\nint order = ORDER;\n', {"settings.h": "#define ORDER 9\n"})
         '#define ORDER 9\nint order = ORDER;\n'
     """
     seen: set[str] = set()

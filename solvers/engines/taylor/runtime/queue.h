@@ -85,13 +85,15 @@ static void fill_queue(queue *q)
     }
 }
 
+typedef double word_of_lane __attribute__((may_alias)); /* a flight's fields are vectors of doubles or of integers */
+
 /* A lane's flight to a row, and back. */
 static void pack(double *row, const flights *l, const fixed *f, int lane)
 {
     for (int field = 0; field < FIXED; field++)
         row[field] = ((const vec *)f)[field][lane];
     for (int field = 0; field < FLIGHT; field++)
-        row[FIXED + field] = ((const vec *)l)[field][lane];
+        row[FIXED + field] = ((const word_of_lane *)l)[field*LANES + lane];
 }
 
 static void unpack(const double *row, flights *l, fixed *f, int lane)
@@ -99,7 +101,7 @@ static void unpack(const double *row, flights *l, fixed *f, int lane)
     for (int field = 0; field < FIXED; field++)
         ((double *)&((vec *)f)[field])[lane] = row[field];
     for (int field = 0; field < FLIGHT; field++)
-        ((double *)&((vec *)l)[field])[lane] = row[FIXED + field];
+        ((word_of_lane *)l)[field*LANES + lane] = row[FIXED + field];
 }
 
 /* Puts the next collision of the queue into a lane; the lane rests if there is none. */
