@@ -383,7 +383,6 @@ static inline vec inward_force(const constants *c, const vec *y)
     vec gap_squared = y[GAP]*y[GAP];
     vec scaled_rotation = 0.5*y[ROTATION];
     vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
-    vec cosine_of_scaled_rotation = vec_cos(scaled_rotation);
     vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
     vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
     vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
@@ -405,7 +404,6 @@ static inline vec stored_energy(const constants *c, const vec *y)
     vec gap_squared = y[GAP]*y[GAP];
     vec scaled_rotation = 0.5*y[ROTATION];
     vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
-    vec cosine_of_scaled_rotation = vec_cos(scaled_rotation);
     vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
     vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
     vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
@@ -527,7 +525,6 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     vec gap_squared = y[GAP]*y[GAP];
     vec scaled_rotation = 0.5*y[ROTATION];
     vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
-    vec cosine_of_scaled_rotation = vec_cos(scaled_rotation);
     vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
     vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
     vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +

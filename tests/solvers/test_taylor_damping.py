@@ -11,9 +11,10 @@ import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.includes import RUNTIME
 from wetdoublet.solvers.host.compiler import compiler
 
-HEADER = (library._RUNTIME / "damped_sum.h").read_text()
+HEADER = (RUNTIME / "damped_sum.h").read_text()
 ROWS = {
     int(order): (tuple(Fraction(each) for each in row.split(",")), Fraction(reach))
     for row, order, reach in re.findall(r"\{([\d., ]+)\}, /\* (\d+): ([\d.]+) \*/", HEADER)

@@ -5,18 +5,18 @@ from __future__ import annotations
 import ctypes
 import math
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
 
-RUNTIME = Path(library.__file__).with_name("runtime")
 ORDER = 12
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
-HARNESS = """
+HARNESS = """#include "whole_series.h"
+#include "roots.h"
 #define SHOW(name) void lanes_##name(const double *x, double *y) { vec a; memcpy(&a, x, sizeof a); a = vec_##name(a); \\
     memcpy(y, &a, sizeof a); }
 SHOW(exp) SHOW(log) SHOW(sin) SHOW(cos) SHOW(tan)
@@ -67,9 +67,8 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("runtime")
     found = compiler()
     assert found is not None
-    text = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
-    text += "\n".join((RUNTIME / name).read_text() for name in ("vector.h", "series.h", "whole_series.h", "roots.h"))
-    (folder / "runtime.c").write_text(text + HARNESS)
+    settings = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
+    (folder / "runtime.c").write_text(resolved(HARNESS, {"settings.h": settings}))
     command = [*found.command, *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     loaded = ctypes.CDLL(str(folder / "runtime.so"))

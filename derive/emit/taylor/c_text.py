@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from collections.abc import Set as AbstractSet
 
 import sympy as sp
@@ -297,9 +297,14 @@ class Recurrences:
         """Place of a series in the program; what is given comes first."""
         return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
 
-    def values(self) -> list[str]:
-        """Local variables with the values at order zero; `where` of the series that are given must be such."""
-        return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations]
+    def values(self, results: Iterable[object]) -> list[str]:
+        """Local variables with the values at order zero; `where` of the series that are given must be such.
+
+        Arguments:
+            results: what is read of them; a cosine that only its sine's recurrence asks for has no value.
+        """
+        read = {*results, *(part for op in self.program.operations for part in op.series)}
+        return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations if op.name in read]
 
     def _value(self, operation: Operation) -> str:
         kind, factors = operation.kind, self.factors[operation.name]

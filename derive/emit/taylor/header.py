@@ -254,7 +254,7 @@ class Header:
             if operation.kind == "call":
                 assert operation.call is not None
                 self.calls.setdefault(operation.name, operation.call)
-        body = ["(void)c; (void)y;", *made.values()]
+        body = ["(void)c; (void)y;", *made.values(found.values())]
         own = {operation.name for operation in program.operations}
         for key, result in found.items():
             if isinstance(result, str):

@@ -76,7 +76,9 @@ def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str
     if not moving:
         text = Text(lambda symbol: symbol.name)
         arguments = ", ".join(f"vec {argument.name}" for argument in still) or "void"
-        body = [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+        used = each.result.free_symbols.union(*(value.free_symbols for _, value in kept))
+        body = [f"(void){argument.name};" for argument in still if argument not in used]
+        body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
         return [
             *comment(each.doc),
             *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
@@ -149,7 +151,7 @@ def _recurrences(
         *comment(doc),
         *function(
             f"static inline vec {name}_value(const {name}_constants *c{value_arguments})",
-            [unused, *made.values(), f"return {value};"],
+            [unused, *made.values([value]), f"return {value};"],
         ),
         "",
     ]
@@ -189,7 +191,7 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
         *comment("An antiderivative of it: work in closed form."),
         *function(
             f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})",
-            ["(void)c;", *made.values(), f"return {result};"],
+            ["(void)c;", *made.values([result]), f"return {result};"],
         ),
         "",
     ]

@@ -148,7 +148,7 @@ class Tangent(LinearFlow):
         return text if entry.free_symbols else f"splat({text})"
 
     def _row(self) -> list[str]:
-        body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)v; (void)film; (void)shear;"]
+        body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;"]
         for row, _ in self.rates():
             terms = []
             for state in self.states:

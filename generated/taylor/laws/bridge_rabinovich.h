@@ -76,10 +76,8 @@ static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_ov
     vec gap_over_radius_over_cylinder_reach = gap_over_radius/cylinder_reach;
     vec combination_3 = -gap_over_radius_over_cylinder_reach + 1.0;
     vec sine_of_half_filling_angle = vec_sin(half_filling_angle);
-    vec cosine_of_half_filling_angle = vec_cos(half_filling_angle);
     vec combination_4 = half_filling_angle + c->contact_angle;
     vec sine_of_combination_4 = vec_sin(combination_4);
-    vec cosine_of_combination_4 = vec_cos(combination_4);
     vec sine_of_half_filling_angle_by_sine_of_combination_4 =
         sine_of_half_filling_angle*sine_of_combination_4;
     vec result = c->result_per_combination_3*combination_3 +

@@ -40,5 +40,6 @@ static inline vec shear_log_factor_value(const shear_log_factor_constants *c, ve
 /* Gap (in film thicknesses) beyond which there is no tangential force. */
 static inline vec shear_edge(vec aspect)
 {
+    (void)aspect;
     return splat(1.0);
 }

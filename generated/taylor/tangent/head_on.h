@@ -74,7 +74,7 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
     const constants *v, vec film, vec shear, const vec *const *source, int k)
 {
     double next = 1.0/(k + 1);
-    (void)s; (void)c; (void)v; (void)film; (void)shear;
+    (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
     t[GAP][k + 1] = (t[OPENING][k])*next;
     t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
         + source[OPENING][k])*next;

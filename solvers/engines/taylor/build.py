@@ -20,6 +20,7 @@ from ...host.thread_caches import once
 from ...host.user_cache import has, kept, loaded
 from ...model.model import Choice, choose
 from .headers import automaton, headers, tangents
+from .includes import resolved
 from .layout import MOST_STEPS, RESULTS, declarations
 
 if TYPE_CHECKING:
@@ -39,13 +40,8 @@ FLAGS = (
 )
 # For a few collisions: compiled in half the time, the same arithmetic, some 5 % slower (docs/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
-_RUNTIME = Path(__file__).resolve().parent / "runtime"
-_DRIVER = (
-    "roots.h", "energy_barrier.h", "certificates.h", "ledger.h", "tangents.h", "queue.h", "transitions.h", "events.h",
-    "damped_sum.h", "saltation.h", "tangent_step.h", "tape.h", "chain_to_si.h", "adjoint.h", "nearness.h", "implicit.h",
-    "step_record.h", "driver.h",
-)  # fmt: skip
 LARGEST_ORDER = 16
+_ONCE = "#pragma once"
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
 
@@ -105,9 +101,19 @@ def knows(scene: Scene) -> bool:
 
 def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     """C source of a kernel, from its emitted headers."""
+    return resolved('#include "entry.h"\n', files(variant, emitted, lanes()))
+
+
+def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, str]:
+    """The files of a variant that the runtime includes beside its own, by name.
+
+    Arguments:
+        emitted: its emitted headers.
+        lanes: doubles side by side.
+    """
     slots = dict(variant.choice.laws)
     settings = {
-        "LANES": lanes(),
+        "LANES": lanes,
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
@@ -124,21 +130,13 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
     rules, effects = automaton()
-    parts = [*(f"#define {name} {value}" for name, value in settings.items()), declarations(variant.ledger), rules]
-    first = ("vector.h", "series.h", "whole_series.h") if variant.gradients else ("vector.h", "series.h")
-    parts += [(_RUNTIME / name).read_text() for name in first]
-    parts += emitted
-    wanted = {
-        "ledger.h": variant.ledger,
-        "step_record.h": variant.trajectory,
-        **dict.fromkeys(("tangents.h", "saltation.h", "chain_to_si.h", "nearness.h"), variant.gradients),
-        "tangent_step.h": variant.gradients and not variant.backward,
-        **dict.fromkeys(("tape.h", "adjoint.h"), variant.backward),
+    return {
+        "settings.h": "\n".join([_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), ""]),
+        "layout.h": f"{_ONCE}\n{declarations(variant.ledger)}\n",
+        "automaton.h": f"{_ONCE}\n{rules}",
+        "effects.h": f'{_ONCE}\n#include "transitions.h"\n{effects}',
+        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
     }
-    own = {name: (_RUNTIME / name).read_text() for name in _DRIVER if wanted.get(name, True)}
-    own["transitions.h"] += effects
-    parts += own.values()
-    return "\n".join(parts)
 
 
 def _emitted(variant: Variant) -> tuple[str, ...] | None:

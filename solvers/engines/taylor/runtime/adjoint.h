@@ -6,7 +6,19 @@
  * tolerance that allows for that. What no tolerance allows for is a mode that decays faster than a step's series can tell;
  * such flights, and long ones, are for directions that hold the step.
  */
+#pragma once
 
+#include "chain_to_si.h"
+#include "damped_sum.h"
+#include "driver.h"
+#include "model.h"
+#include "saltation.h"
+#include "state.h"
+#include "step.h"
+#include "tape.h"
+#include "whole_series.h"
+
+#if BACKWARD
 typedef struct {
     vec of[STATES], by_group[GROUPS];
     mask active;
@@ -15,12 +27,9 @@ typedef struct {
     slopes d;
 } retreat;
 
-static void expand(series *s, const constants *c, vec film, vec shear, mask moving);
-static void fly(queue *q);
-
 #define COTANGENT_TERM(number) { \
-    enum { k = ORDER - number }; \
-    if (k >= 0 && k < ORDER) { \
+    enum { k = number <= ORDER ? ORDER - number : 0 }; \
+    if (number > 0 && number <= ORDER) { \
         for (int state = 0; state < STATES; state++) { \
             after[state][k] = w[state][k + 1]*(1.0/(k + 1)); \
             w[state][k] = of[state]*power[k]; \
@@ -206,3 +215,4 @@ static int there_and_back(queue *q)
     free(t.rows);
     return found;
 }
+#endif

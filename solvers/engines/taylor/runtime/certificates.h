@@ -1,4 +1,8 @@
 /* Which proof of a stick a model has, by the rule of solvers/certificates/choice.py `proof_for`, and in which lanes it holds. */
+#pragma once
+
+#include "automaton.h"
+#include "energy_barrier.h"
 
 #define TURNS (OBLIQUE && !WALL)
 #define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
@@ -180,7 +184,7 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 /* The same where it is looked at now and then. */
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
-    (void)c; (void)y; (void)tolerance;
+    (void)c; (void)y; (void)asked; (void)tolerance;
 #if HELD && CERTIFICATE
     if (bits(asked))
         return asked & held_by_attraction(c, y, tolerance);

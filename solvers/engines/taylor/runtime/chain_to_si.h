@@ -1,5 +1,10 @@
 /* From derivatives by groups to derivatives by quantities in SI, for as many collisions at once as there are lanes. */
+#pragma once
 
+#include "model.h"
+#include "state.h"
+
+#if GRADIENTS
 static void in_quantities(const queue *q, long first)
 {
     fixed f;
@@ -27,3 +32,4 @@ static void in_quantities(const queue *q, long first)
         }
     }
 }
+#endif

@@ -9,6 +9,9 @@
  *
  * tests/solvers/test_taylor_damping.py holds the table to what it is said to do; tests/benchmarks/damping.py makes it.
  */
+#pragma once
+
+#include "model.h"
 
 enum { EXACT = ORDER - 3 };
 static const double STIFF_FROM = 3.5; /* z at the step that the whole series allows: 4 to 6 where it is held, else 1 or 2 */

@@ -2,80 +2,21 @@
  *
  * What is too rare to be fast is handed over to solvers/engines/casadi/locate.py, named by a status.
  */
+#pragma once
 
-/* The bits of a positive double, read as an integer, are nearly its logarithm: lengths only to some percent. */
-static const int64_t ONE = 0x3ff0000000000000;
-
-static inline vec power_of(vec logarithm)
-{
-    logarithm = vec_min(logarithm, splat(60.0*4503599627370496.0));
-    return (vec)(__builtin_convertvector(logarithm, mask) + ONE);
-}
-
-/* What a share of coefficient k may still grow by in the state that allows least, as a logarithm. */
-static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
-{
-    for (int state = 0; state < STATES; state++)
-        least_room = least(scale[state] - (mask)vec_abs(share*a[state][k]), least_room);
-    return least_room;
-}
-
-#if GRADIENTS && !BACKWARD
-#define ALONG , const tangents *along
-static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share ALONG)
-{
-    mask found = room_of(scale, a, k, share, splat_mask(INT64_MAX));
-    for (unsigned left = along->asked; left; left &= left - 1) {
-        int group = __builtin_ctz(left);
-        found = room_of(along->scale[group], (const void *)along->t[group], k, share, found);
-    }
-    return __builtin_convertvector(found, vec);
-}
-#define ROOM(k, share) room(scale, a, k, share, along)
-#else
-#define ALONG
-#define ROOM(k, share) __builtin_convertvector(room_of(scale, a, k, share, splat_mask(INT64_MAX)), vec)
-#endif
-
-/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2); lanes that a decaying
- * mode holds to it are in `creeps`, and take the step of the damped sum. */
-static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
-{
-    const vec(*a)[TERMS] = (const void *)s;
-    mask scale[STATES];
-    for (int state = 0; state < STATES; state++) {
-        vec size = vec_abs(a[state][0]);
-        scale[state] = (mask)(state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3);
-    }
-    vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
-    vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);
-    vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
-    /* of a mode exp(-z), z is the order times the last term over the one before */
-    *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
-    if (bits(*creeps)) {
-        vec damped = splat(INFINITY);
-        for (int k = EXACT + 1; k <= ORDER; k++) {
-            vec own = ROOM(k, STRICTER*(1.0 - damping(k)));
-            damped = vec_min(damped, (allowed + own)*(1.0/k));
-        }
-        step = choose(*creeps, damped, step);
-    }
-    return power_of(step);
-}
-
-#define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
-#define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
-
-static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
-{
-    EVERY(TERM)
-    s->acceleration[ORDER] = splat(0.0); /* known to one order less */
-}
-
-static __attribute__((noinline)) void expand_glass(series *s, const constants *c)
-{
-    EVERY(GLASS_TERM)
-}
+#include "certificates.h"
+#include "damped_sum.h"
+#include "effects.h"
+#include "events.h"
+#include "implicit.h"
+#include "model.h"
+#include "nearness.h"
+#include "queue.h"
+#include "state.h"
+#include "step.h"
+#include "step_record.h"
+#include "tangent_step.h"
+#include "tape.h"
 
 static void fly(queue *q)
 {
@@ -208,93 +149,4 @@ static void fly(queue *q)
             finish(q, &l, &f, lane, status, STICK, 0);
         }
     }
-}
-
-/* Whether a buffer has room for so many rows. */
-static int holds(buffer b, int64_t rows, size_t row)
-{
-    return rows <= b.bytes/(int64_t)row;
-}
-
-/* The buffer of a task that is smaller than what is read from it or written to it; null if none is. */
-static const char *misfit(const task *t)
-{
-    if (!holds(t->quantities, QUANTITIES, sizeof(buffer)))
-        return "quantities: too small";
-    for (int k = 0; k < QUANTITIES; k++) {
-        const buffer *column = (const buffer *)t->quantities.at + k;
-        if (column->bytes != sizeof(double) && !holds(*column, t->count, sizeof(double)))
-            return "a quantity: too small";
-    }
-    if (!holds(t->answers, t->count, sizeof(answer)))
-        return "answers: too small";
-#if WITH_LEDGER
-    if (!holds(t->books, t->count, sizeof(ledger)))
-        return "books: too small";
-#endif
-#if WITH_TRAJECTORY
-    if (t->peaks.bytes && !holds(t->peaks, t->count, sizeof(double)))
-        return "peaks: too small";
-#endif
-#if GRADIENTS
-    if (!holds(t->by_group, t->count, GROUPS*RESULTS*sizeof(double)))
-        return "by_group: too small";
-    if (!holds(t->gradients, t->count, QUANTITIES*RESULTS*sizeof(double)))
-        return "gradients: too small";
-    if (!holds(t->near, t->count, sizeof(nearness)))
-        return "near: too small";
-#endif
-    return 0;
-}
-
-#if GRADIENTS
-#if PROOF_BY_ENERGY
-const int proved_by_energy = 1;
-#else
-const int proved_by_energy = 0;
-#endif
-#endif
-
-/* Collides `count` collisions, with derivatives by the quantities if the kernel has them; what it writes to comes zeroed.
- * Returns null, or why nothing was done.
- */
-const char *collide(task *t)
-{
-    const char *why = misfit(t);
-    if (why || t->count < 1)
-        return why;
-    queue q;
-    memset(&q, 0, sizeof q);
-    q.t = t;
-    q.columns = t->quantities.at;
-    q.rtol = t->rtol;
-    q.answers = t->answers.at;
-    q.count = t->count;
-    q.budget = (int)t->budget;
-    q.log = t->log.at;
-    q.log_room = t->log.bytes/(t->count*(long)sizeof(happening));
-#if WITH_LEDGER
-    q.books = t->books.at;
-#endif
-#if WITH_TRAJECTORY
-    q.written = t->rows.at;
-    q.peaks = t->peaks.bytes ? t->peaks.at : 0;
-    q.step_room = t->rows.bytes/(long)sizeof(step_row);
-#endif
-#if GRADIENTS
-    q.asked = (unsigned)t->asked;
-    q.by_group = t->by_group.at;
-    q.gradients = t->gradients.at;
-    q.near = t->near.at;
-#endif
-#if BACKWARD
-    if (!there_and_back(&q))
-        return "no memory for its tape";
-#else
-    fly(&q);
-#if GRADIENTS
-    in_quantities(&q, 0);
-#endif
-#endif
-    return 0;
 }

@@ -3,6 +3,10 @@
  * Any gap ahead whose potential exceeds the energy proves the stick, so a maximum that the grid steps over costs proofs
  * and never makes a wrong one.
  */
+#pragma once
+
+#include "automaton.h"
+#include "model.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
 #if !defined(BY_ORBIT) /* derive/equations/certificates/orbital_momentum.py knows the model */

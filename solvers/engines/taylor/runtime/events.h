@@ -1,4 +1,9 @@
 /* The first event of a step in each lane: bounds first, Bernstein coefficients next, isolation last. */
+#pragma once
+
+#include "model.h"
+#include "roots.h"
+#include "state.h"
 
 /* The event functions of a step, each a series that is positive before its event, and the first to fall. */
 typedef struct {

@@ -8,6 +8,12 @@
  * Steps are judged by their own change, not by the state: the unstable mode grows from nearly nothing, and when it gets
  * away hangs on its relative error. A step on which an event could lie is not taken: the lane goes back to its series.
  */
+#pragma once
+
+#include "certificates.h"
+#include "model.h"
+#include "queue.h"
+#include "state.h"
 
 enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* Taylor steps that one of these must replace: it costs five to ten */

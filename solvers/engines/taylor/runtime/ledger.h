@@ -1,7 +1,12 @@
 /* The energy ledger of a flight, in m v0^2: energies from the states at first touch and at the end, losses and works as
  * integrals along the flight, and what reversals took. Nothing is made to close: what is left over is the flight's error.
  */
+#pragma once
 
+#include "layout.h"
+#include "model.h"
+
+#if WITH_LEDGER
 /* What a reversal from this state takes. */
 static void book_reversal(ledger *book, const constants *c, const vec *y, int lane)
 {
@@ -36,3 +41,4 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
 #endif
     book->momentum = booked_momentum(c, y)[lane];
 }
+#endif

@@ -3,7 +3,15 @@
  *
  * They are looked at closely only where a bound leaves room for a value below WORTH_SAYING.
  */
+#pragma once
 
+#include "certificates.h"
+#include "events.h"
+#include "model.h"
+#include "state.h"
+#include "tangents.h"
+
+#if GRADIENTS
 static const double WORTH_SAYING = 1e-2;
 enum { PLACES = 8 };
 
@@ -187,3 +195,4 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
         measure_event(along, l, f, s, at, h[lane], (int)event[lane], lane);
     }
 }
+#endif

@@ -1,137 +1,13 @@
 /* Collisions on their way: quantities in, constants and proofs at first touch, lanes filled and emptied, answers out. */
+#pragma once
 
-static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
-static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
-static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
-static const double TIGHTEST = 1e-14;
-
-_Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
-
-/* What is fixed for a flight. */
-typedef struct {
-    constants c;
-    barrier b;
-    vec tolerance, rest; /* relative error of a step, and the opening velocity that counts as none */
-    vec contact, end, edge;
-#if GRADIENTS
-    slope_constants slopes;
-#if !BACKWARD
-    vec one[GROUPS]; /* a derivative's size where its elasticity is one, of a state of one */
-#endif
-#endif
-} fixed;
-
-typedef struct {
-    vec y[STATES];
-    vec time, smallest, film, shear;
-    vec stride; /* the last step */
-    mask alive, closing, resting, fresh;
-    mask index, steps, phases, reversal, crept; /* crept: steps in a row that only a damped sum could take */
-#if GRADIENTS
-    carried along;
-#endif
-} flights;
-
-enum { FIXED = sizeof(fixed)/sizeof(vec), FLIGHT = sizeof(flights)/sizeof(vec) };
-
-typedef struct {
-    task *t; /* what was asked; its buffers are as large as they say (solvers/engines/taylor/layout.py) */
-    const buffer *columns; /* quantities in SI */
-    double rtol;
-    answer *answers;
-    happening *log; /* `log_room` a collision, whose answer counts those that found none as well */
-    long log_room;
-#if WITH_LEDGER
-    ledger *books; /* one a collision */
-#endif
-#if WITH_TRAJECTORY
-    struct step_row *written; /* `step_room` steps of all collisions; the task counts those that found none as well */
-    long step_room;
-    double *peaks; /* one a collision; null for none */
-#endif
-    long count, next;
-    int budget;
-    long queued, taken; /* collisions that are waiting, of `rows` */
-    long waiting[LANES];
-    double rows[LANES][FIXED];
-    double starts[LANES][STATES];
-    int parks, resumes; /* flights that wait for implicit.h, and that come from there */
-    double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
-#if GRADIENTS
-    double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
-    nearness *near;
-    unsigned asked;               /* groups, as bits */
-#endif
-#if BACKWARD
-    struct tape *tape;
-#endif
-} queue;
-
-#if BACKWARD
-static void note_on_tape(const queue *q, int kind, long index, int lane, const vec *y, const fixed *f);
-#endif
-
-#if WITH_TRAJECTORY
-/* Lanes whose stick may be proved, for the purpose of a flight. */
-static mask provable(const queue *q, mask closing)
-{
-    long purpose = q->t->purpose;
-    return purpose == WHOLE ? splat_mask(-1) : purpose == ESCAPE ? closing : splat_mask(0);
-}
-#endif
-
-/* A quantity of a collision: its own, or the one for all. */
-static inline double quantity(const queue *q, int k, long index)
-{
-    const buffer *column = q->columns + k;
-    return ((const double *)column->at)[column->bytes > (int64_t)sizeof(double) ? index : 0];
-}
-
-static void put(queue *q, long index, int status, int outcome, int certified)
-{
-    certified = certified && CERTIFICATE && !SURFACE_ARM; /* angular momentum drifts: no theorem */
-    answer *a = &q->answers[index];
-    a->status = status;
-    a->outcome = outcome;
-    a->certified = certified;
-    a->reversal = -1;
-}
-
-static void note(queue *q, long index, int kind, double time)
-{
-    answer *a = &q->answers[index];
-    if (a->events < q->log_room)
-        q->log[index*q->log_room + a->events] = (happening){kind, time};
-    a->events++;
-}
-
-/* Tolerances as solvers/engines/casadi/integrators.py has them: near grazing incidence the doublet turns within a tiny part of x0; at
- * very small angles, with nothing that attracts, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0. Returns the
- * lanes that are beyond any tolerance. */
-static unsigned set_tolerance(const queue *q, fixed *f)
-{
-    unsigned beyond = 0;
-    double rtol = q->rtol < SHARP ? 0.5*q->rtol : q->rtol;
-    f->tolerance = splat(rtol);
-    f->rest = splat(SLOW);
-#if OBLIQUE
-    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
-#if STRINGS
-    net -= f->c.weight*f->c.aspect/f->c.string_ratio;
-#endif
-    EACH_LANE(lane)
-    {
-        double of = centrifugal[lane];
-        if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
-            f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
-        if (net[lane] > 1.0)
-            f->tolerance[lane] = fmax(rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(rtol, TIGHTEST));
-        if (of > MOST_OBLIQUE)
-            beyond |= 1u << lane;
-    }
-#endif
-    return beyond;
-}
+#include "certificates.h"
+#include "energy_barrier.h"
+#include "ledger.h"
+#include "state.h"
+#include "tangents.h"
+#include "tape.h"
+#include "tolerance.h"
 
 /* Constants, barrier and start of the next collisions; those proved sticks at first touch never take a lane. */
 static void fill_queue(queue *q)
@@ -209,13 +85,15 @@ static void fill_queue(queue *q)
     }
 }
 
+typedef double word_of_lane __attribute__((may_alias)); /* a flight's fields are vectors of doubles or of integers */
+
 /* A lane's flight to a row, and back. */
 static void pack(double *row, const flights *l, const fixed *f, int lane)
 {
     for (int field = 0; field < FIXED; field++)
         row[field] = ((const vec *)f)[field][lane];
     for (int field = 0; field < FLIGHT; field++)
-        row[FIXED + field] = ((const vec *)l)[field][lane];
+        row[FIXED + field] = ((const word_of_lane *)l)[field*LANES + lane];
 }
 
 static void unpack(const double *row, flights *l, fixed *f, int lane)
@@ -223,18 +101,7 @@ static void unpack(const double *row, flights *l, fixed *f, int lane)
     for (int field = 0; field < FIXED; field++)
         ((double *)&((vec *)f)[field])[lane] = row[field];
     for (int field = 0; field < FLIGHT; field++)
-        ((double *)&((vec *)l)[field])[lane] = row[FIXED + field];
-}
-
-static void refill(queue *q, flights *l, fixed *f, int lane);
-
-/* A lane's flight waits for others that creep; it flies on if enough wait. */
-static void park(queue *q, flights *l, fixed *f, int lane)
-{
-    if (q->parks == LANES)
-        return;
-    pack(q->parked[q->parks++], l, f, lane);
-    refill(q, l, f, lane);
+        ((word_of_lane *)l)[field*LANES + lane] = row[FIXED + field];
 }
 
 /* Puts the next collision of the queue into a lane; the lane rests if there is none. */
@@ -270,6 +137,15 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
 #elif GRADIENTS
     along_start(&l->along, &f->c, lane);
 #endif
+}
+
+/* A lane's flight waits for others that creep; it flies on if enough wait. */
+static void park(queue *q, flights *l, fixed *f, int lane)
+{
+    if (q->parks == LANES)
+        return;
+    pack(q->parked[q->parks++], l, f, lane);
+    refill(q, l, f, lane);
 }
 
 _Static_assert(MODEL_STATES - OPENING <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
@@ -319,24 +195,4 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
 {
     settle(q, l, f, lane, status, outcome, certified);
     refill(q, l, f, lane);
-}
-
-/* Lanes that are proved to stick as they are. */
-static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
-{
-#if !CERTIFICATE
-    return l->time > GIVEN_UP;
-#else
-    return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
-#endif
-}
-
-/* Where the film acts: a liquid that cavitates does not while it is opened. */
-static inline vec acting(const flights *l)
-{
-#if defined(FILM_CAVITATES)
-    return only(l->closing, l->film);
-#else
-    return l->film;
-#endif
 }

@@ -3,6 +3,11 @@
  * No sign variation, no root; one, exactly one root, which a bracketed Newton iteration finds; more, the interval is
  * halved. A double crossing is found, a graze decided, and no sampling is involved.
  */
+#pragma once
+
+#include "settings.h"
+#include <math.h>
+#include <string.h>
 
 enum { DEEPEST = 48 };
 static const double NO_ROOT = 2.0;

@@ -1,5 +1,11 @@
 /* What meets an event: where its function falls, how fast, and how its surface moves with the groups. */
+#pragma once
 
+#include "events.h"
+#include "model.h"
+#include "state.h"
+
+#if GRADIENTS
 /* What an event asks of the states: its function's derivatives by the states, along the flight, and by the groups. */
 typedef struct {
     mask gap, turned, glass;   /* lanes by what is zero */
@@ -54,3 +60,4 @@ static inline vec target_along(const fixed *f, const meeting *m, int group)
 #endif
     return moved;
 }
+#endif

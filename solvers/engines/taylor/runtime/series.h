@@ -2,6 +2,9 @@
  *
  * What is divided by is inverted once, at order zero.
  */
+#pragma once
+
+#include "vector.h"
 
 #define INLINE static inline __attribute__((always_inline))
 #define UNROLL _Pragma("GCC unroll 32")

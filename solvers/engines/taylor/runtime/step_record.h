@@ -1,5 +1,13 @@
 /* The steps of a flight as they were taken, a row each: states as polynomials in the time since the step's start. */
+#pragma once
 
+#include "events.h"
+#include "model.h"
+#include "queue.h"
+#include "state.h"
+#include "effects.h"
+
+#if WITH_TRAJECTORY
 typedef struct step_row {
     double time, length;
     int64_t collision;
@@ -71,3 +79,4 @@ static void act_for_purpose(queue *q, flights *l, fixed *f, int lane, int event)
     if (purpose == APPROACH ? closing && !closes : l->resting[lane] || (!closing && closes))
         finish(q, l, f, lane, DECIDED, STICK, 0);
 }
+#endif

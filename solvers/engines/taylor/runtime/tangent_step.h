@@ -1,5 +1,13 @@
 /* Derivatives over a step: matrix and sources once, a linear recurrence for each direction, the saltation at an event. */
+#pragma once
 
+#include "events.h"
+#include "model.h"
+#include "saltation.h"
+#include "state.h"
+#include "tangents.h"
+
+#if GRADIENTS && !BACKWARD
 #define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, d, c, s, v, film, shear, source, k);
 
 static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slopes *d, const slope_constants *c,
@@ -69,3 +77,4 @@ static void carry(flights *l, const fixed *f, const series *s, const tangents *a
     if (meets)
         a->least = choose(falls & (m.at[GAP] < a->least), m.at[GAP], a->least);
 }
+#endif

@@ -3,7 +3,11 @@
  * A phase starts on its event, so a derivative of its start is one of the state on a surface that moves with the groups;
  * time is no variable of it, only a sum whose parts change with the events that end them (saltation).
  */
+#pragma once
 
+#include "model.h"
+
+#if GRADIENTS
 /* Columns of a collision's derivatives: the outputs, then these; only the restitution's are taken backwards. */
 enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED };
 _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
@@ -108,4 +112,5 @@ static void along_finished(const carried *a, const constants *v, const vec *y, i
 #endif
     }
 }
+#endif
 #endif

@@ -1,5 +1,9 @@
 /* What a flight leaves for the way back: where each step began and what ended it, and what happened to lanes in between. */
+#pragma once
 
+#include "state.h"
+
+#if BACKWARD
 enum { BATCH = 512 }; /* collisions on one tape, of MOST_STEPS steps each */
 
 typedef struct {
@@ -83,3 +87,4 @@ static inline mask only_if_full(const queue *q, mask alive)
 {
     return q->tape->full ? alive : splat_mask(0);
 }
+#endif

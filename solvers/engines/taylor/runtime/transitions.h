@@ -1,4 +1,12 @@
 /* The rules of derive/equations/automaton.py; what each event does is emitted beside them, in effects.h. */
+#pragma once
+
+#include "certificates.h"
+#include "ledger.h"
+#include "queue.h"
+#include "state.h"
+#include "tangents.h"
+#include "tape.h"
 
 static void separated(queue *q, flights *l, fixed *f, int lane)
 {

@@ -3,6 +3,9 @@
  * Vector extensions of gcc and clang; LANES is 8, 4, 2 or 1. No -ffast-math: comparisons with NaN are false, infinities
  * behave, and every loop below treats "not clearly so" as "look closer".
  */
+#pragma once
+
+#include "settings.h"
 
 #include <math.h>
 #include <stdint.h>

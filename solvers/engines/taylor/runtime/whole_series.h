@@ -1,4 +1,7 @@
 /* Series made one after the other out of series that are known whole, so that what is multiplied stays in registers. */
+#pragma once
+
+#include "series.h"
 
 #define TERM_AT(number, ...) { enum { k = number }; if (k < ORDER) { __VA_ARGS__ } }
 /* A statement for each coefficient k but the last, which no rate needs. */

@@ -1,0 +1,81 @@
+/* A step: the series of the states about its start, and the length for which they hold. */
+#pragma once
+
+#include "damped_sum.h"
+#include "model.h"
+#include "state.h"
+#include "tangents.h"
+
+/* The bits of a positive double, read as an integer, are nearly its logarithm: lengths only to some percent. */
+static const int64_t ONE = 0x3ff0000000000000;
+
+static inline vec power_of(vec logarithm)
+{
+    logarithm = vec_min(logarithm, splat(60.0*4503599627370496.0));
+    return (vec)(__builtin_convertvector(logarithm, mask) + ONE);
+}
+
+/* What a share of coefficient k may still grow by in the state that allows least, as a logarithm. */
+static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
+{
+    for (int state = 0; state < STATES; state++)
+        least_room = least(scale[state] - (mask)vec_abs(share*a[state][k]), least_room);
+    return least_room;
+}
+
+#if GRADIENTS && !BACKWARD
+#define ALONG , const tangents *along
+static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share ALONG)
+{
+    mask found = room_of(scale, a, k, share, splat_mask(INT64_MAX));
+    for (unsigned left = along->asked; left; left &= left - 1) {
+        int group = __builtin_ctz(left);
+        found = room_of(along->scale[group], (const void *)along->t[group], k, share, found);
+    }
+    return __builtin_convertvector(found, vec);
+}
+#define ROOM(k, share) room(scale, a, k, share, along)
+#else
+#define ALONG
+#define ROOM(k, share) __builtin_convertvector(room_of(scale, a, k, share, splat_mask(INT64_MAX)), vec)
+#endif
+
+/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2); lanes that a decaying
+ * mode holds to it are in `creeps`, and take the step of the damped sum. */
+static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
+{
+    const vec(*a)[TERMS] = (const void *)s;
+    mask scale[STATES];
+    for (int state = 0; state < STATES; state++) {
+        vec size = vec_abs(a[state][0]);
+        scale[state] = (mask)(state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3);
+    }
+    vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
+    vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);
+    vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
+    /* of a mode exp(-z), z is the order times the last term over the one before */
+    *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
+    if (bits(*creeps)) {
+        vec damped = splat(INFINITY);
+        for (int k = EXACT + 1; k <= ORDER; k++) {
+            vec own = ROOM(k, STRICTER*(1.0 - damping(k)));
+            damped = vec_min(damped, (allowed + own)*(1.0/k));
+        }
+        step = choose(*creeps, damped, step);
+    }
+    return power_of(step);
+}
+
+#define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
+#define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
+
+static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
+{
+    EVERY(TERM)
+    s->acceleration[ORDER] = splat(0.0); /* known to one order less */
+}
+
+static __attribute__((noinline)) void expand_glass(series *s, const constants *c)
+{
+    EVERY(GLASS_TERM)
+}

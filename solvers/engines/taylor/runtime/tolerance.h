@@ -1,0 +1,38 @@
+/* Tolerances as solvers/engines/casadi/integrators.py has them: near grazing incidence the doublet turns within a tiny part
+ * of x0; at very small angles, with nothing that attracts, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0.
+ */
+#pragma once
+
+#include "automaton.h"
+#include "state.h"
+
+static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
+#if OBLIQUE
+static const double TIGHTEST = 1e-14;
+#endif
+
+/* Those of flights whose constants are known; returns the lanes that are beyond any tolerance. */
+static unsigned set_tolerance(const queue *q, fixed *f)
+{
+    unsigned beyond = 0;
+    double rtol = q->rtol < SHARP ? 0.5*q->rtol : q->rtol;
+    f->tolerance = splat(rtol);
+    f->rest = splat(SLOW);
+#if OBLIQUE
+    vec centrifugal = f->c.obliquity*f->c.obliquity*f->c.aspect*(1.0/16.0), net = centrifugal;
+#if STRINGS
+    net -= f->c.weight*f->c.aspect/f->c.string_ratio;
+#endif
+    EACH_LANE(lane)
+    {
+        double of = centrifugal[lane];
+        if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
+            f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
+        if (net[lane] > 1.0)
+            f->tolerance[lane] = fmax(rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(rtol, TIGHTEST));
+        if (of > MOST_OBLIQUE)
+            beyond |= 1u << lane;
+    }
+#endif
+    return beyond;
+}
