@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.benchmarks.reference import reference
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped, fly
@@ -23,6 +22,8 @@ from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.model.phases import Flow, Region
 from wetdoublet.solvers.verify.stress.answers import dimensionless
 from wetdoublet.solvers.verify.stress.impacts import TASKS, Impact, Task
+
+from .measured.reference import reference
 
 RTOLS = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 COUNT = 60  # impacts drawn a task, by the seed of the benchmark

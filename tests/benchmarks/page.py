@@ -13,10 +13,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from wetdoublet.solvers.benchmarks import tables
-from wetdoublet.solvers.benchmarks.cold import cold_table
-from wetdoublet.solvers.benchmarks.targets import headline, target_table
 from wetdoublet.solvers.formatting.markdown import ms, table
+
+from .measured.cold import cold_table
+from .measured.page import tables
+from .measured.page.targets import headline, target_table
 
 Record = dict[str, Any]
 

@@ -3,7 +3,7 @@
 python tests/benchmarks/sensitivity_cost.py     (half a minute)
 """
 
-from wetdoublet.solvers.benchmarks.derivatives import NOTE, gradient_table, gradients
+from .measured.derivatives import NOTE, gradient_table, gradients
 
 if __name__ == "__main__":
     found = [row for preset in ("granulation", "pendulum") for row in gradients(preset)]

@@ -34,8 +34,8 @@ def run(*arguments: str) -> int:
 
 
 def test_a_small_sample_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """`bench --stress 12` exits 0, its last line is the summary, and its record, tables, maps and scenes are there."""
-    assert run("bench", "--stress", "12", "--out", str(tmp_path / "new")) == 0
+    """`verify --stress 12` exits 0, its last line is the summary, and its record, tables, maps and scenes are there."""
+    assert run("verify", "--stress", "12", "--out", str(tmp_path / "new")) == 0
     out, err = capsys.readouterr()
     last = out.strip().splitlines()[-1]
     assert last.startswith("stress: 12 scenes, 0 unexplained disagreements")
@@ -78,7 +78,7 @@ def test_a_broken_engine_is_caught(
 ) -> None:
     """An error of 1e-4 in e_n, or a wrong outcome, is an unexplained disagreement: named, kept as a scene, exit 1."""
     monkeypatch.setattr(checking, "fast", broken)
-    assert run("bench", "--stress", "8", "--out", str(tmp_path)) == 1
+    assert run("verify", "--stress", "8", "--out", str(tmp_path)) == 1
     out, err = capsys.readouterr()
     assert f"unexplained ({kind}): " in out
     assert " 0 unexplained" not in out.strip().splitlines()[-1]
@@ -149,7 +149,7 @@ def test_the_sample_is_the_same_again_and_covers_its_ranges() -> None:
 @pytest.mark.parametrize("count", ["0", "-3", "many", "1.5"])
 def test_a_count_that_cannot_be(count: str, capsys: pytest.CaptureFixture[str]) -> None:
     """`--stress` takes a whole number above 0; anything else is bad input that names the option."""
-    assert run("bench", "--stress", count) == 2
+    assert run("verify", "--stress", count) == 2
     assert "--stress" in capsys.readouterr().err
 
 
@@ -296,7 +296,7 @@ def test_an_interrupt_keeps_what_is_judged(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(stress_test, "_judged", once)
-    assert run("bench", "--stress", "12", "--out", str(tmp_path)) == 130
+    assert run("verify", "--stress", "12", "--out", str(tmp_path)) == 130
     out, err = capsys.readouterr()
     assert " of 12 scenes, " in out.strip().splitlines()[-1]
     assert "interrupted" in err

@@ -8,15 +8,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-
-from ..errors import ComputationError
-from ..many.collide_many import collide_many
-from ..model.dimensionless import Numbers
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..sensitivity.parameters import Kind, kind_of, known, references, way
-from ..sensitivity.sensitivities import sensitivities
-from ..verify.stress.impacts import Impact, Task
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.many.collide_many import collide_many
+from wetdoublet.solvers.model.dimensionless import Numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, references, way
+from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
+from wetdoublet.solvers.verify.stress.impacts import Impact, Task
 
 COUNT = 12  # parameters
 SEPARATING = 25  # collisions
@@ -55,7 +54,7 @@ class Gradients:
     @cached_property
     def numbers(self) -> list[Numbers]:
         """The collisions without dimensions."""
-        from ..verify.stress.answers import dimensionless
+        from wetdoublet.solvers.verify.stress.answers import dimensionless
 
         return [dimensionless(self.scene, each) for each in self.impacts]
 

@@ -8,15 +8,15 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import collide_many
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
+from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
+from wetdoublet.solvers.settings import ENGINES, RTOL
 
-from ..collision.collide import collide
-from ..host.compiler import compiler
-from ..many.collide_many import collide_many
-from ..scene.scene import Scene
-from ..sensitivity.gradients_many import gradients_many
-from ..sensitivity.sensitivities import sensitivities
-from ..settings import ENGINES, RTOL
-from .engines import in_bulk
+from .peers.engines import in_bulk
 
 Record = dict[str, Any]
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..formatting.markdown import ms, table, us
-from .cold import cold_table, first_table
-from .features import FEATURES, TOGETHER
-from .gradient_work import gradient_work_text
-from .lines import line_table
-from .near import near_text
-from .sharp import sharp_text
+from wetdoublet.solvers.formatting.markdown import ms, table, us
+
+from ..cold import cold_table, first_table
+from ..features import FEATURES, TOGETHER
+from ..gradient_work import gradient_work_text
+from ..lines import line_table
+from ..near import near_text
+from ..sharp import sharp_text
 
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
 

@@ -10,18 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide, collide_many
-from wetdoublet.solvers.benchmarks import features, lines, needs
-from wetdoublet.solvers.benchmarks import growth as growing
-from wetdoublet.solvers.benchmarks import reference as references
-from wetdoublet.solvers.benchmarks import run as running
-from wetdoublet.solvers.benchmarks import work as working
-from wetdoublet.solvers.benchmarks.cold import COMMANDS
-from wetdoublet.solvers.benchmarks.engines import Engine, engines
-from wetdoublet.solvers.benchmarks.features import HORIZON, certificate
-from wetdoublet.solvers.benchmarks.record import write
-from wetdoublet.solvers.benchmarks.reference import Reference, reference
-from wetdoublet.solvers.benchmarks.tables import equal_error, failures, report
-from wetdoublet.solvers.benchmarks.work import work
 from wetdoublet.solvers.engines.casadi import locate as locating
 from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
@@ -29,6 +17,19 @@ from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.verify.stress.answers import Answer, answer
 from wetdoublet.solvers.verify.stress.impacts import TASKS, Impact, Task
+
+from .measured import features, lines, needs
+from .measured import growth as growing
+from .measured import reference as references
+from .measured import run as running
+from .measured import work as working
+from .measured.cold import COMMANDS
+from .measured.features import HORIZON, certificate
+from .measured.page.record import write
+from .measured.page.tables import equal_error, failures, report
+from .measured.peers.engines import Engine, engines
+from .measured.reference import Reference, reference
+from .measured.work import work
 
 OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor", "taylor, kernel alone")
 TINY = (Task("granulation", 3, (0.02, 0.5), 85.0), Task("pendulum", 2, (1.0, 3.0), 80.0))
@@ -170,7 +171,7 @@ def test_failures_and_wrong_outcomes_are_counted_and_told() -> None:
 
 def test_peers_that_are_absent_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing of the extra installed: every peer says so, and the reference is Rosenbrock's beside CVODES'."""
-    from wetdoublet.solvers.benchmarks import engines as listing
+    from .measured.peers import engines as listing
 
     monkeypatch.setattr(listing, "find_spec", lambda _: None)
     monkeypatch.setattr(references, "find_spec", lambda _: None)
@@ -291,8 +292,8 @@ def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
 def test_variational_equations_of_heyoka_are_our_derivatives(task: Task) -> None:
     """With a saltation of its own at each event it agrees with forward derivatives at 1e-12, through events."""
     pytest.importorskip("heyoka")
-    from wetdoublet.solvers.benchmarks.gradient_task import Gradients
-    from wetdoublet.solvers.benchmarks.peer_heyoka_variational import prepare
+    from .measured.gradient_task import Gradients
+    from .measured.peers.heyoka_gradient import prepare
 
     asked = Gradients.of(task, 7)
     batch = prepare(asked.scene, asked.numbers, asked.slopes, 1e-9)

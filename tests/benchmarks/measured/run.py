@@ -8,16 +8,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from ..host.environment import environment, one_core
-from ..verify.stress.impacts import SEED, TASKS, Task
+from wetdoublet.solvers.host.environment import environment, one_core
+from wetdoublet.solvers.verify.stress.impacts import SEED, TASKS, Task
+
 from .cold import cold_start, first_use
-from .engines import Engine, engines
 from .features import HORIZON, Cost, costs
 from .gradient_work import gradient_work
 from .growth import growth
 from .lines import lines
 from .near import near
 from .needs import gradients, structures
+from .peers.engines import Engine, engines
 from .reference import Reference, references
 from .sharp import sharp
 from .work import FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work

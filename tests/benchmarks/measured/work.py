@@ -8,12 +8,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Answer, Bulk
+from wetdoublet.solvers.verify.stress.impacts import Impact, Task
 
-from ..errors import ComputationError
-from ..scene.scene import Scene
-from ..verify.stress.answers import Answer, Bulk
-from ..verify.stress.impacts import Impact, Task
-from .engines import Engine
+from .peers.engines import Engine
 from .reference import Reference
 
 TOLERANCES = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13)

@@ -16,13 +16,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.engines.casadi.locate import CRITERIA, Locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.model.dimensionless import Numbers
+from wetdoublet.solvers.model.model import Choice, choose, load
+from wetdoublet.solvers.scene.scene import Scene
 
-from ..engines.casadi.locate import CRITERIA, Locate
-from ..errors import ComputationError
-from ..model.dimensionless import Numbers
-from ..model.model import Choice, choose, load
-from ..scene.scene import Scene
-from .peer_heyoka import BATCH, Batch, Lane, Start, as_expression, elementary
+from .heyoka_engine import BATCH, Batch, Lane, Start, as_expression, elementary
 from .translated import translated
 
 _OWN_GROUP = {"glass": "glass_number", "elastic": "elastic_gap", "rough": "rough_gap"}

@@ -13,12 +13,11 @@ from typing import Any
 import casadi
 import numpy as np
 from casadi import Function
-
-from ..engines.casadi.integrators import Stop
-from ..engines.casadi.locate import Path
-from ..model.model import Model
-from ..verify.stress.numpy_equations import Equations
-from ..verify.stress.scipy_engine import Flight
+from wetdoublet.solvers.engines.casadi.integrators import Stop
+from wetdoublet.solvers.engines.casadi.locate import Path
+from wetdoublet.solvers.model.model import Model
+from wetdoublet.solvers.verify.stress.numpy_equations import Equations
+from wetdoublet.solvers.verify.stress.scipy_engine import Flight
 
 _WORDS = {
     "ADD": "{0} + {1}", "SUB": "{0} - {1}", "MUL": "{0} * {1}", "DIV": "{0} / {1}", "NEG": "-{0}", "EXP": "exp({0})",

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 
-from ..collision.collide import collide
-from ..engines.casadi.locate import locate
-from ..errors import ComputationError
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..verify.stress.answers import Answer, answer, dimensionless
-from ..verify.stress.impacts import Impact
-from ..verify.stress.scipy_engine import fly
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Answer, answer, dimensionless
+from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.scipy_engine import fly
 
 RTOL = 1e-13
 _CVODES_RTOLS = (1e-13, 1e-12, 1e-11)  # the tightest that it completes

@@ -8,9 +8,10 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from ..host.cores import usable_cores
-from ..settings import ENGINES
-from .engines import in_bulk
+from wetdoublet.solvers.host.cores import usable_cores
+from wetdoublet.solvers.settings import ENGINES
+
+from .peers.engines import in_bulk
 
 Record = dict[str, Any]
 

@@ -9,17 +9,16 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
-
-from ..collision.collide import collide
-from ..engines.casadi.locate import LOOSEST
-from ..host.compiler import compiler
-from ..many.collide_many import OUTCOMES, collide_many
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..settings import ENGINES
-from ..verify.stress.answers import Answer, Bulk, Collide, answer, dimensionless
-from ..verify.stress.impacts import Impact
-from ..verify.stress.scipy_engine import fly
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.casadi.locate import LOOSEST
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import OUTCOMES, collide_many
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.settings import ENGINES
+from wetdoublet.solvers.verify.stress.answers import Answer, Bulk, Collide, answer, dimensionless
+from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.scipy_engine import fly
 
 
 @dataclass(frozen=True)
@@ -105,7 +104,7 @@ def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
 
 def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """The Taylor kernel without what `collide_many` adds: checks, what the kernel hands over, labels."""
-    from ..engines.taylor.call import Impacts, answers
+    from wetdoublet.solvers.engines.taylor.call import Impacts, answers
 
     stokes, angle = _columns(impacts)
     given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
@@ -122,7 +121,7 @@ def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
 def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """All collisions through one queue."""
-    from .peer_heyoka import collisions
+    from .heyoka_engine import collisions
 
     batch = collisions(scene, impacts, min(rtol, LOOSEST))  # looser, its energy misses the level that proves a stick
 
@@ -135,14 +134,14 @@ def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
 def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """All collisions side by side."""
-    from .peer_diffrax import collisions
+    from .diffrax_engine import collisions
 
     return collisions(scene, impacts, rtol)
 
 
 def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
     """One collision after another by CVODE."""
-    from .peer_sundae import fly as flown
+    from .sundials_engine import fly as flown
 
     def one(k: int) -> Answer:
         n = dimensionless(scene, impacts[k])

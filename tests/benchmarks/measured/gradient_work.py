@@ -11,18 +11,18 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.engines.taylor.call import Impacts
+from wetdoublet.solvers.formatting.markdown import table, us
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import collide_many
+from wetdoublet.solvers.sensitivity.by_kernel import along
+from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
+from wetdoublet.solvers.verify.stress.impacts import TASKS, Task
 
-from ..engines.taylor.call import Impacts
-from ..formatting.markdown import table, us
-from ..host.compiler import compiler
-from ..many.collide_many import collide_many
-from ..sensitivity.by_kernel import along
-from ..sensitivity.gradients_many import gradients_many
-from ..verify.stress.impacts import TASKS, Task
 from .gradient_task import COUNT, Gradients
-from .peer_diffrax_gradient import MISSING as NO_DIFFRAX
-from .peer_diffrax_gradient import TOLERANCES as DIFFRAX
-from .peer_diffrax_gradient import of_task as diffrax_forward
+from .peers.diffrax_gradient import MISSING as NO_DIFFRAX
+from .peers.diffrax_gradient import TOLERANCES as DIFFRAX
+from .peers.diffrax_gradient import of_task as diffrax_forward
 from .work import OFTEN, REPEATS, SETS, Tell
 
 Record = dict[str, Any]
@@ -110,7 +110,7 @@ def _casadi(method: str, asked: Gradients, _: int, rtol: float) -> Run:
 
 
 def _heyoka(asked: Gradients, copies: int, rtol: float) -> Run:
-    from .peer_heyoka_variational import prepare
+    from .peers.heyoka_gradient import prepare
 
     batch = prepare(asked.scene, asked.numbers * copies, np.tile(asked.slopes, (copies, 1, 1)), rtol)
 

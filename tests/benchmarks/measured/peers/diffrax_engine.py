@@ -10,14 +10,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Answer, Bulk, dimensionless
+from wetdoublet.solvers.verify.stress.impacts import Impact
 
-from ..engines.casadi.locate import Locate
-from ..errors import ComputationError
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..verify.stress.answers import Answer, Bulk, dimensionless
-from ..verify.stress.impacts import Impact
-from .peer_heyoka import starts
+from .heyoka_engine import starts
 from .translated import translated
 
 _HORIZON, _STEPS, _PHASES = 1e10, 20_000, 12

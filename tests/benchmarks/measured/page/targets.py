@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..formatting.markdown import table, us
-from .engines import HEYOKA
-from .near import GENERATED
+from wetdoublet.solvers.formatting.markdown import table, us
+
+from ..near import GENERATED
+from ..peers.engines import HEYOKA
 
 Record = dict[str, Any]
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from ..host import files
+from wetdoublet.solvers.host import files
+
+from ..run import Record
 from .plots import draw
-from .run import Record
 from .tables import report
 
 

@@ -8,18 +8,17 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 
 import numpy as np
-
-from ..collision.collide import collide
-from ..engines.casadi.integrators import tolerance
-from ..engines.casadi.locate import locate
-from ..formatting.markdown import ms, table
-from ..model.dimensionless import numbers
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..sensitivity.derivatives import evaluate
-from ..sensitivity.parameters import known
-from ..sensitivity.sensitivities import sensitivities
-from ..sensitivity.trajectory_expression import Course, course_of, flight
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.casadi.integrators import tolerance
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.formatting.markdown import ms, table
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.sensitivity.derivatives import evaluate
+from wetdoublet.solvers.sensitivity.parameters import known
+from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
+from wetdoublet.solvers.sensitivity.trajectory_expression import Course, course_of, flight
 
 COUNT = 12  # parameters
 RTOL = 1e-10

@@ -11,9 +11,9 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from wetdoublet.solvers.host.files import save
 
-from ..host.files import save
-from .features import FEATURES
+from ..features import FEATURES
 from .plots_more import gradient_curves, near_curves
 
 Record = dict[str, Any]

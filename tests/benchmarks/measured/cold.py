@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from statistics import median
 from typing import Any
 
-from ..formatting.markdown import table
-from ..host.compiler import compiler
+from wetdoublet.solvers.formatting.markdown import table
+from wetdoublet.solvers.host.compiler import compiler
 
 Record = dict[str, Any]
 

@@ -14,14 +14,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.certificates.choice import energy_proof
+from wetdoublet.solvers.engines.casadi.locate import CRITERIA, Locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.model.dimensionless import Numbers
+from wetdoublet.solvers.model.model import Choice, choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.impacts import Impact
 
-from ..certificates.choice import energy_proof
-from ..engines.casadi.locate import CRITERIA, Locate
-from ..errors import ComputationError
-from ..model.dimensionless import Numbers
-from ..model.model import Choice, choose, load
-from ..scene.scene import Scene
-from ..verify.stress.impacts import Impact
 from .translated import translated
 
 HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
@@ -294,6 +294,6 @@ def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Seque
 
 def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False) -> Batch:
     """The batch of a scene's impacts; as `prepare`."""
-    from ..verify.stress.answers import dimensionless
+    from wetdoublet.solvers.verify.stress.answers import dimensionless
 
     return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside)

@@ -11,14 +11,14 @@ from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 
 import numpy as np
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.model.dimensionless import Numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
 
-from ..engines.casadi.locate import Locate
-from ..model.dimensionless import Numbers
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from .gradient_task import Gradients
-from .peer_diffrax import SEPARATED, flight
-from .peer_heyoka import starts
+from ..gradient_task import Gradients
+from .diffrax_engine import SEPARATED, flight
+from .heyoka_engine import starts
 from .translated import translated
 
 MISSING = "" if find_spec("diffrax") else "diffrax is not installed (pip install wetdoublet[bench])"

@@ -10,16 +10,17 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from ..engines.casadi import integrators
-from ..engines.casadi.locate import locate
-from ..errors import ComputationError
-from ..formatting.markdown import ms, table
-from ..host import compiled
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..verify.stress.answers import Answer, Bulk, dimensionless
-from ..verify.stress.impacts import Impact
-from .engines import HEYOKA, Engine, engines
+from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.formatting.markdown import ms, table
+from wetdoublet.solvers.host import compiled
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Answer, Bulk, dimensionless
+from wetdoublet.solvers.verify.stress.impacts import Impact
+
+from .peers.engines import HEYOKA, Engine, engines
 
 Record = dict[str, Any]
 
@@ -60,14 +61,14 @@ def _generated() -> Iterator[_Clock]:
     """Integrators compiled as well as the compiler can, and the time in them alone."""
     flags: Any = compiled
     inner: Any = integrators
-    usual, call = flags.FLAGS, inner._call  # noqa: SLF001 # the one place where all integrators are called
+    usual, call = flags.FLAGS, inner._call  # the one place where all integrators are called
     clock = _Clock(call)
     integrators.locator.cache_clear()
-    flags.FLAGS, inner._call = ("-O3", *usual[1:]), clock  # noqa: SLF001 # as above
+    flags.FLAGS, inner._call = ("-O3", *usual[1:]), clock  # as above
     try:
         yield clock
     finally:
-        flags.FLAGS, inner._call = usual, call  # noqa: SLF001 # as above
+        flags.FLAGS, inner._call = usual, call  # as above
         integrators.locator.cache_clear()
 
 
@@ -130,7 +131,7 @@ def _in_bulk(engine: Engine, scene: Scene, sides: Sequence[Side], rtol: float) -
 
 def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """As heyoka elsewhere, with more steps, and watching for barriers inside the film."""
-    from .peer_heyoka import collisions
+    from .peers.heyoka_engine import collisions
 
     batch = collisions(scene, impacts, rtol, inside=True)
     batch.steps = PATIENCE

@@ -8,13 +8,12 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-
-from ..boundaries.boundary import boundary
-from ..collision.collide import collide
-from ..formatting.markdown import ms, table
-from ..host.compiler import compiler
-from ..many.collide_many import OUTCOMES, collide_many
-from ..scene.scene import Scene
+from wetdoublet.solvers.boundaries.boundary import boundary
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.formatting.markdown import ms, table
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import OUTCOMES, collide_many
+from wetdoublet.solvers.scene.scene import Scene
 
 Record = dict[str, Any]
 

@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.benchmarks import cold, gradient_work, near, plots_more, sharp, targets
-from wetdoublet.solvers.benchmarks.engines import HEYOKA, Answer
-from wetdoublet.solvers.benchmarks.gradient_task import Gradients
-from wetdoublet.solvers.benchmarks.gradient_work import Method
 from wetdoublet.solvers.verify.stress.impacts import Impact
+
+from .measured import cold, gradient_work, near, sharp
+from .measured.gradient_task import Gradients
+from .measured.gradient_work import Method
+from .measured.page import plots_more, targets
+from .measured.peers.engines import HEYOKA, Answer
 
 
 @pytest.fixture(scope="module")

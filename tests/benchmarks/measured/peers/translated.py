@@ -7,9 +7,9 @@ from importlib.util import find_spec, module_from_spec
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from ..model.model import Choice
+from wetdoublet.solvers.model.model import Choice
 
-_GENERATED = f"{__package__.rpartition('.')[0].rpartition('.')[0]}.generated"
+_GENERATED = "wetdoublet.generated"
 _FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")
 
 

@@ -8,16 +8,16 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.engines.casadi.locate import CRITERIA, Locate
+from wetdoublet.solvers.formatting.markdown import table
+from wetdoublet.solvers.model.dimensionless import Numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.impacts import TASKS
 
-from ..engines.casadi.locate import CRITERIA, Locate
-from ..formatting.markdown import table
-from ..model.dimensionless import Numbers
-from ..model.model import choose, load
-from ..scene.scene import Scene
-from ..verify.stress.impacts import TASKS
-from .engines import KERNEL, engines
 from .gradient_task import Gradients
-from .peer_heyoka import HORIZON, starts, system
+from .peers.engines import KERNEL, engines
+from .peers.heyoka_engine import HORIZON, starts, system
 
 Record = dict[str, Any]
 

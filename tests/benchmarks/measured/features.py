@@ -10,18 +10,18 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from wetdoublet.solvers.certificates import NoProof, Proof
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.casadi import locate as locating
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import OUTCOMES, collide_many
+from wetdoublet.solvers.model.model import Model
+from wetdoublet.solvers.model.phases import Phase
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.settings import RTOL
+from wetdoublet.solvers.verify.stress.impacts import Impact, Task
 
-from ..certificates import NoProof, Proof
-from ..collision.collide import collide
-from ..engines.casadi import locate as locating
-from ..engines.taylor import call as engine
-from ..host.compiler import compiler
-from ..many.collide_many import OUTCOMES, collide_many
-from ..model.model import Model
-from ..model.phases import Phase
-from ..scene.scene import Scene
-from ..settings import RTOL
-from ..verify.stress.impacts import Impact, Task
 from .reference import Reference
 
 FEATURES = ("certificate", "ledger", "trajectory", "rotation")
