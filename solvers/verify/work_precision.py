@@ -17,6 +17,7 @@ from ..host.environment import one_core
 from ..many.collide_many import FAILED, collide_many
 from ..scene.scene import Scene
 from ..settings import ENGINES
+from .stress.answers import Impact
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))
 BATCH, SINGLE = 100, 8  # collisions in a call; those of them that are also computed one by one
@@ -32,15 +33,7 @@ _Found = TypeVar("_Found")
 
 
 @dataclass(frozen=True)
-class Impact:
-    """Stokes number and angle (rad)."""
-
-    stokes: float
-    angle: float
-
-
-@dataclass(frozen=True)
-class Answer:
+class Computed:
     """What a collision came to; contact time in s, None for a stick."""
 
     outcome: str
@@ -224,14 +217,14 @@ def _drawn(scene: Scene) -> tuple[list[Impact], str]:
 
 def _references(
     scene: Scene, impacts: Sequence[Impact], engines: Sequence[str]
-) -> tuple[dict[str, list[Answer]], dict[str, float]]:
+) -> tuple[dict[str, list[Computed]], dict[str, float]]:
     """Answers of two engines at the tightest tolerance that each completes, and that tolerance."""
-    truth: dict[str, list[Answer]] = {}
+    truth: dict[str, list[Computed]] = {}
     tight: dict[str, float] = {}
     for engine in ("taylor", "rosenbrock", "cvodes"):
         for rtol in _TIGHTEST if engine in engines and len(truth) < 2 else ():
             found = [_one(scene, impact, engine, rtol) for impact in impacts]
-            answers = [each for each in found if isinstance(each, Answer) and each.engine == engine]
+            answers = [each for each in found if isinstance(each, Computed) and each.engine == engine]
             if len(answers) == len(impacts):
                 truth[engine], tight[engine] = answers, rtol
                 break
@@ -243,17 +236,17 @@ def _references(
     return truth, tight
 
 
-def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Answer | None:
+def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Computed | None:
     """A collision as a user asks for it; None if it fails."""
     try:
         found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
     except ComputationError:
         return None
-    return Answer(found.outcome, found.restitution, found.contact_time, found.engine)
+    return Computed(found.outcome, found.restitution, found.contact_time, found.engine)
 
 
 def _row(
-    scene: Scene, impacts: Sequence[Impact], expected: Sequence[Answer], engine: str, rtol: float, batch: float | None
+    scene: Scene, impacts: Sequence[Impact], expected: Sequence[Computed], engine: str, rtol: float, batch: float | None
 ) -> Row:
     """Time and errors of the collisions computed one by one."""
     for impact in impacts:
@@ -274,7 +267,7 @@ def _row(
     )
 
 
-def _errors(found: Sequence[Answer], expected: Sequence[Answer]) -> list[tuple[float, float]]:
+def _errors(found: Sequence[Computed], expected: Sequence[Computed]) -> list[tuple[float, float]]:
     """Absolute error of e_n and relative error of the contact time, where both separate in the same way."""
     return [
         (abs(one.restitution - truth.restitution), abs(one.contact_time / truth.contact_time - 1))

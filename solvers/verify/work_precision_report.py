@@ -67,10 +67,10 @@ def text(found: WorkPrecision, error: float) -> str:
     against = ", ".join(f"{engine} at rtol {rtol:.0e}" for engine, rtol in found.references)
     lines += [
         "",
-        f"Errors are differences from {against}: from the first that is another engine. These two differ by at most",
-        f"{found.uncertainty:.1e} in e_n and {found.time_uncertainty:.1e} (relative) in contact time, which is the "
-        "error estimate of the references.",
-        f"CPU time on one core: a collision by `collide` without ledger, and one of {BATCH} in a call of `collide_many`.",
+        f"Errors are differences from the first of {against} that is another engine.",
+        f"These two differ by at most {found.uncertainty:.1e} in e_n and {found.time_uncertainty:.1e} (relative) in",
+        "contact time: the error estimate of the references.",
+        f"CPU time on one core: of `collide` without ledger, and a {BATCH}th of that of a call of `collide_many`.",
     ]
     if any(row.batch is None for row in found.rows):
         lines.append("-: no batch, as one at a looser tolerance took more than a second, or a collision in it failed.")
@@ -79,7 +79,7 @@ def text(found: WorkPrecision, error: float) -> str:
     lines += ["", f"Recommended for an error of {error:.1e} in e_n:"]
     for each in found.recommend(error):
         setting = f"{each.engine}, rtol {each.rtol:.0e}" if each.engine else "none"
-        lines.append(f"  {each.use}: {setting} ({each.reason})")
+        lines += [f"* {each.use}: {setting}", f"  {each.reason}"]
     return "\n".join(lines)
 
 

@@ -1,7 +1,7 @@
 """What the kernel's derivatives cost and how exact they are, beside heyoka's; rewrites a table of docs/kernel.md.
 
-    python tests/benchmarks/kernel_gradients.py            measures, prints, writes the page and its JSON file
-    python tests/benchmarks/kernel_gradients.py --print    only prints
+    python -m tests.benchmarks.kernel_gradients            measures, prints, writes the page and its JSON file
+    python -m tests.benchmarks.kernel_gradients --print    only prints
 
 25 collisions of each task that separate, repeated in one call; CPU time a collision, the best of some runs
 that take turns; the error is the largest of all derivatives of e_n in theta, p = p_ref (1 + theta), over the largest
@@ -27,9 +27,9 @@ from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.sensitivity.by_kernel import along
 from wetdoublet.solvers.sensitivity.parameters import known
-from wetdoublet.solvers.verify.stress.impacts import Task
 
 from .measured.gradient_task import Gradients
+from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel_gradients.json"

@@ -1,6 +1,6 @@
 """What a gradient to twelve parameters costs, as the table of docs/sensitivities.md.
 
-python tests/benchmarks/sensitivity_cost.py     (half a minute)
+python -m tests.benchmarks.sensitivity_cost     (half a minute)
 """
 
 from .measured.derivatives import NOTE, gradient_table, gradients

@@ -15,8 +15,7 @@ from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.model.model import choose, load
-from wetdoublet.solvers.verify.stress.answers import Answer, answer
-from wetdoublet.solvers.verify.stress.impacts import TASKS, Impact, Task
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer
 
 from .measured import features, lines, needs
 from .measured import growth as growing
@@ -29,6 +28,7 @@ from .measured.page.record import write
 from .measured.page.tables import equal_error, failures, report
 from .measured.peers.engines import Engine, engines
 from .measured.reference import Reference, reference
+from .measured.tasks import TASKS, Task
 from .measured.work import work
 
 OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor", "taylor, kernel alone")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.answers import Impact
 
 from .measured import cold, gradient_work, near, sharp
 from .measured.gradient_task import Gradients

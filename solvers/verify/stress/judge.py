@@ -23,9 +23,8 @@ from ...model.model import choose, load
 from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
-from .answers import answer, dimensionless
+from .answers import Impact, answer, dimensionless
 from .flights import Flights
-from .impacts import Impact
 from .scipy_engine import Flight
 from .verdict import CHATTER, FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 

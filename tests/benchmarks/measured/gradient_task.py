@@ -15,7 +15,9 @@ from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, references, way
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
-from wetdoublet.solvers.verify.stress.impacts import Impact, Task
+from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
+
+from .tasks import Task
 
 COUNT = 12  # parameters
 SEPARATING = 25  # collisions
@@ -54,8 +56,6 @@ class Gradients:
     @cached_property
     def numbers(self) -> list[Numbers]:
         """The collisions without dimensions."""
-        from wetdoublet.solvers.verify.stress.answers import dimensionless
-
         return [dimensionless(self.scene, each) for each in self.impacts]
 
     @cached_property

@@ -17,12 +17,12 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.sensitivity.by_kernel import along
 from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
-from wetdoublet.solvers.verify.stress.impacts import TASKS, Task
 
 from .gradient_task import COUNT, Gradients
 from .peers.diffrax_gradient import MISSING as NO_DIFFRAX
 from .peers.diffrax_gradient import TOLERANCES as DIFFRAX
 from .peers.diffrax_gradient import of_task as diffrax_forward
+from .tasks import TASKS, Task
 from .work import OFTEN, REPEATS, SETS, Tell
 
 Record = dict[str, Any]

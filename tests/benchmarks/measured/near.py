@@ -17,9 +17,9 @@ from wetdoublet.solvers.formatting.markdown import ms, table
 from wetdoublet.solvers.host import compiled
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Bulk, dimensionless
-from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
 
+from .peers.bulk import Bulk
 from .peers.engines import HEYOKA, Engine, engines
 
 Record = dict[str, Any]

@@ -11,8 +11,7 @@ from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, answer, dimensionless
-from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
 from wetdoublet.solvers.verify.stress.scipy_engine import fly
 
 RTOL = 1e-13

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
 from wetdoublet.solvers.host.environment import environment, one_core
-from wetdoublet.solvers.verify.stress.impacts import SEED, TASKS, Task
 
 from .cold import cold_start, first_use
-from .features import HORIZON, Cost, costs
+from .features import Cost, costs
 from .gradient_work import gradient_work
 from .growth import growth
 from .lines import lines
@@ -21,6 +19,7 @@ from .needs import gradients, structures
 from .peers.engines import Engine, engines
 from .reference import Reference, references
 from .sharp import sharp
+from .tasks import SEED, TASKS, Task, place
 from .work import FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work
 
 Record = dict[str, Any]
@@ -82,7 +81,6 @@ def bench(
             "fine": list(fine),
             "often": OFTEN,
             "sets": SETS,
-            "horizon": HORIZON,
         },
         "engines": [{"name": each.name, "missing": each.missing} for each in all_engines],
         "tasks": found,
@@ -103,32 +101,48 @@ def _task(
     tell(f"{task.preset}: reference values")
     truths = references(task.scene, task.impacts())
     points = work(task, truths, all_engines, tolerances, repeats, tell, fine)
-    tell(f"{task.preset}: certificate, ledger, trajectory")
+    tell(f"{task.preset}: ledger, trajectory, rotation")
+    return task_record(task, truths, points) | {"costs": [_cost(each) for each in costs(task, truths, repeats)]}
+
+
+def task_record(task: Task, truths: Sequence[Reference], points: Sequence[Point]) -> Record:
+    """What tables and plots show of a task's collisions and points."""
     return {
         "preset": task.preset,
         "drawn": str(task),
-        "collisions": [_truth(each) for each in truths],
-        "points": [_point(each) for each in points],
-        "costs": [_cost(each) for each in costs(task, truths, repeats)],
+        "collisions": _collisions(truths),
+        "points": [
+            {"engine": point.engine, "rtol": point.rtol, "summary": point.summary(), "said": point.said()}
+            for point in points
+        ],
     }
 
 
-def _truth(truth: Reference) -> Record:
+def _collisions(truths: Sequence[Reference]) -> Record:
+    """How many there are and how well they are known.
+
+    `differences` are the largest of e_n by each other method; `own_error` is the largest difference to the closest of
+    them: an estimate of the reference's own error.
+    """
+    apart = [each for each in truths if each.counts and each.outcome != "stick"]
+    others = list(apart[0].computed)[1:] if apart else []
+    closest = [
+        min(abs(value - each.restitution) for value in list(each.computed.values())[1:])
+        for each in truths
+        if each.outcome != "stick" and len(each.computed) > 1
+    ]
     return {
-        "stokes": truth.impact.stokes,
-        "angle": math.degrees(truth.impact.angle),
-        "outcome": truth.outcome,
-        "restitution": truth.restitution,
-        "decided_at_first_touch": truth.decided,
-        "largest_difference": truth.difference,
-        "computed": truth.computed,
-        "problem": truth.problem,
+        "decided_at_first_touch": sum(each.decided for each in truths),
+        "counted": sum(each.counts for each in truths),
+        "separate": len(apart),
+        "reference": next(iter(apart[0].computed)) if apart else None,
+        "differences": {
+            name: max(abs(each.computed[name] - each.restitution) for each in apart if name in each.computed)
+            for name in others
+        },
+        "own_error": max(closest, default=0.0),
+        "left_out": [f"{place(each.impact)} is left out: {each.problem}." for each in truths if each.problem],
     }
-
-
-def _point(point: Point) -> Record:
-    runs = [asdict(run) | {"error": error} for run, error in zip(point.timed, point.errors(), strict=True)]
-    return {"engine": point.engine, "rtol": point.rtol, "summary": point.summary(), "runs": runs}
 
 
 def _cost(cost: Cost) -> Record:

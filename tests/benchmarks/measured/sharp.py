@@ -13,11 +13,11 @@ from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.model.dimensionless import Numbers
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.impacts import TASKS
 
 from .gradient_task import Gradients
 from .peers.engines import KERNEL, engines
 from .peers.heyoka_engine import HORIZON, starts, system
+from .tasks import TASKS
 
 Record = dict[str, Any]
 

@@ -10,11 +10,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Bulk
-from wetdoublet.solvers.verify.stress.impacts import Impact, Task
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact
 
+from .peers.bulk import Bulk
 from .peers.engines import Engine
 from .reference import Reference
+from .tasks import Task, place
 
 TOLERANCES = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
 FINE = tuple(
@@ -85,11 +86,8 @@ class Point:
         cpu, wall = [run.cpu for run in self.timed], [run.wall for run in self.timed]
         return {
             "cpu_median": float(np.median(cpu)),
-            "cpu_total": sum(cpu),
             "cpu_mean": sum(cpu) / len(cpu),
-            "wall_median": float(np.median(wall)),
             "wall_mean": sum(wall) / len(wall),
-            "wall_total": sum(wall),
             "error_largest": max(errors, default=None),
             "error_median": float(np.median(errors)) if errors else None,
             "wrong": sum(
@@ -98,6 +96,15 @@ class Point:
             ),
             "failed": sum(run.restitution is None for run in self.timed),
         }
+
+    def said(self) -> dict[str, list[str]]:
+        """What the engine said of collisions that failed or came out wrong, and where."""
+        found: dict[str, list[str]] = {}
+        for run, truth in zip(self.timed, self.references, strict=True):
+            wrong = f"{run.outcome} instead of {truth.outcome}" if run.outcome != truth.outcome else ""
+            if what := run.failure or wrong:
+                found.setdefault(what, []).append(place(truth.impact))
+        return found
 
 
 def work(

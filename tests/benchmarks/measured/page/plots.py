@@ -31,7 +31,6 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "scipy Radau": ("#202020", "v", "--"),
 }
 _FILLS = {
-    "certificate": ("#0072B2", ""),
     "ledger": ("#E69F00", "//"),
     "trajectory": ("#56B4E9", ".."),
     "rotation": ("#009E73", "xx"),
@@ -70,7 +69,7 @@ def work_error(record: Record) -> Figure:
             axes.loglog(*good, linestyle=line, linewidth=1.3, label=name, **style)
             if bad[0]:
                 axes.loglog(*bad, linestyle="", **(style | {"markerfacecolor": "white"}))
-        known[task["preset"]] = _estimate(task)
+        known[task["preset"]] = task["collisions"]["own_error"]
         _frame(axes, task)
     _limits(panels, list(known.values()))
     panels[0].set_ylabel("CPU time a collision (us)")
@@ -93,16 +92,6 @@ def _curve(task: Record, name: str) -> tuple[tuple[list[float], list[float]], tu
     return every, bad
 
 
-def _estimate(task: Record) -> float:
-    """The reference's own error: how far the closest other computation is from it, at its largest."""
-    differences = [
-        min(abs(value - each["restitution"]) for value in list(each["computed"].values())[1:])
-        for each in task["collisions"]
-        if each["outcome"] != "stick" and len(each["computed"]) > 1
-    ]
-    return max(differences, default=0.0)
-
-
 def _limits(panels: Sequence[Axes], known: Sequence[float]) -> None:
     """From large errors on the left to small on the right; grey where the reference cannot tell them from its own."""
     drawn = [float(x) for axes in panels for line in axes.get_lines() for x in np.atleast_1d(line.get_xdata())]
@@ -114,8 +103,7 @@ def _limits(panels: Sequence[Axes], known: Sequence[float]) -> None:
 
 
 def _frame(axes: Axes, task: Record) -> None:
-    count = sum(not each["decided_at_first_touch"] and not each["problem"] for each in task["collisions"])
-    axes.set_title(f"{task['preset']}: {count} collisions", fontsize=9.5)
+    axes.set_title(f"{task['preset']}: {task['collisions']['counted']} collisions", fontsize=9.5)
     axes.set_xlabel("largest absolute error in $e_n$")
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     axes.xaxis.set_major_locator(LogLocator(base=100, numticks=20))
@@ -132,7 +120,7 @@ def cost_bars(record: Record) -> Figure:
     height = 0.2
     for position, feature in enumerate(FEATURES):
         there = [(k, ratios[feature]) for k, (_, ratios) in enumerate(rows) if feature in ratios]
-        places = [k + (position - 1.5) * height for k, _ in there]
+        places = [k + (position - 1) * height for k, _ in there]
         colour, hatch = _FILLS[feature]
         style: Any = {"color": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
         axes.barh(places, [ratio - 1 for _, ratio in there], height, left=1.0, label=feature, **style)

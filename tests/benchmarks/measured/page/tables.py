@@ -7,7 +7,7 @@ from typing import Any
 
 from wetdoublet.solvers.formatting.markdown import ms, table, us
 
-from ..cold import cold_table, first_table
+from ..cold import first_table
 from ..features import FEATURES, TOGETHER
 from ..gradient_work import gradient_work_text
 from ..lines import line_table
@@ -21,19 +21,6 @@ Record = dict[str, Any]
 
 def _error(value: float | None) -> str:
     return "-" if value is None else f"{value:.1e}"
-
-
-def report(record: Record) -> str:
-    """Everything, as `bench.md` and the terminal show it."""
-    parts = ["# wetdoublet bench", surroundings(record)]
-    for task in record["tasks"]:
-        parts += [f"## {task['preset']}", sample(task)]
-        if task["points"]:
-            parts += [work_table(task), equal_error(task), failures(task)]
-    parts += ["## What a feature costs", cost_table(record), cost_note(record)]
-    parts += others(record)
-    parts += ["## Cold start", cold_table(record["cold_start"])]
-    return "\n\n".join(part for part in parts if part) + "\n"
 
 
 def surroundings(record: Record) -> str:
@@ -52,26 +39,12 @@ def _shown(value: Any) -> str:
 def sample(task: Record) -> str:
     """The collisions and how well they are known."""
     known = task["collisions"]
-    decided = sum(each["decided_at_first_touch"] for each in known)
-    counted = [each for each in known if not each["decided_at_first_touch"] and not each["problem"]]
-    apart = [each for each in counted if each["outcome"] != "stick"]
-    free = f"{task['drawn']}; {decided} are proved sticks at first touch and do not count."
-    lines = [f"{free} Of the other {len(counted)}, {len(apart)} separate."]
-    if apart:
-        names = list(apart[0]["computed"])
-        differ = {
-            name: max(abs(each["computed"][name] - each["restitution"]) for each in apart if name in each["computed"])
-            for name in names[1:]
-            if any(name in each["computed"] for each in apart)
-        }
-        against = ", ".join(f"{value:.0e} from {name}" for name, value in differ.items())
-        lines.append(f"Reference values by {names[0]} at rtol 1e-13; e_n differs by at most {against}.")
-    lines += [
-        f"St {each['stokes']:.4g} at {each['angle']:.4g} deg is left out: {each['problem']}."
-        for each in known
-        if each["problem"]
-    ]
-    return "\n".join(lines)
+    free = f"{task['drawn']}; {known['decided_at_first_touch']} are proved sticks at first touch and do not count."
+    lines = [f"{free} Of the other {known['counted']}, {known['separate']} separate."]
+    if known["separate"]:
+        against = ", ".join(f"{value:.0e} from {name}" for name, value in known["differences"].items())
+        lines.append(f"Reference values by {known['reference']} at rtol 1e-13; e_n differs by at most {against}.")
+    return "\n".join(lines + known["left_out"])
 
 
 def work_table(task: Record) -> str:
@@ -113,15 +86,11 @@ def equal_error(task: Record) -> str:
 
 def failures(task: Record) -> str:
     """Every collision that failed or came out wrong, with what the engine said."""
-    counted = [each for each in task["collisions"] if not each["decided_at_first_touch"] and not each["problem"]]
-    said: dict[tuple[str, float, str], list[str]] = {}
-    for point in task["points"]:
-        for run, truth in zip(point["runs"], counted, strict=True):
-            wrong = f"{run['outcome']} instead of {truth['outcome']}" if run["outcome"] != truth["outcome"] else ""
-            if what := run["failure"] or wrong:
-                where = f"St {truth['stokes']:.4g} at {truth['angle']:.4g} deg"
-                said.setdefault((point["engine"], point["rtol"], what), []).append(where)
-    lines = [f"* {engine}, rtol {rtol:.1e}, {_some(places)}: {what}" for (engine, rtol, what), places in said.items()]
+    lines = [
+        f"* {point['engine']}, rtol {point['rtol']:.1e}, {_some(places)}: {what}"
+        for point in task["points"]
+        for what, places in point["said"].items()
+    ]
     return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else "No failures, no wrong outcomes."
 
 
@@ -145,18 +114,13 @@ def cost_table(record: Record) -> str:
                 f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), TOGETHER)
             ]
             rows.append([f"{task['preset']}, {count} {outcome}", engine, ms(found[()]["cpu"]), *ratios])
-    return table(["collisions", "engine", "bare ms", *FEATURES, "the first three"], rows)
+    return table(["collisions", "engine", "bare ms", *FEATURES, "the first two"], rows)
 
 
-def cost_note(record: Record) -> str:
-    """What the columns are."""
-    changed = max((cost["changed"] for task in record["tasks"] for cost in task["costs"]), default=0)
-    return (
-        "Mean CPU time at rtol 1e-9; ratios to the bare collision. Without a certificate a stick ends when nothing has "
-        f"happened for {record['settings']['horizon']:g} x0/v0, unproved; a longer wait would cost more. Engines of "
-        "many collisions keep neither ledger nor trajectory; the others always know the rotation. "
-        + (f"Up to {changed} outcomes of a group changed." if changed else "No outcome changed.")
-    )
+COST_NOTE = (
+    "Mean CPU time at rtol 1e-9; ratios to the bare collision. Engines of many collisions keep neither ledger nor "
+    "trajectory; the others always know the rotation."
+)
 
 
 def others(record: Record) -> list[str]:

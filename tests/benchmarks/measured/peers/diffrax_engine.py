@@ -14,9 +14,9 @@ from wetdoublet.solvers.engines.casadi.locate import Locate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Bulk, dimensionless
-from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
 
+from .bulk import Bulk
 from .heyoka_engine import starts
 from .translated import translated
 

@@ -16,9 +16,10 @@ from wetdoublet.solvers.many.collide_many import OUTCOMES, collide_many
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.settings import ENGINES
-from wetdoublet.solvers.verify.stress.answers import Answer, Bulk, Collide, answer, dimensionless
-from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
 from wetdoublet.solvers.verify.stress.scipy_engine import fly
+
+from .bulk import Bulk, Collide
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import Numbers
 from wetdoublet.solvers.model.model import Choice, choose, load
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.impacts import Impact
+from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
 from .translated import translated
 
@@ -294,6 +294,4 @@ def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Seque
 
 def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False) -> Batch:
     """The batch of a scene's impacts; as `prepare`."""
-    from wetdoublet.solvers.verify.stress.answers import dimensionless
-
     return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside)

@@ -1,6 +1,6 @@
 """Measure everything anew and write docs/performance.md: one command, on a quiet machine.
 
-    python tests/benchmarks/measure.py [FOLDER] [SCENES]
+    python -m tests.benchmarks.measured [FOLDER] [SCENES]
 
 FOLDER is docs/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With the usual
 folder the figures of README.md and docs/kernel.md are written as well. What fails is named at the end, and the rest is
@@ -17,29 +17,29 @@ import tempfile
 import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-USUAL = HERE.parents[1] / "docs" / "performance"
-BENCH = (sys.executable, "-m", "wetdoublet.solvers", "bench")
+from .page.record import as_json
+
+ROOT = Path(__file__).resolve().parents[3]
+USUAL = ROOT / "docs" / "performance"
 
 
-def bench(folder: Path) -> None:
-    """Run time against error, and all that goes with it."""
-    subprocess.run([*BENCH, "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
-    (folder / "bench.md").unlink()  # the page has its tables
+def run(module: str, *arguments: str, check: bool = True) -> None:
+    """A module as a process of its own."""
+    subprocess.run([sys.executable, "-m", module, *arguments], cwd=ROOT, check=check, stdout=subprocess.DEVNULL)
 
 
 def script(name: str, *arguments: str) -> None:
-    """Another of this folder's."""
-    subprocess.run([sys.executable, str(HERE / name), *arguments], check=True, stdout=subprocess.DEVNULL)
+    """One of the benchmarks."""
+    run(f"tests.benchmarks.{name}", *arguments)
 
 
 def stress(folder: Path, scenes: str) -> None:
     """Engines against each other; what it finds is in its record."""
     with tempfile.TemporaryDirectory() as work:
-        subprocess.run([*BENCH, "--stress", scenes, "--out", work], check=False, stdout=subprocess.DEVNULL)
+        run("wetdoublet.solvers", "verify", "--stress", scenes, "--out", work, check=False)
         found = json.loads((Path(work) / "stress.json").read_text())
         del found["cases"]  # some megabytes
-        (folder / "stress.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        (folder / "stress.json").write_text(as_json(found) + "\n", encoding="utf-8")
         for picture in Path(work).glob("stress-*.png"):
             shutil.copyfile(picture, folder / picture.name)
 
@@ -50,17 +50,17 @@ def main() -> None:
     scenes = sys.argv[2] if len(sys.argv) > 2 else "500"
     folder.mkdir(parents=True, exist_ok=True)
     parts = {
-        "bench": lambda: bench(folder),
-        "compile_flags": lambda: script("compile_flags.py", str(folder)),
-        "cvodes_share": lambda: script("cvodes_share.py", str(folder)),
+        "bench": lambda: script("measured.page.record", str(folder)),
+        "compile_flags": lambda: script("compile_flags", str(folder)),
+        "cvodes_share": lambda: script("cvodes_share", str(folder)),
         "stress": lambda: stress(folder, scenes),
     }
     if folder == USUAL:
-        parts["kernel"] = lambda: script("kernel.py")
-        parts["kinds"] = lambda: script("kinds.py")
-        parts["kernel_gradients"] = lambda: script("kernel_gradients.py")
-        parts["gradient_engine"] = lambda: script("gradient_engine.py")
-    parts["page"] = lambda: script("page.py", str(folder))
+        parts["kernel"] = lambda: script("kernel")
+        parts["kinds"] = lambda: script("kinds")
+        parts["kernel_gradients"] = lambda: script("kernel_gradients")
+        parts["gradient_engine"] = lambda: script("gradient_engine")
+    parts["page"] = lambda: script("measured.page.document", str(folder))
     failed = []
     for name, measure in parts.items():
         start = time.perf_counter()

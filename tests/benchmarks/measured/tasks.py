@@ -7,18 +7,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-
-from ...scene.scene import Scene
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Impact
 
 SEED = 2012  # of numpy's default_rng, one generator a task: all Stokes numbers are drawn first, then all angles
 
 
-@dataclass(frozen=True)
-class Impact:
-    """Stokes number and angle (rad)."""
-
-    stokes: float
-    angle: float
+def place(impact: Impact) -> str:
+    """An impact in words."""
+    return f"St {impact.stokes:.4g} at {math.degrees(impact.angle):.4g} deg"
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Write docs/performance.md from the records of a run; no figure in it is typed.
 
-    python tests/benchmarks/page.py [FOLDER]
+    python -m tests.benchmarks.measured.page.document [FOLDER]
 
 FOLDER (docs/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if it was run, stress.json. With
 the usual folder also the figures on the front page, README.md, between its marks.
@@ -15,13 +15,13 @@ from typing import Any
 
 from wetdoublet.solvers.formatting.markdown import ms, table
 
-from .measured.cold import cold_table
-from .measured.page import tables
-from .measured.page.targets import headline, target_table
+from ..cold import cold_table
+from . import tables
+from .targets import headline, target_table
 
 Record = dict[str, Any]
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+README = Path(__file__).resolve().parents[4] / "README.md"
 BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 
 
@@ -41,10 +41,10 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
         parts += [f"### {task['preset']}", tables.sample(task), tables.equal_error(task), tables.work_table(task)]
         parts += [tables.failures(task)]
     parts += [
-        "## What a certificate, a ledger, a trajectory and the rotation cost",
+        "## What a ledger, a trajectory and the rotation cost",
         f"![Cost of features]({folder}/cost.png)",
     ]
-    parts += [tables.cost_table(bench), tables.cost_note(bench)]
+    parts += [tables.cost_table(bench), tables.COST_NOTE]
     pictures = {"Near": "near.png", "Gradients to": "gradients.png", "From one": "growth.png"}
     for part in tables.others(bench):
         parts.append(part)
@@ -65,8 +65,8 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
 
 
 INTRODUCTION = """\
-Measured by `wetdoublet bench`; `tests/benchmarks/page.py` writes this page from the records of one run, in `{folder}/`.
-It is made anew by `python tests/benchmarks/measure.py` (see [tests/benchmarks](../tests/benchmarks/README.md)).
+Measured and written by `python -m tests.benchmarks.measured` (see [tests/benchmarks](../tests/benchmarks/README.md));
+its records are in `{folder}/`. For one scene on your machine: `wetdoublet bench SCENE`.
 The cores were shared: read the ratios."""
 
 WORK = """\
@@ -97,7 +97,7 @@ at first touch, against the largest absolute error in e_n among those that separ
   the next best computation (grey in the plot), it cannot be told from the reference's own."""
 
 STRESS = """\
-`wetdoublet bench --stress N`: a quasi-random sample of everything a scene may say, and points set at 1e-3 to 1e-12 of
+`wetdoublet verify --stress N`: a quasi-random sample of everything a scene may say, and points set at 1e-3 to 1e-12 of
 boundaries, each by every engine. Two engines disagree where their outcomes differ, or e_n by more than 1e3 rtol times
 its conditioning; that is explained only where a change of outcome lies within 1e3 rtol of the Stokes number, found by
 moving it. Certified sticks are flown on without their certificate; ledgers must close."""
@@ -140,7 +140,7 @@ def flags_text(flags: Record) -> str:
         else:
             lines.append(f"{task}: -O3 costs {dearer:.2f} s more once and is not faster.")
     said = (
-        f"`python tests/benchmarks/compile_flags.py`, rtol {flags['rtol']:g}. A library belongs to one flow and one "
+        f"`python -m tests.benchmarks.compile_flags`, rtol {flags['rtol']:g}. A library belongs to one flow and one "
         "tolerance, so that every new tolerance waits for the compiler: the first use counts more than the rest."
     )
     return "\n".join([said, *lines])
@@ -167,7 +167,7 @@ def share_text(share: Record) -> str:
     both = {name: [row["median_ratio"][name] for row in share["rows"]] for name in ("cvodes", "cvodes/30")}
     most = max(row["median_error"]["cvodes/30"] / row["rtol"] for row in share["rows"])
     return (
-        f"`python tests/benchmarks/cvodes_share.py`. At equal tolerances CVODES' error is {min(both['cvodes']):.0f} to "
+        f"`python -m tests.benchmarks.cvodes_share`. At equal tolerances CVODES' error is {min(both['cvodes']):.0f} to "
         f"{max(both['cvodes']):.0f} times Rosenbrock's; at rtol/30 {min(both['cvodes/30']):.1f} to "
         f"{max(both['cvodes/30']):.0f} times, and its median error is at most {most:.2g} rtol."
     )
