@@ -10,6 +10,7 @@ from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.verify.stress.answers import Impact
 
 from .measured import cold, gradient_work, near, sharp
+from .measured.derivatives import gradient_table, gradients
 from .measured.gradient_task import Gradients
 from .measured.gradient_work import Method
 from .measured.page import plots_more, targets
@@ -104,7 +105,7 @@ def test_failures_beside_the_separatrix_are_told() -> None:
     assert len(figure.axes) == 1
 
 
-def test_first_use_is_of_whole_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_first_use_is_of_whole_processes() -> None:
     """The first finds an empty cache, the second what that left in the same place."""
     seen: list[tuple[str, str]] = []
 
@@ -112,8 +113,7 @@ def test_first_use_is_of_whole_processes(monkeypatch: pytest.MonkeyPatch) -> Non
         seen.append((arguments[1], environment["WETDOUBLET_CACHE"]))
         return float(len(seen))
 
-    monkeypatch.setattr(cold, "_process", process)
-    rows = cold.first_use(1)
+    rows = cold.first_use(1, process)
     assert [row["preset"] for row in rows] == ["granulation", "pendulum"]
     assert len({folder for _, folder in seen}) == 2
     assert seen[0] == seen[1]
@@ -139,3 +139,19 @@ def test_targets_are_judged_at_equal_error() -> None:
     assert outcomes[2:] == ("none", True)
     assert "**no**" not in targets.target_table(record)
     assert "heyoka in batches" in targets.headline(record)
+
+
+def test_cost_is_measured_for_every_method() -> None:
+    """Both engines, every method, errors against a more accurate gradient; no time is asserted."""
+    found = gradients("granulation", 1, [(0.14, 40.0)])
+    assert {row.engine for row in found} == {"rosenbrock", "cvodes"}
+    by = {(row.engine, row.method): row for row in found}
+    for engine in ("rosenbrock", "cvodes"):
+        adjoint, differences = by[engine, "adjoint"], by[engine, "central differences"]
+        assert adjoint.parameters == differences.parameters == 12
+        assert adjoint.error is not None
+        assert differences.error is not None
+        assert adjoint.error < 1e-7
+        assert adjoint.error < differences.error
+        assert by[engine, "collision"].ratio == 1.0
+    assert gradient_table(found).count("12 parameters") == 6

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from statistics import median
 from typing import Any
 
@@ -15,6 +15,7 @@ from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
 
 Record = dict[str, Any]
+Process = Callable[[list[str], Mapping[str, str]], float]
 
 COMMANDS = {
     "python": ["-c", "pass"],
@@ -31,21 +32,22 @@ def cold_start(repeats: int = 5) -> dict[str, list[float]]:
     taken: dict[str, list[float]] = {name: [] for name in COMMANDS}
     for _ in range(repeats):
         for name, arguments in COMMANDS.items():
-            taken[name].append(_process(arguments))
+            taken[name].append(spent(arguments))
     return taken
 
 
-def _process(arguments: list[str], environment: Mapping[str, str] | None = None) -> float:
+def spent(arguments: list[str], environment: Mapping[str, str] | None = None) -> float:
     """Wall time (s) of a whole process."""
     start = time.perf_counter()
     subprocess.run([sys.executable, *arguments], check=True, capture_output=True, env=environment)
     return time.perf_counter() - start
 
 
-def first_use(repeats: int = 5) -> list[Record]:
+def first_use(repeats: int = 5, process: Process | None = None) -> list[Record]:
     """Wall times (s) of whole processes that collide by the kernel, of each preset.
 
-    `first` finds an empty cache and compiles, `second` finds what that left, `imports` only imports the same.
+    `process` runs one, by its arguments and environment. `first` finds an empty cache and compiles, `second` finds what
+    that left, `imports` only imports the same.
     """
     rows: list[Record] = []
     if compiler() is None:
@@ -57,7 +59,7 @@ def first_use(repeats: int = 5) -> list[Record]:
                 where = os.environ | {"WETDOUBLET_CACHE": folder}
                 call = f"{IMPORTS}\n{CALL.format(preset=preset)}"
                 for name, program in (("first", call), ("second", call), ("imports", IMPORTS)):
-                    taken[name].append(_process(["-c", program], where))
+                    taken[name].append((process or spent)(["-c", program], where))
         rows.append({"preset": preset, **taken})
     return rows
 

@@ -24,7 +24,7 @@ COUNT = 12  # parameters
 RTOL = 1e-10
 Runs = dict[str, Callable[[Scene], np.ndarray | None]]
 _STEP = 1e-5  # of central differences, near the best one for values good to 1e-10
-_IMPACTS = {  # collisions that separate: Stokes number, degrees
+IMPACTS = {  # collisions that separate: Stokes number, degrees
     "granulation": ((0.03, 65.0), (0.14, 40.0), (0.02, 75.0)),
     "pendulum": ((1.0, 60.0), (1.55, 35.0)),
 }
@@ -52,11 +52,13 @@ class Gradient:
     first: float | None
 
 
-def gradients(preset: str, repeats: int = 3) -> list[Gradient]:
-    """The rows of a preset: both engines, every method."""
-    scenes = [_scene(preset, stokes, angle) for stokes, angle in _IMPACTS.get(preset, ())]
-    if not scenes:
-        return []
+def gradients(preset: str, repeats: int = 3, impacts: Sequence[tuple[float, float]] | None = None) -> list[Gradient]:
+    """The rows of a preset: both engines, every method.
+
+    Arguments:
+        impacts: Stokes numbers and angles (degrees) of collisions that separate.
+    """
+    scenes = [_scene(preset, stokes, angle) for stokes, angle in impacts or IMPACTS[preset]]
     names = _parameters(scenes[0])
     truth = [_elasticities(scene, names, "adjoint", "rosenbrock", 1e-12) for scene in scenes]
     found = []

@@ -21,6 +21,7 @@ from .tasks import Task
 FEATURES = ("ledger", "trajectory", "rotation")
 TOGETHER = FEATURES[:2]
 IN_BULK = {"rosenbrock, compiled": "rosenbrock", "taylor": "taylor"}
+ENGINES = ("cvodes", "rosenbrock", *IN_BULK)
 _FEW = 100  # collisions in one call that are not compiled for
 _MANY = 40  # times the collisions in one call of the kernel, so that what a call costs does not show
 
@@ -43,7 +44,9 @@ _SETUPS: tuple[Setup, ...] = ((), *((name,) for name in TOGETHER), TOGETHER)
 _OF_MANY: tuple[Setup, ...] = ((), ("rotation",))
 
 
-def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list[Cost]:
+def costs(
+    task: Task, references: Sequence[Reference], repeats: int = 3, engines: Sequence[str] = ENGINES
+) -> list[Cost]:
     """The table of a task at the default tolerance."""
     found = []
     for outcome in ("separating", "stick"):
@@ -51,7 +54,7 @@ def costs(task: Task, references: Sequence[Reference], repeats: int = 3) -> list
             each.impact for each in references if each.counts and (each.outcome == "stick") == (outcome == "stick")
         ]
         if impacts:
-            for name in ("cvodes", "rosenbrock", *IN_BULK):
+            for name in engines:
                 found += _of_engine(task, name, outcome, impacts, repeats)
     return found
 

@@ -10,7 +10,7 @@ from typing import Any
 from wetdoublet.solvers.host.environment import environment, one_core
 
 from .cold import cold_start, first_use
-from .features import Cost, costs
+from .features import ENGINES, Cost, costs
 from .gradient_work import gradient_work
 from .growth import growth
 from .lines import lines
@@ -35,6 +35,8 @@ def bench(
     more: Sequence[str] = MORE,
     tell: Tell = lambda _: None,
     fine: Sequence[float] = FINE,
+    sets: int = SETS,
+    featured: Sequence[str] = ENGINES,
 ) -> Record:
     """Run the benchmark.
 
@@ -44,6 +46,8 @@ def bench(
         more: what else is measured, of MORE.
         tell: is told what goes on.
         fine: tolerances of engines that are fast.
+        sets: times the collisions are repeated within one call of an engine that takes many.
+        featured: engines of which ledger, trajectory and rotation are measured.
 
     Returns:
         A record that JSON can hold: environment, settings, engines, tasks (references, points, costs), cold start.
@@ -63,7 +67,14 @@ def bench(
         "lines": lines,
     }
     with one_core():
-        found = [_task(task, all_engines, tolerances, repeats, tell, fine) for task in tasks]
+        found = []
+        for task in tasks:
+            tell(f"{task.preset}: reference values")
+            truths = references(task.scene, task.impacts())
+            points = work(task, truths, all_engines, tolerances, repeats, tell, fine, sets)
+            tell(f"{task.preset}: ledger, trajectory, rotation")
+            spent = [_cost(each) for each in costs(task, truths, repeats, featured)]
+            found.append(task_record(task, truths, points) | {"costs": spent})
         for name, measure in alone.items():
             if name in more:
                 tell(name)
@@ -80,7 +91,7 @@ def bench(
             "repeats": repeats,
             "fine": list(fine),
             "often": OFTEN,
-            "sets": SETS,
+            "sets": sets,
         },
         "engines": [{"name": each.name, "missing": each.missing} for each in all_engines],
         "tasks": found,
@@ -88,21 +99,6 @@ def bench(
         "cold_start": started,
         "wall": time.perf_counter() - start,
     }
-
-
-def _task(
-    task: Task,
-    all_engines: Sequence[Engine],
-    tolerances: Sequence[float],
-    repeats: int,
-    tell: Tell,
-    fine: Sequence[float],
-) -> Record:
-    tell(f"{task.preset}: reference values")
-    truths = references(task.scene, task.impacts())
-    points = work(task, truths, all_engines, tolerances, repeats, tell, fine)
-    tell(f"{task.preset}: ledger, trajectory, rotation")
-    return task_record(task, truths, points) | {"costs": [_cost(each) for each in costs(task, truths, repeats)]}
 
 
 def task_record(task: Task, truths: Sequence[Reference], points: Sequence[Point]) -> Record:

@@ -23,7 +23,7 @@ FINE = tuple(
 )  # of fast engines: a coarse step would cost them more than it tells
 REPEATS = 3  # the best of so many counts
 OFTEN = 7  # times as many of fast engines
-SETS = 20  # times the collisions are repeated within one call of an engine that takes many
+SETS = 20
 _LONG = 0.05  # s: a collision that takes longer is not repeated
 _DEAR = 2.0  # s: an engine whose collisions take longer in all is not asked for a tighter tolerance
 
@@ -115,11 +115,13 @@ def work(
     repeats: int = REPEATS,
     tell: Tell = lambda _: None,
     fine: Sequence[float] = FINE,
+    sets: int = SETS,
 ) -> list[Point]:
     """Measure all engines that are there; they take turns, so that a busy machine slows all alike.
 
     Arguments:
         fine: tolerances of engines that are fast.
+        sets: times the collisions are repeated within one call of an engine that takes many.
     """
     counted = [each for each in references if each.counts]
     impacts = [each.impact for each in counted]
@@ -133,7 +135,7 @@ def work(
             continue
         tell(f"{task.preset}: {engine.name} {rtol:.1e}")
         point = Point(task.preset, engine.name, rtol, [Timed() for _ in impacts], counted)
-        one = _prepared(engine, task.scene, impacts, rtol, point)
+        one = _prepared(engine, task.scene, impacts, rtol, point, sets)
         if engine.builds:
             one()  # builds and caches whatever is needed; what it takes does not count
             point.timed[:] = [Timed() for _ in impacts]
@@ -153,14 +155,14 @@ def work(
 Work = Callable[[], None]
 
 
-def _prepared(engine: Engine, scene: Scene, impacts: list[Impact], rtol: float, point: Point) -> Work:
+def _prepared(engine: Engine, scene: Scene, impacts: list[Impact], rtol: float, point: Point, sets: int) -> Work:
     """A pass over all collisions that leaves what it found in the point; a long collision is not repeated."""
     if engine.many is not None:
         try:
-            bulk = engine.many(scene, impacts * SETS, rtol)
+            bulk = engine.many(scene, impacts * sets, rtol)
         except ComputationError as error:
             said = str(error)
-            bulk = Bulk(lambda: None, lambda _: [said] * (SETS * len(impacts)))
+            bulk = Bulk(lambda: None, lambda _: [said] * (sets * len(impacts)))
         return lambda: _shared(bulk, point)
     assert engine.one is not None
     one = engine.one(scene, impacts, rtol)
@@ -174,7 +176,7 @@ def _prepared(engine: Engine, scene: Scene, impacts: list[Impact], rtol: float, 
 
 
 def _shared(bulk: Bulk, point: Point) -> None:
-    """One call for SETS times all collisions; each has its part of the time, and is wrong if it ever was."""
+    """One call for several times all collisions; each has its part of the time, and is wrong if it ever was."""
     cpu, wall = time.process_time(), time.perf_counter()
     result = bulk.run()
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall

@@ -22,6 +22,7 @@ from .targets import headline, target_table
 Record = dict[str, Any]
 
 README = Path(__file__).resolve().parents[4] / "README.md"
+RECORDS = ("bench", "compile_flags", "cvodes_share")
 BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 
 
@@ -176,7 +177,7 @@ def share_text(share: Record) -> str:
 def main() -> None:
     """Read, and write the page beside the folder."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/performance")
-    records = [json.loads((folder / f"{name}.json").read_text()) for name in ("bench", "compile_flags", "cvodes_share")]
+    records = [json.loads((folder / f"{name}.json").read_text()) for name in RECORDS]
     stress = folder / "stress.json"
     found = json.loads(stress.read_text()) if stress.is_file() else None
     folder.with_suffix(".md").write_text(page(*records, found, folder.name), encoding="utf-8")
