@@ -24,7 +24,7 @@ BATCH, SINGLE = 100, 8  # collisions in a call; those of them that are also comp
 STOKES, ANGLES = (0.01, 10.0), (math.radians(5), math.radians(85))  # where the scene has no impact
 _AROUND, _TURNED, _STEEPEST = 2.0, math.radians(5), math.radians(89)  # factor in St and difference in angle about one
 _TIGHTEST = (1e-13, 1e-12, 1e-11)  # of a reference: the first that the engine completes
-_PASSES, _LONG = 10, 0.15  # passes, and s after which there is no further one; the cheapest counts
+_PASSES, _LONG = 10, 0.05  # passes, and s after which there is no further one; the cheapest counts
 _DEAR = 1.0  # s: an engine whose batch takes longer is not given a batch at tighter tolerances
 _GOLDEN = 0.6180339887498949
 
@@ -50,7 +50,7 @@ class Row:
         error: largest absolute error of e_n; None where no collision separates.
         time_error: largest relative error of the contact time; likewise.
         single: mean CPU time (s) of a collision computed alone.
-        batch: CPU time (s) of a collision among BATCH in one call; None where that was too expensive to measure.
+        batch: CPU time (s) of a collision of a batch; None where that was too expensive to measure.
         wrong, failed: collisions with another outcome than the reference, and without any.
         handed_over: collisions that another engine answered.
     """
@@ -86,6 +86,7 @@ class WorkPrecision:
 
     Arguments:
         sample: in words.
+        batch: collisions in a call.
         impacts: those that errors are measured on.
         separate: how many of them separate.
         left_out: impacts so near a boundary that the references do not agree on the outcome.
@@ -96,6 +97,7 @@ class WorkPrecision:
 
     scene: Scene
     sample: str
+    batch: int
     impacts: tuple[Impact, ...]
     separate: int
     left_out: int
@@ -108,7 +110,7 @@ class WorkPrecision:
         """Return the settings for an absolute error of e_n: for one collision, and for a batch."""
         return (
             self._cheapest("one collision", error, lambda row: row.single),
-            self._cheapest(f"a batch of {BATCH}", error, lambda row: row.batch),
+            self._cheapest(f"a batch of {self.batch}", error, lambda row: row.batch),
         )
 
     def _cheapest(self, use: str, error: float, cost: Callable[[Row], float | None]) -> Recommendation:
@@ -151,46 +153,59 @@ class WorkPrecision:
 
 
 def work_precision(
-    scene: Scene, tolerances: Sequence[float] = TOLERANCES, progress: Progress = lambda _done, _total: None
+    scene: Scene,
+    tolerances: Sequence[float] = TOLERANCES,
+    progress: Progress = lambda _done, _total: None,
+    single: int = SINGLE,
+    batch: int = BATCH,
 ) -> WorkPrecision:
     """Measure the engines on collisions about the scene's impact, on one core.
 
     Arguments:
         scene: without an impact, a default sample of Stokes numbers and angles is measured.
         progress: told the settings that are measured, and of how many.
+        single: collisions computed one by one; errors are theirs.
+        batch: collisions in one call.
+
+    Example:
+        >>> from wetdoublet.solvers import Scene
+        >>> found = work_precision(Scene.load("granulation"), [1e-6, 1e-9], single=4, batch=20)
+        >>> found.recommend(1e-6)[0].engine is not None
+        True
 
     Raises:
         ComputationError: no reference could be computed.
     """
     engines = [name for name in ENGINES if name != "taylor" or knows(scene)]
     total = len(engines) * len(tolerances) + 1
-    impacts, sample = _drawn(scene)
+    impacts, sample = _drawn(scene, batch)
     progress(0, total)
     with one_core():
-        single = impacts[BATCH // (2 * SINGLE) :: BATCH // SINGLE][:SINGLE]
-        truth, tight = _references(scene, single, engines)
-        known = [impact for impact, *answers in zip(single, *truth.values()) if len({a.outcome for a in answers}) == 1]
+        some = impacts[batch // (2 * single) :: batch // single][:single]
+        truth, tight = _references(scene, some, engines)
+        known = [impact for impact, *answers in zip(some, *truth.values()) if len({a.outcome for a in answers}) == 1]
         if not known:
             raise ComputationError("no reference", advice="choose an impact farther from a boundary")
-        kept = {name: [a for i, a in zip(single, answers) if i in known] for name, answers in truth.items()}
+        kept = {name: [a for i, a in zip(some, answers) if i in known] for name, answers in truth.items()}
         first, second = kept.values()
         rows = []
         expensive: set[str] = set()
         for engine in engines:
             expected = next(answers for name, answers in kept.items() if name != engine)
             for rtol in sorted(tolerances, reverse=True):
-                batch = None if engine in expensive else _batch(scene, impacts, engine, rtol)
-                if batch is not None and batch > _DEAR:
+                each = None if engine in expensive else _batch(scene, impacts, engine, rtol)
+                if each is not None and each * batch > _DEAR:
                     expensive.add(engine)
-                rows.append(_row(scene, known, expected, engine, rtol, batch))
+                rows.append(_row(scene, known, expected, engine, rtol, each))
                 progress(1 + len(rows), total)
     own = _errors(first, second)
     return WorkPrecision(
         scene=scene,
         sample=sample,
+        batch=batch,
         impacts=tuple(known),
         separate=sum(each.outcome != "stick" for each in first),
-        left_out=len(single) - len(known),
+        left_out=len(some) - len(known),
         references=tuple(tight.items()),
         uncertainty=max((e for e, _ in own), default=0.0),
         time_uncertainty=max((t for _, t in own), default=0.0),
@@ -198,8 +213,8 @@ def work_precision(
     )
 
 
-def _drawn(scene: Scene) -> tuple[list[Impact], str]:
-    """BATCH impacts spread evenly over a rectangle of St and angle, and what it is."""
+def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
+    """Impacts spread evenly over a rectangle of St and angle, and what it is."""
     stokes, angle = scene.stokes, scene.angle
     if stokes is None or angle is None:
         spans, why = (STOKES, ANGLES), "the default, as the scene has no impact"
@@ -208,11 +223,11 @@ def _drawn(scene: Scene) -> tuple[list[Impact], str]:
         spans, why = ((stokes / _AROUND, stokes * _AROUND), turned), "about the scene's impact"
     (low, high), (flat, steep) = spans
     impacts = [
-        Impact(low * (high / low) ** ((k + 0.5) / BATCH), flat + (steep - flat) * (k * _GOLDEN % 1.0))
-        for k in range(BATCH)
+        Impact(low * (high / low) ** ((k + 0.5) / count), flat + (steep - flat) * (k * _GOLDEN % 1.0))
+        for k in range(count)
     ]
     degrees = f"{math.degrees(flat):.4g} to {math.degrees(steep):.4g} deg" if angle != 0.0 else "0 deg"
-    return impacts, f"{BATCH} impacts, St {low:.4g} to {high:.4g}, angle {degrees} ({why})"
+    return impacts, f"{count} impacts, St {low:.4g} to {high:.4g}, angle {degrees} ({why})"
 
 
 def _references(
@@ -260,7 +275,7 @@ def _row(
         error=max((e for e, _ in errors), default=None),
         time_error=max((t for _, t in errors), default=None),
         single=taken / len(impacts),
-        batch=None if batch is None else batch / BATCH,
+        batch=None if batch is None else batch,
         wrong=sum(one.outcome != truth.outcome for one, truth in done),
         failed=len(found) - len(done),
         handed_over=sum(one.engine != engine for one, _ in done),
@@ -277,12 +292,12 @@ def _errors(found: Sequence[Computed], expected: Sequence[Computed]) -> list[tup
 
 
 def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) -> float | None:
-    """CPU time (s) of all impacts in one call; None if one of them fails."""
+    """CPU time (s) of an impact among all in one call; None if one of them fails."""
     stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
     asked: Any = {"rtol": rtol, "engine": engine}
     collide_many(scene, stokes=stokes[:1], angle=angle[:1], **asked)  # builds
     taken, found = _cheapest(lambda: collide_many(scene, stokes=stokes, angle=angle, **asked))
-    return None if (found["outcome"].values == FAILED).any() else taken
+    return None if (found["outcome"].values == FAILED).any() else taken / len(impacts)
 
 
 def _cheapest(run: Callable[[], _Found]) -> tuple[float, _Found]:

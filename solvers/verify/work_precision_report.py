@@ -14,7 +14,7 @@ from ..formatting import ticks
 from ..formatting.markdown import table
 from ..host.environment import environment
 from ..host.files import save
-from .work_precision import BATCH, Row, WorkPrecision, shown
+from .work_precision import Row, WorkPrecision, shown
 
 _STYLES = {  # Okabe-Ito colours, a marker each
     "cvodes": ("#0072B2", "o"),
@@ -30,7 +30,7 @@ def to_dict(found: WorkPrecision, error: float) -> dict[str, Any]:
         "scene": name_of(found.scene),
         "environment": environment(),
         "sample": found.sample,
-        "batch": BATCH,
+        "batch": found.batch,
         "impacts": [{"stokes": each.stokes, "angle": each.angle} for each in found.impacts],
         "separate": found.separate,
         "left_out": found.left_out,
@@ -62,7 +62,7 @@ def text(found: WorkPrecision, error: float) -> str:
         f"{name_of(found.scene)}: {found.sample}",
         _counted(found),
         "",
-        table(_HEAD, [_cells(r) for r in found.rows]),
+        table(_head(found.batch), [_cells(r) for r in found.rows]),
     ]
     against = ", ".join(f"{engine} at rtol {rtol:.0e}" for engine, rtol in found.references)
     lines += [
@@ -70,7 +70,7 @@ def text(found: WorkPrecision, error: float) -> str:
         f"Errors are differences from the first of {against} that is another engine.",
         f"These two differ by at most {found.uncertainty:.1e} in e_n and {found.time_uncertainty:.1e} (relative) in",
         "contact time: the error estimate of the references.",
-        f"CPU time on one core: of `collide` without ledger, and a {BATCH}th of that of a call of `collide_many`.",
+        "CPU time on one core, each by `collide` without ledger, and of one among those in a call of `collide_many`.",
     ]
     if any(row.batch is None for row in found.rows):
         lines.append("-: no batch, as one at a looser tolerance took more than a second, or a collision in it failed.")
@@ -83,16 +83,17 @@ def text(found: WorkPrecision, error: float) -> str:
     return "\n".join(lines)
 
 
-_HEAD = (
-    "engine",
-    "rtol",
-    "error in e_n",
-    "in contact time",
-    "CPU: one collision",
-    f"one of {BATCH}",
-    "wrong",
-    "failed",
-)
+def _head(batch: int) -> list[str]:
+    return [
+        "engine",
+        "rtol",
+        "error in e_n",
+        "in contact time",
+        "CPU: one collision",
+        f"one of {batch}",
+        "wrong",
+        "failed",
+    ]
 
 
 def _counted(found: WorkPrecision) -> str:
@@ -117,7 +118,7 @@ def draw(found: WorkPrecision, error: float, path: str | Path | None = None) -> 
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)
     recommended = found.recommend(error)
     for axes, title, best in zip(
-        (left, right), ("one collision", f"one of a batch of {BATCH}"), recommended, strict=True
+        (left, right), ("one collision", f"one of a batch of {found.batch}"), recommended, strict=True
     ):
         single = axes is left
         for engine in found.engines:
@@ -168,8 +169,10 @@ def _limits(left: Axes, right: Axes, found: WorkPrecision, error: float) -> None
     errors = [row.error for row in found.rows if row.error] + [error]
     own = found.uncertainty
     least = min([*errors, *([own] if own else [])]) / 4
+    left.set_xlim(4 * max(errors), least)
     for axes in (left, right):
+        if not found.separate:
+            axes.text(0.5, 0.5, "all collisions stick:\nno error to draw", ha="center", transform=axes.transAxes)
         axes.axvline(error, color=_NOTE, linestyle="--", linewidth=1, label="error wanted")
         if own:
             axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the references' difference")
-    left.set_xlim(4 * max(errors), least)

@@ -14,7 +14,7 @@ from wetdoublet.solvers.collision import collide as simulate
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped
-from wetdoublet.solvers.errors import ComputationError, InputError
+from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.settings import ENGINES
@@ -26,8 +26,6 @@ from wetdoublet.solvers.verify.stress.judge import judge
 from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.scipy_engine import fly
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Found
-
-pytest.importorskip("scipy")
 
 
 def run(*arguments: str) -> int:
@@ -275,13 +273,6 @@ def test_what_chatter_takes_is_booked() -> None:
     assert found.energy is not None
     assert abs(found.energy.residual) < 1e3 * RTOL * found.energy.initial
     assert found.energy.dry_contact > 0.9 * 0.5 * scene.particles.reduced_mass * found.speed**2
-
-
-def test_scipy_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without scipy there is no quasi-random sequence: bad input that says what to install."""
-    monkeypatch.setitem(__import__("sys").modules, "scipy.stats", None)
-    with pytest.raises(InputError, match="scipy"):
-        sample(12)
 
 
 def test_fast_is_the_engine_of_many() -> None:

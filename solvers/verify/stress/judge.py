@@ -8,7 +8,6 @@ import time
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -104,8 +103,7 @@ def runs() -> dict[str, Run]:
     if FAST != "rosenbrock":
         found["rosenbrock"] = lambda scene, rtol: chained(scene, rtol, "rosenbrock")
     found["cvodes"] = chained
-    if find_spec("scipy"):
-        found[PEER] = lambda scene, rtol: by_scipy(scene, rtol / 10)
+    found[PEER] = lambda scene, rtol: by_scipy(scene, rtol / 10)
     return found
 
 

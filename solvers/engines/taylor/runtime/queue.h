@@ -4,7 +4,6 @@ enum { GLASS, ELASTIC, ROUGH, TURNED_KIND, FELL_BACK, FILM_EDGE, TANGENTIAL_EDGE
 enum { STICK, SEPARATES, BOUNCES };
 enum { DECIDED, PROVED_AT_TOUCH, NO_BUDGET, NOT_FINITE, CHATTER, TOO_OBLIQUE }; /* CHATTER: no budget, after many phases */
 enum { MANY_PHASES = 400, SHOWN = 8 };
-static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
 static const double REST_SPEED = 1e-9, MOST_OBLIQUE = 1e9, TIGHTEST = 1e-14;
@@ -97,7 +96,7 @@ static inline double quantity(const queue *q, int k, long index)
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
-    certified = certified && CERTIFICATE && !SURFACE_ARM; /* angular momentum drifts: no theorem */
+    certified = certified && !SURFACE_ARM; /* angular momentum drifts: no theorem */
     answer *a = &q->answers[index];
     a->status = status;
     a->outcome = outcome;
@@ -194,7 +193,6 @@ static void fill_queue(queue *q)
 #if WITH_TRAJECTORY
         proved &= bits(provable(q, splat_mask(-1)));
 #endif
-        proved *= CERTIFICATE;
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);
@@ -332,11 +330,7 @@ static void finish(queue *q, flights *l, fixed *f, int lane, int status, int out
 /* Lanes that are proved to stick as they are. */
 static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
 {
-#if !CERTIFICATE
-    return l->time > GIVEN_UP;
-#else
     return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
-#endif
 }
 
 /* Where the film acts: a liquid that cavitates does not while it is opened. */
