@@ -1,99 +1,77 @@
-"""`wetdoublet bench`: run time against achieved error, or all engines against each other."""
+"""`wetdoublet bench`: run time against achieved error of the engines for a scene, and what to choose."""
 
 from __future__ import annotations
 
-import sys
-from itertools import pairwise
-from pathlib import Path
+import json
+from collections.abc import Sequence
 
 import click
 
-from ..errors import CheckFailed, InputError
+from ..scene.schema import Field, Range
 from . import options
-from .bar import bar
 
-_SCENES = 20_000
-
-
-class _Counted(click.Command):
-    """A command whose --stress may stand alone: what follows it is its value, unless it is an option."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Judge a negative number here, which click takes for an option."""
-        for option, value in pairwise(args):
-            if option == "--stress" and value[:1] == "-" and value[1:2].isdigit():
-                _count(value)
-        return super().parse_args(ctx, args)
+_PRESET = "granulation"
+_ERROR = 1e-6
+_WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", lambda v: 0 < v < 1))
 
 
-@click.command("bench", cls=_Counted, short_help="Run time against error, beside the peers that are installed.")
-@click.option("--out", metavar="DIR", help="Folder for records, tables and plots [bench, or stress].")
-@click.option(
-    "--stress",
-    metavar="N",
-    is_flag=False,
-    flag_value=str(_SCENES),
-    help=f"Hold all engines against each other on N scenes [{_SCENES}].",
-)
+@click.command("bench", short_help="Run time against error of the engines for a scene, and what to choose.")
+@click.argument("source", metavar="[SCENE]", required=False)
+@options.impact
+@options.changes
+@options.model
+@click.option("--error", metavar="E", help=f"Wanted: largest absolute error of e_n [{_ERROR:g}].")
+@options.as_json
+@options.plot
+@options.output
+@click.option("--out", metavar="DIR", help="Folder for bench.txt, bench.json and bench.png.")
 @options.debug
-def command(out: str | None, stress: str | None) -> None:
-    """Measure our engines and the peers that are installed on the same collisions, with the same stop rule.
+def command(
+    source: str | None,
+    stokes: str | None,
+    speed: str | None,
+    angle: str | None,
+    changes: Sequence[str],
+    model: str | None,
+    error: str | None,
+    as_json: bool,
+    plot: str | None,
+    output: str | None,
+    out: str | None,
+) -> None:
+    """Measure cvodes, rosenbrock and taylor on collisions about the impact of SCENE [granulation], on this machine.
 
-    Takes some minutes, the first time longer: integrators are compiled. How busy the machine was is in the record.
-    """
-    count = None if stress is None else _count(stress)
-    folder = options.check_folder(out or ("bench" if count is None else "stress"))
-    assert folder is not None  # one of them is a name
-    if count is not None:
-        _stress(count, folder)
-        return
+    CPU time of a collision alone and in a batch of 100, and its error against another engine at a tighter tolerance,
+    for tolerances 1e-4 to 1e-12; then the engine and tolerance to choose for the error wanted. About ten seconds.
 
-    from ..benchmarks.record import write
-    from ..benchmarks.run import bench
+    \b
+    Examples:
+      wetdoublet bench pendulum --error 1e-8
+      wetdoublet bench granulation --set liquid.viscosity="3 Pa s" --plot bench.png
+    """  # noqa: D301 # click wants the character itself
+    wanted = _ERROR if error is None else _WANTED.number(error, label="--error")
+    picture = options.check_file(plot, "--plot", options.PICTURES)
+    file = options.check_file(output, "-o")
+    options.check_apart(file, "-o", picture, "--plot")
+    folder = options.check_folder(out)
+    asked = options.Asked.check(source, changes, stokes, speed, angle, model=model)
+    scene = asked.optional_scene()
 
-    record = bench(tell=_tell if sys.stderr.isatty() else lambda _: None)
-    if sys.stderr.isatty():
-        _tell("")
-    text, files = write(record, folder)
-    click.echo(text)
-    click.echo("written: " + ", ".join(map(str, files)))
+    from ..scene.scene import Scene
+    from ..verify.work_precision import work_precision
+    from ..verify.work_precision_report import draw, text, to_dict
+    from .bar import bar
 
+    with bar("settings") as tell:
+        found = work_precision(scene or Scene.load(_PRESET), progress=tell)
+    said, record = text(found, wanted), json.dumps(to_dict(found, wanted), indent=2, allow_nan=False)
+    if folder is not None:
+        from ..host import files
 
-def _count(text: str) -> int:
-    """Return the number of scenes; InputError unless it is one."""
-    try:
-        count = int(text)
-    except ValueError:
-        raise InputError("--stress", text, "a whole number of scenes, such as 500", "is not a whole number") from None
-    if not 0 < count <= 10_000_000:
-        raise InputError("--stress", text, "a whole number of scenes, 1 to 10000000", "is out of range")
-    return count
-
-
-def _stress(count: int, folder: Path) -> None:
-    """Run, report, and say in one last line what came of it; CheckFailed if engines disagree without a reason.
-
-    An interrupt ends it with a report of what is judged by then.
-    """
-    from ..verify.stress.report import write
-    from ..verify.stress.run import stress
-
-    with bar("scenes") as tell:
-        found = stress(count, tell=tell)
-    files = write(found, folder)
-    for one, issue in found.unexplained:
-        click.echo(f"unexplained ({issue.kind}): {one.case.name}: {issue.said}")
-    if found.remarks:
-        outside = sum(bool(one.remarks) for one in found.verdicts)
-        click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.md")
-    click.echo(f"written: {', '.join(map(str, files[:4]))}" + (f" and {len(files) - 4} scenes" if files[4:] else ""))
-    click.echo(found.summary())
-    if found.unexplained:
-        raise CheckFailed(f"{len(found.unexplained)} unexplained disagreements; see {folder / 'stress.md'}")
-    if found.interrupted:
-        raise KeyboardInterrupt(f"interrupted: {len(found.verdicts)} of {count} scenes are in {folder / 'stress.md'}")
-
-
-def _tell(what: str) -> None:
-    """Say what goes on, in one line of the terminal."""
-    click.echo(f"\r\x1b[K{what}", nl=False, err=True)
+        folder.mkdir(parents=True, exist_ok=True)
+        files.write(folder / "bench.txt", said + "\n")
+        files.write(folder / "bench.json", record + "\n")
+        draw(found, wanted, folder / "bench.png")
+    if picture is not None:
+        draw(found, wanted, picture)
+    options.put(record if as_json else said, file)

@@ -1,4 +1,4 @@
-"""`wetdoublet export`: the model of a scene as LaTeX or as C; an FMU is refused."""
+"""`wetdoublet export`: the model of a scene as LaTeX or as C."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from ..host.files import write_all_in
 from . import options
 
 KINDS = ("c", "latex")
-_REFUSED = "fmu"  # with its own reason
 
 
 @click.command("export", short_help="The scene's model as LaTeX and Markdown, or as C functions.")
@@ -40,7 +39,7 @@ def command(
     Example:
       wetdoublet export granulation --to c --out build
     """  # noqa: D301 # click wants the character itself
-    if kind is not None and kind not in (*KINDS, _REFUSED):
+    if kind is not None and kind not in KINDS:
         raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
     folder = options.check_folder(out)
     scene = options.Asked.check(source, changes, stokes, speed, angle, model).scene()
@@ -51,9 +50,7 @@ def command(
 
     if kind == "latex":
         from ..export.equations import texts
-    elif kind == "c":
-        from ..export.c import texts
     else:
-        from ..export.fmu import texts
+        from ..export.c import texts
     for file in write_all_in(folder, texts(scene)):
         click.echo(str(file))

@@ -1,4 +1,4 @@
-"""`wetdoublet verify`: the laws, each with its figure."""
+"""`wetdoublet verify`: the laws, each with its figure; or all engines against each other."""
 
 from __future__ import annotations
 
@@ -8,15 +8,24 @@ import click
 
 from ..errors import CheckFailed, InputError
 from . import options
+from .stress import SCENES, Counted, check_alone, count_of, stress_test
 
 
-@click.command("verify", short_help="Check the laws: symbolic identities and numbers.")
+@click.command("verify", cls=Counted, short_help="Check the laws: symbolic identities and numbers.")
 @click.argument("source", metavar="[SCENE]", required=False)
 @options.impact
 @options.changes
 @options.model
 @click.option("-o", "output", metavar="FILE.md", help="Write the report as Markdown to FILE.md as well.")
 @click.option("--plot", metavar="FILE.png", help="Draw where e_n > 1, and what it is made of: .png, .pdf or .svg.")
+@click.option(
+    "--stress",
+    metavar="N",
+    is_flag=False,
+    flag_value=str(SCENES),
+    help=f"Instead: compare all engines on N scenes, drawn and beside boundaries [{SCENES}].",
+)
+@click.option("--out", metavar="DIR", help="Folder for records, tables and plots of --stress [stress].")
 @options.debug
 def command(
     source: str | None,
@@ -27,8 +36,22 @@ def command(
     model: str | None,
     output: str | None,
     plot: str | None,
+    stress: str | None,
+    out: str | None,
 ) -> None:
-    """Check the laws on SCENE, or on all presets; the report goes to standard output."""
+    """Check the laws on SCENE, or on all presets; the report goes to standard output.
+
+    With --stress, engines of this package and scipy's LSODA compute the same scenes: each difference between them is
+    explained by a boundary within their error, or makes the exit status 1.
+    """
+    count = None if stress is None else count_of(stress)
+    others = {"SCENE": source, "--stokes": stokes, "--speed": speed, "--angle": angle, "--set": "; ".join(changes)}
+    check_alone(stress, out, others | {"--model": model, "-o": output, "--plot": plot})
+    if count is not None:
+        folder = options.check_folder(out or "stress")
+        assert folder is not None  # it has a name
+        stress_test(count, folder)
+        return
     file = options.check_file(output, "-o", (".md",))
     picture = options.check_file(plot, "--plot", options.PICTURES)
     options.check_apart(file, "-o", picture, "--plot")

@@ -1,6 +1,6 @@
 """Hold the atlas of random scenes against collisions at random points of its plane.
 
-    python tests/benchmarks/atlas_random.py [SCENES] [POINTS] [SEED] [FOLDER]
+    python -m tests.benchmarks.atlas_random [SCENES] [POINTS] [SEED] [FOLDER]
 
 SCENES (20) scenes, entries scaled over two decades about the presets, all laws, films, partners and attractions; half
 of the planes are of the angle, the others of an entry. POINTS (4000) collisions each, none nearer to a curve than is

@@ -1,6 +1,6 @@
 """Compile time and run time of the compiled integrators by optimisation level.
 
-    python tests/benchmarks/compile_flags.py [FOLDER]
+    python -m tests.benchmarks.compile_flags [FOLDER]
 
 Writes FOLDER/compile_flags.json (docs/performance).
 """
@@ -23,7 +23,8 @@ from wetdoublet.solvers.host import compiled
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.verify.stress.answers import dimensionless
-from wetdoublet.solvers.verify.stress.impacts import TASKS, Task
+
+from .measured.tasks import TASKS, Task
 
 LEVELS = ("-O1", "-O2", "-O3")
 RTOL, ROUNDS, REPEATS = 1e-8, 3, 5

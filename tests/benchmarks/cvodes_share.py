@@ -1,6 +1,6 @@
 """Global error in e_n of CVODES and of Rosenbrock when both are told the same tolerance.
 
-    python tests/benchmarks/cvodes_share.py [FOLDER]
+    python -m tests.benchmarks.cvodes_share [FOLDER]
 
 Writes FOLDER/cvodes_share.json (docs/performance). The paths are located once, at 1e-13; both engines then fly the same
 phases and land on the same events, so that only the integrators differ.
@@ -14,15 +14,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.benchmarks.reference import reference
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped, fly
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.model.phases import Flow, Region
-from wetdoublet.solvers.verify.stress.answers import dimensionless
-from wetdoublet.solvers.verify.stress.impacts import TASKS, Impact, Task
+from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
+
+from .measured.reference import reference
+from .measured.tasks import TASKS, Task
 
 RTOLS = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 COUNT = 60  # impacts drawn a task, by the seed of the benchmark

@@ -1,7 +1,7 @@
 """When the kernel pays for derivatives: at first use, alone, in numbers; rewrites a table of docs/kernel.md.
 
-    python tests/benchmarks/gradient_engine.py            measures, prints, writes the page and its JSON file
-    python tests/benchmarks/gradient_engine.py --print    only prints
+    python -m tests.benchmarks.gradient_engine            measures, prints, writes the page and its JSON file
+    python -m tests.benchmarks.gradient_engine --print    only prints
 
 Derivatives of e_n by all parameters at the default tolerance, at an impact of each scene that separates. Every engine
 in a process of its own with a cache that is empty at first; CPU time with that of the compiler, the best of some calls.
@@ -22,11 +22,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from kernel import table
-from kinds import scenes as kinds
 from wetdoublet.solvers import Scene, gradients_many, sensitivities
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.settings import FEW
+
+from .kernel import table
+from .kinds import scenes as kinds
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "gradient_engine.json"
@@ -79,7 +80,7 @@ def measured(name: str) -> dict[str, Any]:
         for engine, method in runs:  # the kernel's second process finds it compiled
             key = f"{engine} {method}" + (" cached" if f"{engine} {method}" in found else "")
             done = subprocess.run(
-                [sys.executable, __file__, "--child", name, engine, method],
+                [sys.executable, "-m", "tests.benchmarks.gradient_engine", "--child", name, engine, method],
                 env=os.environ | {"WETDOUBLET_CACHE": cache}, capture_output=True, text=True, check=True,
             )  # fmt: skip
             found[key] = json.loads(done.stdout)

@@ -1,7 +1,7 @@
 """What the Taylor kernel costs and how exact it is; rewrites the figures of docs/kernel.md.
 
-    python tests/benchmarks/kernel.py            measures, prints, writes docs/performance/kernel.json and the page
-    python tests/benchmarks/kernel.py --print    only prints
+    python -m tests.benchmarks.kernel            measures, prints, writes docs/performance/kernel.json and the page
+    python -m tests.benchmarks.kernel --print    only prints
 
 Both tasks of verify/stress/impacts.py, each set repeated 20 times in one call; CPU time over the collisions that are
 not decided at first touch, the best of five runs; error against Rosenbrock at 1e-12.
@@ -21,7 +21,8 @@ from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.verify.stress.impacts import Task
+
+from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel.json"

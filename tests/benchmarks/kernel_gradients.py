@@ -1,7 +1,7 @@
 """What the kernel's derivatives cost and how exact they are, beside heyoka's; rewrites a table of docs/kernel.md.
 
-    python tests/benchmarks/kernel_gradients.py            measures, prints, writes the page and its JSON file
-    python tests/benchmarks/kernel_gradients.py --print    only prints
+    python -m tests.benchmarks.kernel_gradients            measures, prints, writes the page and its JSON file
+    python -m tests.benchmarks.kernel_gradients --print    only prints
 
 25 collisions of each task that separate, repeated in one call; CPU time a collision, the best of some runs
 that take turns; the error is the largest of all derivatives of e_n in theta, p = p_ref (1 + theta), over the largest
@@ -22,13 +22,14 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import gradients_many
-from wetdoublet.solvers.benchmarks.gradient_task import Gradients
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.sensitivity.by_kernel import along
 from wetdoublet.solvers.sensitivity.parameters import known
-from wetdoublet.solvers.verify.stress.impacts import Task
+
+from .measured.gradient_task import Gradients
+from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel_gradients.json"
@@ -89,7 +90,7 @@ def beside(asked: Gradients, many: engine.Impacts) -> dict[str, Any]:
         rows = runs[f"gradients_many {rtol}"]().gradient.values[0, :size] * asked.units
         exact[f"gradients_many {rtol}"] = float(asked.errors(rows).max())
     if find_spec("heyoka") is not None:
-        from wetdoublet.solvers.benchmarks.peer_heyoka_variational import prepare
+        from .measured.peers.heyoka_gradient import prepare
 
         repeats = many.angle.size // size
         repeated = replace(asked, impacts=asked.impacts * repeats)

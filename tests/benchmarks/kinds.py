@@ -1,7 +1,7 @@
 """What the kernel saves for scenes beyond the paper's; rewrites a table of docs/kernel.md.
 
-    python tests/benchmarks/kinds.py            measures, prints, writes docs/performance/kinds.json and the page
-    python tests/benchmarks/kinds.py --print    only prints
+    python -m tests.benchmarks.kinds            measures, prints, writes docs/performance/kinds.json and the page
+    python -m tests.benchmarks.kinds --print    only prints
 
 60 impacts of granulation (St 0.005 to 0.5, 0 to 85 degrees) by the kernel and by Rosenbrock compiled to C, both on one
 core and at the same tolerance, taking turns; CPU time over all of them, the best of three runs; error in e_n against
@@ -20,14 +20,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from kernel import table
 from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.many.batch import Request, requested
 from wetdoublet.solvers.many.by_kernel import collided
-from wetdoublet.solvers.verify.stress.impacts import Task
+
+from .kernel import table
+from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kinds.json"

@@ -1,20 +1,18 @@
 """Errors of sensitivities on the twelve collisions, as the table of docs/sensitivities.md.
 
-python tests/benchmarks/sensitivity_accuracy.py     (a minute)
+python -m tests.benchmarks.sensitivity_accuracy     (a minute)
 """
 
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
+from wetdoublet.solvers import ComputationError, sensitivities
+
+from ..solvers.sensitive import CASES, apart
+
 HERE = Path(__file__).parents[1]
-sys.path.insert(0, str(HERE / "solvers"))
-
-from sensitive import CASES, apart  # noqa: E402 # found by the line above
-from wetdoublet.solvers import ComputationError, sensitivities  # noqa: E402 # as above
-
 OF = "restitution"
 
 

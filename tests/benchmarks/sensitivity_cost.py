@@ -1,9 +1,9 @@
 """What a gradient to twelve parameters costs, as the table of docs/sensitivities.md.
 
-python tests/benchmarks/sensitivity_cost.py     (half a minute)
+python -m tests.benchmarks.sensitivity_cost     (half a minute)
 """
 
-from wetdoublet.solvers.benchmarks.derivatives import NOTE, gradient_table, gradients
+from .measured.derivatives import NOTE, gradient_table, gradients
 
 if __name__ == "__main__":
     found = [row for preset in ("granulation", "pendulum") for row in gradients(preset)]

@@ -1,6 +1,6 @@
 """Elasticities of the twelve collisions of `tests/solvers/sensitive.py` by extrapolated differences, as a data file.
 
-python tests/benchmarks/sensitivity_reference.py > tests/data/sensitivities.json     (some three minutes)
+python -m tests.benchmarks.sensitivity_reference > tests/data/sensitivities.json     (some three minutes)
 
 Central differences of collisions at rtol 1e-13 with steps of 0.4, 0.2 and 0.1 %, extrapolated twice: nothing of the
 code that differentiates takes part. Parameters that are zero, and quantities that are, have no elasticity.
@@ -11,12 +11,10 @@ from __future__ import annotations
 import json
 import math
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "solvers"))
-
-from sensitive import CASES, differences
 from wetdoublet.solvers import collide
+
+from ..solvers.sensitive import CASES, differences
 
 OF = ("restitution", "rotation", "contact_time", "smallest_gap", "final_spin", "final_rotation_rate")
 

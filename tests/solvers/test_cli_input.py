@@ -117,7 +117,7 @@ BAD = [
     ("verify --plot where.png", "--plot", '"where.png" needs a SCENE', "a SCENE with --plot"),
     ("verify --stokes 1", "--stokes", '"1" needs a SCENE', "a SCENE with --stokes"),
     ("generate --out /dev/null/x", "--out", "/dev/null", "a folder"),
-    ("bench --stress -1", "--stress", '"-1" is out of range', "1 to 10000000"),
+    ("verify --stress -1", "--stress", '"-1" is out of range', "1 to 10000000"),
     ("map granulation --stokes 0.1:0.2:1000000000", "--stokes", "has too many values", "N at most 10000000"),
     ("sensitivity granulation --uncertainty liquid.viscosity=5", "--uncertainty of liquid.viscosity", "no unit", "5 %"),
     ("scenes granulation-dry", "scene", "did you mean granulation-dry-bridge?", "granulation, pendulum"),

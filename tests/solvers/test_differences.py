@@ -114,7 +114,6 @@ def test_folders_of_other_versions_are_compared(tmp_path: Path):
         (("diff", "library", "library", "--latex", "--markdown"), "only one of --latex, --markdown"),
         (("export", "granulation", "--to", "latx"), "did you mean latex?"),
         (("export", "granulation", "--to", "c"), "--out: missing"),
-        (("export", "granulation", "--to", "fmu", "--out", "x"), "accepted: c or latex"),
     ],
 )
 def test_bad_input_is_named(arguments: tuple[str, ...], said: str):

@@ -18,7 +18,6 @@ from wetdoublet.solvers import (
     sobol_indices,
     trajectory_sensitivities,
 )
-from wetdoublet.solvers.benchmarks.derivatives import gradient_table, gradients
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.schema import FIELDS
 from wetdoublet.solvers.sensitivity import uncertainty
@@ -170,25 +169,6 @@ def test_without_salib(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "SALib.sample.sobol", None)
     with pytest.raises(ComputationError, match=r"SALib; pip install 'wetdoublet\[global\]'"):
         sobol_indices(GRANULATION, {"impact.angle": ("60 deg", "66 deg")}, samples=2)
-
-
-def test_cost_is_measured_for_every_method(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both engines, every method, errors against a more accurate gradient; no time is asserted."""
-    from wetdoublet.solvers.benchmarks import derivatives
-
-    monkeypatch.setattr(derivatives, "_IMPACTS", {"granulation": ((0.14, 40.0),)})
-    found = gradients("granulation", repeats=1)
-    assert {row.engine for row in found} == {"rosenbrock", "cvodes"}
-    by = {(row.engine, row.method): row for row in found}
-    for engine in ("rosenbrock", "cvodes"):
-        adjoint, differences = by[engine, "adjoint"], by[engine, "central differences"]
-        assert adjoint.parameters == differences.parameters == 12
-        assert adjoint.error is not None
-        assert differences.error is not None
-        assert adjoint.error < 1e-7
-        assert adjoint.error < differences.error
-        assert by[engine, "collision"].ratio == 1.0
-    assert gradient_table(found).count("12 parameters") == 6
 
 
 def test_the_scene_given_stays_as_it_is() -> None:

@@ -36,7 +36,7 @@ FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given 
 _NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
-_EVENTS = {event.name: event for event in EVENTS}
+EVENT_OF = {event.name: event for event in EVENTS}
 _ENDS = ("separate", "cut off")
 _GAP, _VELOCITY = 0, 1  # places in the state
 
@@ -205,7 +205,7 @@ class Locate:
                     self.path.certified = self.proof.theorem
                     return True
             elif stop.event is not None:
-                return self._act(_EVENTS[stop.event], flown)
+                return self._act(EVENT_OF[stop.event], flown)
             elif self._proved():
                 self._stop(Step(self.phase, flown, None, ()))
                 self.path.certified = self.proof.theorem

@@ -58,7 +58,6 @@ class Variant:
         few: few collisions will be asked of it: compiled sooner.
         ledger: what the forces take is integrated along; the structure must keep the spin.
         trajectory: every step is written as it was taken.
-        certificate: sticks are proved; without, flights are given up after a time (for what a proof is worth).
     """
 
     choice: Choice
@@ -70,7 +69,6 @@ class Variant:
     few: bool = False
     ledger: bool = False
     trajectory: bool = False
-    certificate: bool = True
 
 
 @cache
@@ -117,7 +115,6 @@ def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, s
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
-        "CERTIFICATE": int(variant.certificate),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
         "BACKWARD": int(variant.backward),

@@ -8,7 +8,6 @@ import time
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -24,9 +23,8 @@ from ...model.model import choose, load
 from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
-from .answers import answer, dimensionless
+from .answers import Impact, answer, dimensionless
 from .flights import Flights
-from .impacts import Impact
 from .scipy_engine import Flight
 from .verdict import CHATTER, FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
@@ -106,8 +104,7 @@ def runs() -> dict[str, Run]:
     if FAST != "rosenbrock":
         found["rosenbrock"] = lambda scene, rtol: chained(scene, rtol, "rosenbrock")
     found["cvodes"] = chained
-    if find_spec("scipy"):
-        found[PEER] = lambda scene, rtol: by_scipy(scene, rtol / 10)
+    found[PEER] = lambda scene, rtol: by_scipy(scene, rtol / 10)
     return found
 
 

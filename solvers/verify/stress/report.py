@@ -76,7 +76,7 @@ def _dearest(one: Verdict) -> str:
 
 def report(found: Stress, scenes: list[Path]) -> str:
     """`stress.md`."""
-    parts = ["# wetdoublet bench --stress", f"**{found.summary()}**", rate(found), _surroundings(found)]
+    parts = ["# wetdoublet verify --stress", f"**{found.summary()}**", rate(found), _surroundings(found)]
     parts += ["## Disagreements", _listed(found, DISAGREEMENTS)]
     parts += ["## Failures", _failures(found)]
     parts += ["## Engines", _engines(found), _ledgers(found)]

@@ -47,10 +47,8 @@ def _wanted(count: int) -> int:
 
 def _drawn(count: int, seed: int) -> Iterator[Case]:
     """Valid scenes along a Halton sequence; those that the rules of a scene refuse are passed over."""
-    try:
-        from scipy.stats import qmc
-    except ImportError:
-        raise InputError("--stress", count, "an installation with scipy (pip install wetdoublet[bench])") from None
+    from scipy.stats import qmc
+
     models = list(_models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
     points, taken = qmc.Halton(_NUMBERS, seed=seed), 0
     while taken < count:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...engines.casadi.integrators import Stop, tolerance
-from ...engines.casadi.locate import Locate, Path, Step
+from ...engines.casadi.locate import EVENT_OF, Locate, Path, Step
 from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
 
@@ -70,7 +70,7 @@ class Flight(Locate):
             self.y = self.path.y = stop.y
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event is not None and stop.event != "certified":
-                return self._act(stop.event, flown)
+                return self._act(EVENT_OF[stop.event], flown)
             if self._proved():
                 self._stop(Step(self.phase, flown, None, ()))
                 self.path.certified = self.proof.theorem

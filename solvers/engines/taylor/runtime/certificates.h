@@ -185,7 +185,7 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)asked; (void)tolerance;
-#if HELD && CERTIFICATE
+#if HELD
     if (bits(asked))
         return asked & held_by_attraction(c, y, tolerance);
 #endif

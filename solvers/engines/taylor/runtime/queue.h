@@ -62,7 +62,6 @@ static void fill_queue(queue *q)
 #if WITH_TRAJECTORY
         proved &= bits(provable(q, splat_mask(-1)));
 #endif
-        proved *= CERTIFICATE;
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);

@@ -8,9 +8,6 @@
 #include "model.h"
 #include "tangents.h"
 
-#if !CERTIFICATE
-static const double GIVEN_UP = 1168.0; /* x0/v0: a kernel without proofs calls it a stick */
-#endif
 static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
@@ -93,7 +90,7 @@ static inline double quantity(const queue *q, int k, long index)
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
-    certified = certified && CERTIFICATE && !SURFACE_ARM; /* angular momentum drifts: no theorem */
+    certified = certified && !SURFACE_ARM; /* angular momentum drifts: no theorem */
     answer *a = &q->answers[index];
     a->status = status;
     a->outcome = outcome;
@@ -112,12 +109,7 @@ static void note(queue *q, long index, int kind, double time)
 /* Lanes that are proved to stick as they are. */
 static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
 {
-#if !CERTIFICATE
-    (void)f; (void)tolerance;
-    return l->time > GIVEN_UP;
-#else
     return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
-#endif
 }
 
 /* Where the film acts: a liquid that cavitates does not while it is opened. */

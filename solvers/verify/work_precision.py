@@ -1,0 +1,318 @@
+"""Run time against achieved error of each engine, for one scene on this machine, and which setting to choose."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..collision.collide import collide
+from ..engines.taylor.build import knows
+from ..errors import ComputationError
+from ..host.environment import one_core
+from ..many.collide_many import FAILED, collide_many
+from ..scene.scene import Scene
+from ..settings import ENGINES
+from .stress.answers import Impact
+
+TOLERANCES = tuple(10.0**-k for k in range(4, 13))
+BATCH, SINGLE = 100, 8  # collisions in a call; those of them that are also computed one by one
+STOKES, ANGLES = (0.01, 10.0), (math.radians(5), math.radians(85))  # where the scene has no impact
+_AROUND, _TURNED, _STEEPEST = 2.0, math.radians(5), math.radians(89)  # factor in St and difference in angle about one
+_TIGHTEST = (1e-13, 1e-12, 1e-11)  # of a reference: the first that the engine completes
+_PASSES, _LONG = 10, 0.05  # passes, and s after which there is no further one; the cheapest counts
+_DEAR = 1.0  # s: an engine whose batch takes longer is not given a batch at tighter tolerances
+_GOLDEN = 0.6180339887498949
+
+Progress = Callable[[int, int], None]
+_Found = TypeVar("_Found")
+
+
+@dataclass(frozen=True)
+class Computed:
+    """What a collision came to; contact time in s, None for a stick."""
+
+    outcome: str
+    restitution: float
+    contact_time: float | None
+    engine: str  # that answered: an engine hands over what it cannot complete
+
+
+@dataclass(frozen=True)
+class Row:
+    """One engine at one tolerance.
+
+    Arguments:
+        error: largest absolute error of e_n; None where no collision separates.
+        time_error: largest relative error of the contact time; likewise.
+        single: mean CPU time (s) of a collision computed alone.
+        batch: CPU time (s) of a collision of a batch; None where that was too expensive to measure.
+        wrong, failed: collisions with another outcome than the reference, and without any.
+        handed_over: collisions that another engine answered.
+    """
+
+    engine: str
+    rtol: float
+    error: float | None
+    time_error: float | None
+    single: float
+    batch: float | None
+    wrong: int
+    failed: int
+    handed_over: int
+
+    def keeps(self, error: float) -> bool:
+        """Whether all outcomes are right and no error of e_n is larger."""
+        return not self.wrong and not self.failed and (self.error or 0.0) <= error
+
+
+@dataclass(frozen=True)
+class Recommendation:
+    """The cheapest setting for a use; engine and rtol are None where there is none, and the reason says why."""
+
+    use: str
+    engine: str | None
+    rtol: float | None
+    reason: str
+
+
+@dataclass(frozen=True)
+class WorkPrecision:
+    """Cost and error of the engines on a sample of a scene's collisions.
+
+    Arguments:
+        sample: in words.
+        batch: collisions in a call.
+        impacts: those that errors are measured on.
+        separate: how many of them separate.
+        left_out: impacts so near a boundary that the references do not agree on the outcome.
+        references: engine and tolerance of each reference; an engine is compared with the first that is not itself.
+        uncertainty: largest difference in e_n between the references: an error below it cannot be told from theirs.
+        time_uncertainty: the same of the contact time, relative.
+    """
+
+    scene: Scene
+    sample: str
+    batch: int
+    impacts: tuple[Impact, ...]
+    separate: int
+    left_out: int
+    references: tuple[tuple[str, float], ...]
+    uncertainty: float
+    time_uncertainty: float
+    rows: tuple[Row, ...]
+
+    def recommend(self, error: float) -> tuple[Recommendation, Recommendation]:
+        """Return the settings for an absolute error of e_n: for one collision, and for a batch."""
+        return (
+            self._cheapest("one collision", error, lambda row: row.single),
+            self._cheapest(f"a batch of {self.batch}", error, lambda row: row.batch),
+        )
+
+    def _cheapest(self, use: str, error: float, cost: Callable[[Row], float | None]) -> Recommendation:
+        """Of each engine the loosest tolerance from which on the error is kept; of those, the cheapest."""
+        if error < self.uncertainty:
+            said = f"the references differ by {self.uncertainty:.1e} in e_n, so that {error:.1e} cannot be verified"
+            return Recommendation(use, None, None, said)
+        loosest = [row for engine in self.engines if (row := self._loosest(engine, error))]
+        priced = [(spent, row) for row in loosest if (spent := cost(row)) is not None]
+        if not priced:
+            reached = min(
+                (row.error for row in self.rows if row.keeps(math.inf) and row.error is not None), default=None
+            )
+            least = (
+                "no setting has all outcomes right" if reached is None else f"the least error reached is {reached:.1e}"
+            )
+            return Recommendation(
+                use, None, None, f"no engine keeps {error:.1e} at a tolerance that was measured; {least}"
+            )
+        priced.sort(key=lambda each: each[0])
+        spent, best = priced[0]
+        kept = "all collisions of the sample stick, and all outcomes are right" if best.error is None else (
+            f"largest error {best.error:.1e} in e_n, and none above {error:.1e} at tighter tolerances"
+        )  # fmt: skip
+        others = [f"{row.engine} at {row.rtol:.0e} costs {dear / spent:.3g} times as much" for dear, row in priced[1:]]
+        return Recommendation(use, best.engine, best.rtol, "; ".join([f"{shown(spent)} each, {kept}", *others]))
+
+    @property
+    def engines(self) -> tuple[str, ...]:
+        """The engines that were measured."""
+        return tuple(dict.fromkeys(row.engine for row in self.rows))
+
+    def _loosest(self, engine: str, error: float) -> Row | None:
+        found = None
+        for row in sorted((row for row in self.rows if row.engine == engine), key=lambda row: row.rtol):
+            if not row.keeps(error):
+                break
+            found = row
+        return found
+
+
+def work_precision(
+    scene: Scene,
+    tolerances: Sequence[float] = TOLERANCES,
+    progress: Progress = lambda _done, _total: None,
+    single: int = SINGLE,
+    batch: int = BATCH,
+) -> WorkPrecision:
+    """Measure the engines on collisions about the scene's impact, on one core.
+
+    Arguments:
+        scene: without an impact, a default sample of Stokes numbers and angles is measured.
+        progress: told the settings that are measured, and of how many.
+        single: collisions computed one by one; errors are theirs.
+        batch: collisions in one call.
+
+    Example:
+        >>> from wetdoublet.solvers import Scene
+        >>> found = work_precision(Scene.load("granulation"), [1e-6, 1e-9], single=4, batch=20)
+        >>> found.recommend(1e-6)[0].engine is not None
+        True
+
+    Raises:
+        ComputationError: no reference could be computed.
+    """
+    engines = [name for name in ENGINES if name != "taylor" or knows(scene)]
+    total = len(engines) * len(tolerances) + 1
+    impacts, sample = _drawn(scene, batch)
+    progress(0, total)
+    with one_core():
+        some = impacts[batch // (2 * single) :: batch // single][:single]
+        truth, tight = _references(scene, some, engines)
+        known = [impact for impact, *answers in zip(some, *truth.values()) if len({a.outcome for a in answers}) == 1]
+        if not known:
+            raise ComputationError("no reference", advice="choose an impact farther from a boundary")
+        kept = {name: [a for i, a in zip(some, answers) if i in known] for name, answers in truth.items()}
+        first, second = kept.values()
+        rows = []
+        expensive: set[str] = set()
+        for engine in engines:
+            expected = next(answers for name, answers in kept.items() if name != engine)
+            for rtol in sorted(tolerances, reverse=True):
+                each = None if engine in expensive else _batch(scene, impacts, engine, rtol)
+                if each is not None and each * batch > _DEAR:
+                    expensive.add(engine)
+                rows.append(_row(scene, known, expected, engine, rtol, each))
+                progress(1 + len(rows), total)
+    own = _errors(first, second)
+    return WorkPrecision(
+        scene=scene,
+        sample=sample,
+        batch=batch,
+        impacts=tuple(known),
+        separate=sum(each.outcome != "stick" for each in first),
+        left_out=len(some) - len(known),
+        references=tuple(tight.items()),
+        uncertainty=max((e for e, _ in own), default=0.0),
+        time_uncertainty=max((t for _, t in own), default=0.0),
+        rows=tuple(rows),
+    )
+
+
+def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
+    """Impacts spread evenly over a rectangle of St and angle, and what it is."""
+    stokes, angle = scene.stokes, scene.angle
+    if stokes is None or angle is None:
+        spans, why = (STOKES, ANGLES), "the default, as the scene has no impact"
+    else:
+        turned = (max(angle - _TURNED, 0.0), max(angle, min(angle + _TURNED, _STEEPEST))) if angle else (0.0, 0.0)
+        spans, why = ((stokes / _AROUND, stokes * _AROUND), turned), "about the scene's impact"
+    (low, high), (flat, steep) = spans
+    impacts = [
+        Impact(low * (high / low) ** ((k + 0.5) / count), flat + (steep - flat) * (k * _GOLDEN % 1.0))
+        for k in range(count)
+    ]
+    degrees = f"{math.degrees(flat):.4g} to {math.degrees(steep):.4g} deg" if angle != 0.0 else "0 deg"
+    return impacts, f"{count} impacts, St {low:.4g} to {high:.4g}, angle {degrees} ({why})"
+
+
+def _references(
+    scene: Scene, impacts: Sequence[Impact], engines: Sequence[str]
+) -> tuple[dict[str, list[Computed]], dict[str, float]]:
+    """Answers of two engines at the tightest tolerance that each completes, and that tolerance."""
+    truth: dict[str, list[Computed]] = {}
+    tight: dict[str, float] = {}
+    for engine in ("taylor", "rosenbrock", "cvodes"):
+        for rtol in _TIGHTEST if engine in engines and len(truth) < 2 else ():
+            found = [_one(scene, impact, engine, rtol) for impact in impacts]
+            answers = [each for each in found if isinstance(each, Computed) and each.engine == engine]
+            if len(answers) == len(impacts):
+                truth[engine], tight[engine] = answers, rtol
+                break
+    if len(truth) < 2:
+        raise ComputationError(
+            f"no two engines complete the sample at {max(_TIGHTEST):g} or tighter",
+            advice="choose an impact farther from a boundary",
+        )
+    return truth, tight
+
+
+def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Computed | None:
+    """A collision as a user asks for it; None if it fails."""
+    try:
+        found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
+    except ComputationError:
+        return None
+    return Computed(found.outcome, found.restitution, found.contact_time, found.engine)
+
+
+def _row(
+    scene: Scene, impacts: Sequence[Impact], expected: Sequence[Computed], engine: str, rtol: float, batch: float | None
+) -> Row:
+    """Time and errors of the collisions computed one by one."""
+    for impact in impacts:
+        _one(scene, impact, engine, rtol)  # builds
+    taken, found = _cheapest(lambda: [_one(scene, impact, engine, rtol) for impact in impacts])
+    done = [(one, truth) for one, truth in zip(found, expected) if one is not None]
+    errors = _errors(*([pair[k] for pair in done] for k in (0, 1)))
+    return Row(
+        engine=engine,
+        rtol=rtol,
+        error=max((e for e, _ in errors), default=None),
+        time_error=max((t for _, t in errors), default=None),
+        single=taken / len(impacts),
+        batch=None if batch is None else batch,
+        wrong=sum(one.outcome != truth.outcome for one, truth in done),
+        failed=len(found) - len(done),
+        handed_over=sum(one.engine != engine for one, _ in done),
+    )
+
+
+def _errors(found: Sequence[Computed], expected: Sequence[Computed]) -> list[tuple[float, float]]:
+    """Absolute error of e_n and relative error of the contact time, where both separate in the same way."""
+    return [
+        (abs(one.restitution - truth.restitution), abs(one.contact_time / truth.contact_time - 1))
+        for one, truth in zip(found, expected)
+        if one.outcome == truth.outcome and one.contact_time and truth.contact_time
+    ]
+
+
+def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) -> float | None:
+    """CPU time (s) of an impact among all in one call; None if one of them fails."""
+    stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
+    asked: Any = {"rtol": rtol, "engine": engine}
+    collide_many(scene, stokes=stokes[:1], angle=angle[:1], **asked)  # builds
+    taken, found = _cheapest(lambda: collide_many(scene, stokes=stokes, angle=angle, **asked))
+    return None if (found["outcome"].values == FAILED).any() else taken / len(impacts)
+
+
+def _cheapest(run: Callable[[], _Found]) -> tuple[float, _Found]:
+    """CPU time (s) of the cheapest of some calls, and what the last returned."""
+    least, spent = math.inf, 0.0
+    for _ in range(_PASSES):
+        start = time.process_time()
+        found = run()
+        taken = time.process_time() - start
+        least, spent = min(least, taken), spent + taken
+        if spent > _LONG:
+            break
+    return least, found
+
+
+def shown(seconds: float) -> str:
+    """A time in ms or us, with three digits."""
+    return f"{seconds * 1e3:.3g} ms" if seconds >= 1e-3 else f"{seconds * 1e6:.3g} us"

@@ -1,0 +1,248 @@
+"""Run time and achieved error of gradients of e_n to twelve parameters: ours, heyoka's, and differences, in one run."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+from wetdoublet.solvers.engines.taylor.call import Impacts
+from wetdoublet.solvers.formatting.markdown import table, us
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import collide_many
+from wetdoublet.solvers.sensitivity.by_kernel import along
+from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
+
+from .gradient_task import COUNT, Gradients
+from .peers.diffrax_gradient import MISSING as NO_DIFFRAX
+from .peers.diffrax_gradient import TOLERANCES as DIFFRAX
+from .peers.diffrax_gradient import of_task as diffrax_forward
+from .tasks import TASKS, Task
+from .work import OFTEN, REPEATS, SETS, Tell
+
+Record = dict[str, Any]
+Run = Callable[[], np.ndarray]
+
+FINE = tuple(10.0**-k for k in (6, 7, 7.5, 8, 8.5, *range(9, 14)))
+COARSE = (1e-8, 1e-10)
+DIFFERENCES = 1e-13  # tolerance of collisions whose differences are taken; then steps take the part of tolerances
+STEPS = (1e-3, 1e-4, 1e-5)
+LONG = 0.5  # seconds of a call, which is then not repeated at once
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to a gradient.
+
+    Arguments:
+        prepare: from the task, copies of each collision and a tolerance, the call that is timed; it returns derivatives
+            in theta, (collisions, parameters).
+        copies: the whole set so many times in one call.
+        tolerances: what it is asked at; for differences, steps.
+        missing: why it cannot be used here; empty if it can.
+    """
+
+    name: str
+    prepare: Callable[[Gradients, int, float], Run]
+    copies: int = 1
+    tolerances: tuple[float, ...] = COARSE
+    missing: str = ""
+
+
+def methods() -> tuple[Method, ...]:
+    """All of them, those that are missing here included."""
+    heyoka = "" if find_spec("heyoka") else "heyoka is not installed (pip install wetdoublet[bench])"
+    no_compiler = "" if compiler() else "no C compiler (cc, gcc, clang)"
+    return (
+        Method("gradients_many", _gradients_many, SETS, FINE, no_compiler),
+        Method("taylor, kernel alone", _kernel, SETS, FINE, no_compiler),
+        Method("rosenbrock, forward", partial(_casadi, "forward")),
+        Method("rosenbrock, adjoint", partial(_casadi, "adjoint")),
+        Method("heyoka, variational equations", _heyoka, SETS, FINE, heyoka),
+        Method("diffrax, forward derivatives", diffrax_forward, 1, DIFFRAX, NO_DIFFRAX),
+        Method("central differences of taylor", _differences, SETS, STEPS, no_compiler),
+    )
+
+
+def _gradients_many(asked: Gradients, copies: int, rtol: float) -> Run:
+    """`gradients_many` by the kernel, as a user calls it."""
+    stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
+    units = np.tile(asked.units, (copies, 1))
+
+    def run() -> np.ndarray:
+        found = gradients_many(
+            asked.scene,
+            stokes=stokes,
+            angle=angle,
+            wrt=list(asked.names),
+            of="restitution",
+            rtol=rtol,
+            engine="taylor",
+        )
+        rows: np.ndarray = found["gradient"].values[0] * units
+        return rows
+
+    return run
+
+
+def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
+    """The kernel's derivatives in the parameters, without what `gradients_many` adds: boundaries too near, labels."""
+    stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
+    impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
+
+    def run() -> np.ndarray:
+        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol, backward=True)
+        assert found is not None  # there is a compiler
+        rows: np.ndarray = found.first[0]
+        return rows
+
+    return run
+
+
+def _casadi(method: str, asked: Gradients, _: int, rtol: float) -> Run:
+    """`sensitivities`, as a user calls it."""
+    return lambda: asked.by_casadi(method, "rosenbrock", rtol)
+
+
+def _heyoka(asked: Gradients, copies: int, rtol: float) -> Run:
+    from .peers.heyoka_gradient import prepare
+
+    batch = prepare(asked.scene, asked.numbers * copies, np.tile(asked.slopes, (copies, 1, 1)), rtol)
+
+    def run() -> np.ndarray:
+        batch.run()
+        return batch.gradient
+
+    return run
+
+
+def _differences(asked: Gradients, copies: int, step: float) -> Run:
+    """Two collisions a parameter, all of them in one call a parameter."""
+    stokes, angle = (np.array([getattr(each, name) for each in asked.impacts]) for name in ("stokes", "angle"))
+    speed = np.tile(stokes / asked.scene.stokes_per_speed, 2 * copies)
+    angle = np.tile(angle, 2 * copies)
+    factor = np.repeat([1 + step, 1 - step], copies * stokes.size)
+    entries = asked.scene.entries
+
+    def run() -> np.ndarray:
+        columns = []
+        for name in asked.names:
+            own = float(entries.get(name) or 0.0)
+            # one that is zero, with a unit of one, may not be less: forward, to first order
+            vary = (
+                {} if name.startswith("impact.") else {name: own * factor if own else np.maximum(2 * (factor - 1), 0)}
+            )
+            data = collide_many(
+                asked.scene,
+                speed=speed * (factor if name == "impact.speed" else 1.0),
+                angle=angle * (factor if name == "impact.angle" else 1.0),
+                vary=vary,
+                rtol=DIFFERENCES,
+                engine="taylor",
+            )
+            up, down = np.split(data["restitution"].values, 2)
+            columns.append((up - down) / (2 * step))
+        return np.array(columns).T
+
+    return run
+
+
+def gradient_work(
+    tasks: Sequence[Task] = TASKS,
+    repeats: int = REPEATS,
+    tell: Tell = lambda _: None,
+    which: Sequence[Method] | None = None,
+) -> list[Record]:
+    """Of each task what was asked, and a row a method and tolerance."""
+    return [
+        _of(Gradients.of(task), task.preset, repeats, tell, methods() if which is None else which) for task in tasks
+    ]
+
+
+def _of(asked: Gradients, preset: str, repeats: int, tell: Tell, which: Sequence[Method]) -> Record:
+    ready: list[tuple[Method, Record, Run]] = []
+    for method, rtol in ((each, rtol) for each in which for rtol in each.tolerances):
+        if method.missing:
+            continue
+        tell(f"{preset}: gradients by {method.name}, {rtol:.1e}")
+        run = method.prepare(asked, method.copies, rtol)
+        found = run()  # builds and caches
+        errors = asked.errors(found[: len(asked.impacts)])
+        row: Record = {"method": method.name, "rtol": rtol, "cpu": math.inf, "wall": math.inf}
+        row |= {"error_largest": _number(errors.max()), "error_median": _number(np.median(errors))}
+        row["failed"] = int(np.isnan(errors).sum())
+        ready.append((method, row, run))
+    for method, row, run in (each for _ in range(repeats) for each in ready):
+        for _ in range(OFTEN if method.copies > 1 else 1):
+            cpu, wall, count = time.process_time(), time.perf_counter(), method.copies * len(asked.impacts)
+            run()
+            cpu, wall = (time.process_time() - cpu) / count, (time.perf_counter() - wall) / count
+            row["cpu"], row["wall"] = min(row["cpu"], cpu), min(row["wall"], wall)
+            if wall * count > LONG:
+                break
+    return {
+        "preset": preset,
+        "collisions": len(asked.impacts),
+        "parameters": list(asked.names),
+        "count": COUNT,
+        "missing": {method.name: method.missing for method in which if method.missing},
+        "rows": [row for _, row, _ in ready],
+    }
+
+
+def _number(value: float) -> float | None:
+    """None for what is none: JSON has no NaN."""
+    return float(value) if math.isfinite(value) else None
+
+
+BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error
+NOTE = """\
+Derivatives of e_n in theta, p = p_ref (1 + theta), of 25 collisions of each task that separate, drawn on from its
+sequence until there are so many; the set is repeated 20 times in one call. `gradients_many` has some 2 ms a call
+beside the kernel (checks, boundaries too near, the labelled Dataset), so smaller calls cost more. The error of a
+collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's
+are its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our
+own; it need prove no stick, and is given the derivatives of the groups in the parameters. So is diffrax, whose
+derivatives are forward mode through its own events, the set once in a call (twenty times in one: half the price).
+Differences are of collisions at rtol 1e-13; what is listed as their tolerance is the relative step."""
+
+
+def gradient_work_text(found: Sequence[Record]) -> str:
+    """Cost at equal error, then every setting."""
+    parts = [NOTE]
+    for task in found:
+        best: dict[str, dict[float, float]] = {}
+        for row in task["rows"]:
+            own = best.setdefault(row["method"], {})
+            for bound in BOUNDS:
+                if not row["failed"] and row["error_largest"] is not None and row["error_largest"] <= bound:
+                    own[bound] = min(own.get(bound, math.inf), row["cpu"])
+        least = {bound: min((own[bound] for own in best.values() if bound in own), default=1.0) for bound in BOUNDS}
+        cells = [
+            [name, *(f"{us(own[b])} ({own[b] / least[b]:.3g})" if b in own else "-" for b in BOUNDS)]
+            for name, own in best.items()
+        ]
+        title = f"### {task['preset']}, {task['collisions']} collisions, {len(task['parameters'])} parameters"
+        said = (
+            "CPU us a gradient (times the cheapest): cheapest setting with none refused and a largest error of at most"
+        )
+        parts += [title, said, table(["method", *(f"{bound:.0e}" for bound in BOUNDS)], cells)]
+        rows = [
+            [
+                row["method"], f"{row['rtol']:.0e}", us(row["cpu"]), _shown(row["error_largest"]),
+                _shown(row["error_median"]), str(row["failed"]),
+            ]
+            for row in task["rows"]
+        ]  # fmt: skip
+        parts.append(table(["method", "rtol, or step", "CPU us", "largest error", "median", "refused"], rows))
+        parts += [f"* {name}: {why}" for name, why in task["missing"].items()]
+    return "\n\n".join(parts)
+
+
+def _shown(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1e}"

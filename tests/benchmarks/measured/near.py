@@ -1,0 +1,210 @@
+"""What a collision costs near the separatrix between sticking and escaping, where a flight lingers at a saddle."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.formatting.markdown import ms, table
+from wetdoublet.solvers.host import compiled
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
+
+from .peers.bulk import Bulk
+from .peers.engines import HEYOKA, Engine, engines
+
+Record = dict[str, Any]
+
+PRESET = "granulation"
+SEPARATRIX = {  # degrees: St below which it sticks, by halving with the kernel at rtol 1e-13 to a width of 3e-14
+    30.0: 0.08575245746193548,
+    50.0: 0.04111769751269967,
+    70.0: 0.01765780132932007,
+    80.0: 0.008493502839467865,
+}
+DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative, in St
+RTOLS = (1e-9, 1e-12)
+COPIES, FEW = 20, 2  # of the set in one call of taylor and of heyoka, which creeps
+PATIENCE = 20_000  # steps of heyoka a collision
+REPEATS = 3  # the best of so many calls counts
+RESOLVED = 1e2  # times the tolerance: a flight nearer than that may end on the other side
+GENERATED = "rosenbrock, generated C"
+THROUGH = "rosenbrock, compiled"
+
+
+class _Clock:
+    """CPU time inside the integrators that are C."""
+
+    def __init__(self, call: Callable[..., Any]) -> None:
+        self.spent, self._call = 0.0, call
+
+    def __call__(self, *arguments: Any, **options: Any) -> Any:
+        start = time.process_time()
+        try:
+            return self._call(*arguments, **options)
+        finally:
+            if not options.get("counted"):  # those that refine a crossing are interpreted
+                self.spent += time.process_time() - start
+
+
+@contextmanager
+def _generated() -> Iterator[_Clock]:
+    """Integrators compiled as well as the compiler can, and the time in them alone."""
+    flags: Any = compiled
+    inner: Any = integrators
+    usual, call = flags.FLAGS, inner._call  # the one place where all integrators are called
+    clock = _Clock(call)
+    integrators.locator.cache_clear()
+    flags.FLAGS, inner._call = ("-O3", *usual[1:]), clock  # as above
+    try:
+        yield clock
+    finally:
+        flags.FLAGS, inner._call = usual, call  # as above
+        integrators.locator.cache_clear()
+
+
+@dataclass(frozen=True)
+class Side:
+    """An impact beside the separatrix, and what it comes to."""
+
+    impact: Impact
+    sticks: bool
+
+
+def beside(distance: float) -> list[Side]:
+    """Both sides of each point of the separatrix, at a relative distance."""
+    return [
+        Side(Impact(stokes * (1 + sign * distance), math.radians(degrees)), sign < 0)
+        for degrees, stokes in SEPARATRIX.items()
+        for sign in (-1, 1)
+    ]
+
+
+def near(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
+    """CPU time (s) of a collision, failures and wrong outcomes, by tolerance, distance and engine."""
+    scene = Scene.load(PRESET)
+    listed = [each for each in engines() if each.name in ("taylor", THROUGH, HEYOKA) and not each.missing]
+    rows: list[Record] = []
+    for rtol, distance in product(RTOLS, DISTANCES):
+        tell(f"near the separatrix: {rtol:.0e}, {distance:.0e}")
+        sides = beside(distance)
+        rows += [_row(each.name, rtol, distance, sides, *_in_bulk(each, scene, sides, rtol)) for each in listed]
+    if any(each.name == THROUGH for each in listed):
+        with _generated() as clock:
+            for rtol, distance in product(RTOLS, DISTANCES):
+                tell(f"near the separatrix, {GENERATED}: {rtol:.0e}, {distance:.0e}")
+                sides = beside(distance)
+                rows.append(_row(GENERATED, rtol, distance, sides, *_inside(clock, scene, sides, rtol)))
+    return rows
+
+
+Timed = tuple[float, list[Answer | str]]
+
+
+def _in_bulk(engine: Engine, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
+    """CPU time (s) of a collision, and what they came to."""
+    assert engine.many is not None
+    copies = {"taylor": COPIES, HEYOKA: FEW}.get(engine.name, 1)
+    impacts = [each.impact for each in sides] * copies
+    try:
+        bulk = _patient(scene, impacts, rtol) if engine.name == HEYOKA else engine.many(scene, impacts, rtol)
+    except ComputationError as error:
+        said: list[Answer | str] = [str(error)] * len(sides)
+        bulk = Bulk(lambda: None, lambda _: said)
+    best = math.inf
+    result = bulk.run()  # builds
+    for _ in range(REPEATS if engine.fast else 1):
+        start = time.process_time()
+        result = bulk.run()
+        best = min(best, time.process_time() - start)
+    return best / (copies * len(sides)), bulk.read(result)[: len(sides)]
+
+
+def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """As heyoka elsewhere, with more steps, and watching for barriers inside the film."""
+    from .peers.heyoka_engine import collisions
+
+    batch = collisions(scene, impacts, rtol, inside=True)
+    batch.steps = PATIENCE
+    return Bulk(batch.run, lambda _: [Answer(each, math.nan) if each else "not decided" for each in batch.outcomes])
+
+
+def _inside(clock: _Clock, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
+    """As `_in_bulk`, of the integrators in C alone."""
+    flights = [(load(choose(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
+    best = math.inf
+    for _ in range(2):  # the first builds
+        clock.spent = 0.0
+        answers = [_located(model, groups, rtol) for model, groups in flights]
+        best = min(best, clock.spent)
+    return best / len(sides), answers
+
+
+def _located(model: Any, groups: dict[str, float], rtol: float) -> Answer | str:
+    try:
+        return Answer(locate(model, groups, rtol, machine_code=True).outcome, math.nan)
+    except ComputationError as error:
+        return str(error)
+
+
+def _row(
+    engine: str, rtol: float, distance: float, sides: Sequence[Side], cpu: float, answers: Sequence[Answer | str]
+) -> Record:
+    told = [(each, answer) for each, answer in zip(sides, answers, strict=True) if isinstance(answer, Answer)]
+    wrong = sum((answer.outcome == "stick") != each.sticks for each, answer in told)
+    failures = sorted({str(answer)[:120] for answer in answers if not isinstance(answer, Answer)})
+    return {
+        "engine": engine, "rtol": rtol, "distance": distance, "collisions": len(sides), "cpu": cpu,
+        "failed": len(sides) - len(told), "wrong": wrong, "resolved": distance > RESOLVED * rtol, "failures": failures,
+    }  # fmt: skip
+
+
+NOTE = (
+    f"Granulation at {', '.join(f'{each:g}' for each in SEPARATRIX)} deg, both sides of the Stokes number at which a "
+    "stick becomes something else (by bisection at rtol 1e-13). CPU time of a collision, mean of both sides, one core; "
+    f"taylor gets the set {COPIES} times in one call, heyoka {FEW} times with {PATIENCE} steps a collision. "
+    f"`{GENERATED}` is the time inside the integrators, compiled with -O3 and called through buffers; `{THROUGH}` is "
+    f"`collide_many`, with the rules between them. Where the distance is below {RESOLVED:g} rtol no engine can tell "
+    "the side; there a wrong outcome does not count. A flight that heyoka gives up has lost the level that proves a "
+    "stick."
+)
+
+
+def near_text(rows: Sequence[Record]) -> str:
+    """A table a tolerance, and what it says."""
+    parts = [NOTE]
+    names = list(dict.fromkeys(row["engine"] for row in rows))
+    for rtol in dict.fromkeys(row["rtol"] for row in rows):
+        cells = []
+        for distance in dict.fromkeys(row["distance"] for row in rows):
+            here = {row["engine"]: row for row in rows if (row["rtol"], row["distance"]) == (rtol, distance)}
+            cells.append([f"{distance:.0e}", *(_cell(here[name]) for name in names)])
+        parts += [f"rtol {rtol:.0e}, CPU ms a collision:", table(["distance", *names], cells)]
+    ratios = [
+        other["cpu"] / row["cpu"]
+        for row in rows
+        for other in rows
+        if row["engine"] == "taylor" and other["engine"] == GENERATED and row["distance"] <= 1.1e-6
+        if (row["rtol"], row["distance"]) == (other["rtol"], other["distance"])
+    ]
+    if ratios:
+        parts.append(
+            f"Within 1e-6 of it, {GENERATED} takes {min(ratios):.2g} to {max(ratios):.2g} times as long as taylor; "
+            f"taylor fails {sum(row['failed'] for row in rows if row['engine'] == 'taylor')} times."
+        )
+    return "\n\n".join(parts)
+
+
+def _cell(row: Record) -> str:
+    notes = [f"{row['failed']} failed"] if row["failed"] else []
+    notes += [f"{row['wrong']} wrong"] if row["wrong"] and row["resolved"] else []
+    return ms(row["cpu"]) + (f" ({', '.join(notes)})" if notes else "")

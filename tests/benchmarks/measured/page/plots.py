@@ -1,0 +1,192 @@
+"""The benchmark as pictures: time against achieved error, and what a feature costs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from wetdoublet.solvers.host.files import save
+
+from ..features import FEATURES
+from .plots_more import gradient_curves, near_curves
+
+Record = dict[str, Any]
+
+_STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
+    "cvodes": ("#0072B2", "o", "-"),
+    "rosenbrock": ("#D55E00", "s", "-"),
+    "rosenbrock, compiled": ("#009E73", "D", "-"),
+    "taylor": ("#E69F00", "*", "-"),
+    "taylor, kernel alone": ("#E69F00", "1", ":"),
+    "heyoka, batch of 8": ("#56B4E9", "P", "--"),
+    "sundae CVODE, numba": ("#8C6D31", "X", "--"),
+    "diffrax Tsit5": ("#7F7F7F", "<", "--"),
+    "scipy LSODA": ("#CC79A7", "^", "--"),
+    "scipy Radau": ("#202020", "v", "--"),
+}
+_FILLS = {
+    "ledger": ("#E69F00", "//"),
+    "trajectory": ("#56B4E9", ".."),
+    "rotation": ("#009E73", "xx"),
+}
+_RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
+
+
+def draw(record: Record, folder: Path) -> list[Path]:
+    """Draw both pictures; returns their files."""
+    files = []
+    with rc_context(_RC):
+        pictures = [("work.png", work_error), ("cost.png", cost_bars)]
+        if record["growth"]:
+            pictures.append(("growth.png", growth_curves))
+        if record["near"]:
+            pictures.append(("near.png", near_curves))
+        if record["gradient_work"]:
+            pictures.append(("gradients.png", gradient_curves))
+        for name, make in pictures:
+            files.append(folder / name)
+            save(make(record), files[-1], dpi=200)
+    return files
+
+
+def work_error(record: Record) -> Figure:
+    """Mean CPU time of a collision against the largest error in e_n; a point a tolerance."""
+    tasks = [task for task in record["tasks"] if task["points"]]
+    figure = Figure(figsize=(9.2, 4.9), layout="constrained")
+    panels: Sequence[Axes] = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
+    known: dict[str, float] = {}
+    for axes, task in zip(panels, tasks):
+        for name in dict.fromkeys(point["engine"] for point in task["points"]):
+            good, bad = _curve(task, name)
+            colour, marker, line = _STYLES.get(name, ("#AA3377", ".", ":"))
+            style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
+            axes.loglog(*good, linestyle=line, linewidth=1.3, label=name, **style)
+            if bad[0]:
+                axes.loglog(*bad, linestyle="", **(style | {"markerfacecolor": "white"}))
+        known[task["preset"]] = task["collisions"]["own_error"]
+        _frame(axes, task)
+    _limits(panels, list(known.values()))
+    panels[0].set_ylabel("CPU time a collision (us)")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    return figure
+
+
+def _curve(task: Record, name: str) -> tuple[tuple[list[float], list[float]], tuple[list[float], list[float]]]:
+    """Errors and us of an engine: all points, and those with a wrong or missing outcome."""
+    every: tuple[list[float], list[float]] = ([], [])
+    bad: tuple[list[float], list[float]] = ([], [])
+    for point in task["points"]:
+        s = point["summary"]
+        if point["engine"] != name or not s["error_largest"]:
+            continue
+        for xs, ys in (every, bad) if s["wrong"] or s["failed"] else (every,):
+            xs.append(s["error_largest"])
+            ys.append(s["cpu_mean"] * 1e6)
+    return every, bad
+
+
+def _limits(panels: Sequence[Axes], known: Sequence[float]) -> None:
+    """From large errors on the left to small on the right; grey where the reference cannot tell them from its own."""
+    drawn = [float(x) for axes in panels for line in axes.get_lines() for x in np.atleast_1d(line.get_xdata())]
+    least = min([*drawn, *(each for each in known if each)], default=1e-14) / 5
+    for axes, own in zip(panels, known):
+        if own:
+            axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the reference's own error")
+    panels[0].set_xlim(max(drawn, default=1.0) * 5, least)
+
+
+def _frame(axes: Axes, task: Record) -> None:
+    axes.set_title(f"{task['preset']}: {task['collisions']['counted']} collisions", fontsize=9.5)
+    axes.set_xlabel("largest absolute error in $e_n$")
+    axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
+    axes.xaxis.set_major_locator(LogLocator(base=100, numticks=20))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.tick_params(labelleft=True)
+
+
+def cost_bars(record: Record) -> Figure:
+    """Ratios to the bare collision, as bars that start from it."""
+    rows = _rows(record)
+    figure = Figure(figsize=(7.2, 1.4 + 0.46 * len(rows)), layout="constrained")
+    axes = figure.add_subplot()
+    height = 0.2
+    for position, feature in enumerate(FEATURES):
+        there = [(k, ratios[feature]) for k, (_, ratios) in enumerate(rows) if feature in ratios]
+        places = [k + (position - 1) * height for k, _ in there]
+        colour, hatch = _FILLS[feature]
+        style: Any = {"color": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
+        axes.barh(places, [ratio - 1 for _, ratio in there], height, left=1.0, label=feature, **style)
+        for place, (_, ratio) in zip(places, there, strict=True):
+            side = 1 if ratio >= 1 else -1
+            axes.annotate(
+                f"{ratio:.2f}",
+                (ratio, place),
+                (3 * side, 0),
+                textcoords="offset points",
+                ha="left" if side > 0 else "right",
+                va="center",
+                fontsize=7,
+            )
+    axes.axvline(1.0, color="#202020", linewidth=0.9)
+    axes.set_yticks(range(len(rows)), [label for label, _ in rows])
+    axes.invert_yaxis()
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    ratios = [ratio for _, each in rows for ratio in each.values()] or [1.0]
+    axes.set_xlim(min(0.8, 0.65 * min(ratios)), max(1.5, 1.6 * max(ratios)))
+    axes.grid(True, axis="x", which="major", linewidth=0.4, color="#CCCCCC")
+    axes.set_axisbelow(True)
+    axes.set_xlabel("CPU time with one feature on, over that of the bare collision (= 1)")
+    figure.legend(loc="outside upper center", ncols=4, frameon=False)
+    return figure
+
+
+def _rows(record: Record) -> list[tuple[str, dict[str, float]]]:
+    """A label and the ratios by feature, for every kind of collision and engine."""
+    rows: dict[tuple[str, str, str], dict[str, float]] = {}
+    bare: dict[tuple[str, str, str], float] = {}
+    for task in record["tasks"]:
+        for cost in task["costs"]:
+            key = (task["preset"], cost["outcome"], cost["engine"])
+            if not cost["on"]:
+                bare[key] = cost["cpu"]
+            elif len(cost["on"]) == 1:
+                rows.setdefault(key, {})[cost["on"][0]] = cost["ratio"]
+    return [
+        (f"{preset}, {outcome}\n{engine} ({bare[preset, outcome, engine] * 1e3:.3g} ms bare)", ratios)
+        for (preset, outcome, engine), ratios in rows.items()
+    ]
+
+
+def growth_curves(record: Record) -> Figure:
+    """Wall time of a call, and of a collision in it, against their number."""
+    figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+    panels = figure.subplots(1, 2, sharex=True)
+    for engine in dict.fromkeys(each["engine"] for each in record["growth"]):
+        colour, marker, _ = _STYLES.get(engine, ("#AA3377", ".", ":"))
+        for cores, line in ((1, "-"), (2, "--")):
+            here = [each for each in record["growth"] if (each["engine"], each["cores"]) == (engine, cores)]
+            counts = [each["collisions"] for each in here]
+            style: Any = {"color": colour, "marker": marker, "linestyle": line, "markersize": 5, "linewidth": 1.3}
+            panels[0].loglog(
+                counts, [each["wall"] for each in here], label=f"{engine}, {cores} core{'s' * (cores > 1)}", **style
+            )
+            panels[1].loglog(counts, [1e6 * each["wall"] / each["collisions"] for each in here], **style)
+    for axes, label in zip(panels, ("wall time of the call (s)", "wall time a collision (us)")):
+        axes.set(xlabel="collisions in one call", ylabel=label)
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0), numticks=20))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
+    figure.legend(loc="outside upper center", ncols=2, frameon=False)
+    return figure

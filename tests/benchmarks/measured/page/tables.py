@@ -1,0 +1,172 @@
+"""A benchmark's record as Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from wetdoublet.solvers.formatting.markdown import ms, table, us
+
+from ..cold import first_table
+from ..features import FEATURES, TOGETHER
+from ..gradient_work import gradient_work_text
+from ..lines import line_table
+from ..near import near_text
+from ..sharp import sharp_text
+
+BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
+
+Record = dict[str, Any]
+
+
+def _error(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1e}"
+
+
+def surroundings(record: Record) -> str:
+    """Where and how it was run, and which engines were missing."""
+    where = record["environment"]
+    lines = [f"* {name}: {_shown(value)}" for name, value in where.items() if value is not None]
+    lines.append(f"* {record['settings']['repeats']} runs of each, the best counts; {record['wall']:.0f} s in all")
+    lines += [f"* {each['name']}: {each['missing']}" for each in record["engines"] if each["missing"]]
+    return "\n".join(lines)
+
+
+def _shown(value: Any) -> str:
+    return ", ".join(f"{each:.2f}" for each in value) if isinstance(value, list) else str(value)
+
+
+def sample(task: Record) -> str:
+    """The collisions and how well they are known."""
+    known = task["collisions"]
+    free = f"{task['drawn']}; {known['decided_at_first_touch']} are proved sticks at first touch and do not count."
+    lines = [f"{free} Of the other {known['counted']}, {known['separate']} separate."]
+    if known["separate"]:
+        against = ", ".join(f"{value:.0e} from {name}" for name, value in known["differences"].items())
+        lines.append(f"Reference values by {known['reference']} at rtol 1e-13; e_n differs by at most {against}.")
+    return "\n".join(lines + known["left_out"])
+
+
+def work_table(task: Record) -> str:
+    """Time and error by engine and tolerance."""
+    rows = []
+    for point in task["points"]:
+        s = point["summary"]
+        times = [us(s[name]) for name in ("cpu_median", "cpu_mean", "wall_mean")]
+        errors = [_error(s["error_largest"]), _error(s["error_median"])]
+        rows.append([point["engine"], f"{point['rtol']:.1e}", *times, *errors, str(s["wrong"]), str(s["failed"])])
+    rows.sort(key=lambda row: [each["engine"] for each in task["points"]].index(row[0]))
+    head = ["engine", "rtol", "CPU us: median", "mean", "wall us: mean"]
+    return table([*head, "error in e_n: largest", "median", "wrong", "failed"], rows)
+
+
+def equal_error(task: Record) -> str:
+    """Mean CPU time at the cheapest setting that is good enough, and its ratio to the fastest engine's."""
+    best: dict[str, dict[float, float]] = {point["engine"]: {} for point in task["points"]}
+    for point in task["points"]:
+        s = point["summary"]
+        for bound in BOUNDS:
+            if not s["wrong"] and not s["failed"] and s["error_largest"] is not None and s["error_largest"] <= bound:
+                row = best[point["engine"]]
+                row[bound] = min(row.get(bound, float("inf")), s["cpu_mean"])
+    fastest = {bound: min((row[bound] for row in best.values() if bound in row), default=0.0) for bound in BOUNDS}
+    rows = [
+        [
+            engine,
+            *(f"{us(row[bound])} ({row[bound] / fastest[bound]:.3g})" if bound in row else "-" for bound in BOUNDS),
+        ]
+        for engine, row in best.items()
+    ]
+    title = (
+        "CPU us a collision that is not decided at first touch (times the fastest): cheapest setting with all outcomes "
+        "right and the largest error in e_n at most"
+    )
+    return f"{title}\n\n{table(['engine', *(f'{bound:.0e}' for bound in BOUNDS)], rows)}"
+
+
+def failures(task: Record) -> str:
+    """Every collision that failed or came out wrong, with what the engine said."""
+    lines = [
+        f"* {point['engine']}, rtol {point['rtol']:.1e}, {_some(places)}: {what}"
+        for point in task["points"]
+        for what, places in point["said"].items()
+    ]
+    return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else "No failures, no wrong outcomes."
+
+
+def _some(places: list[str]) -> str:
+    """The places, or the first of them and how many more."""
+    return ", ".join(places) if len(places) < 4 else f"{places[0]} and {len(places) - 1} others"
+
+
+def cost_table(record: Record) -> str:
+    """CPU time of the bare collision, and ratios with the features on."""
+    rows = []
+    for task in record["tasks"]:
+        groups: dict[tuple[str, str, int], dict[tuple[str, ...], Record]] = {}
+        for cost in task["costs"]:
+            key = (cost["outcome"], cost["engine"], cost["collisions"])
+            groups.setdefault(key, {})[tuple(cost["on"])] = cost
+        for (outcome, engine, count), found in groups.items():
+            if len(found) == 1:
+                continue  # nothing that could be switched on
+            ratios = [
+                f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), TOGETHER)
+            ]
+            rows.append([f"{task['preset']}, {count} {outcome}", engine, ms(found[()]["cpu"]), *ratios])
+    return table(["collisions", "engine", "bare ms", *FEATURES, "the first two"], rows)
+
+
+COST_NOTE = (
+    "Mean CPU time at rtol 1e-9; ratios to the bare collision. Engines of many collisions keep neither ledger nor "
+    "trajectory; the others always know the rotation."
+)
+
+
+def others(record: Record) -> list[str]:
+    """What was measured besides: structures, gradients, boundaries, growth; nothing for what was not."""
+    parts: list[str] = []
+    if record["structures"]:
+        parts += ["## What a scene does not need, it does not pay for", structure_table(record["structures"])]
+    if record["gradients"]:
+        parts += ["## What a gradient adds to a collision", gradient_table(record["gradients"])]
+    if record["gradient_work"]:
+        parts += ["## Gradients to twelve parameters, beside peers", gradient_work_text(record["gradient_work"])]
+    if record["sharp"]:
+        parts += ["## How exact an answer can be asked for", sharp_text(record["sharp"])]
+    if record["near"]:
+        parts += ["## Near the separatrix", near_text(record["near"])]
+    if record["lines"]:
+        parts += ["## Boundaries, traced and searched for", line_table(record["lines"])]
+    if record["growth"]:
+        parts += ["## From one collision to many", growth_table(record["growth"])]
+    if record["first_use"]:
+        parts += ["## First use", first_table(record["first_use"])]
+    return parts
+
+
+def structure_table(found: Sequence[Record]) -> str:
+    """CPU time by what the scene has."""
+    rows = [
+        [each["scene"], each["engine"], us(each["cpu"]), f"{each['ratio']:.2f}", str(each["separated"])]
+        for each in found
+    ]
+    return table(["scene", "engine", "CPU us a collision", "times film alone", "separated"], rows)
+
+
+def gradient_table(found: Sequence[Record]) -> str:
+    """CPU time of a gradient by method and number of parameters."""
+    rows = [[each["method"], str(each["parameters"]), ms(each["cpu"]), f"{each['ratio']:.2f}"] for each in found]
+    return table(["method", "parameters", "CPU ms", "times the collision"], rows)
+
+
+def growth_table(found: Sequence[Record]) -> str:
+    """Wall and CPU time a collision, and memory, by size."""
+    rows = []
+    for each in found:
+        per = each["collisions"]
+        memory = f"{each['memory'] / 2**20:.0f} (+{(each['memory'] - each['before']) / 2**20:.0f})"
+        times = [us(each["wall"] / per), us(each["cpu"] / per), f"{each['wall']:.3g}"]
+        rows.append([each["engine"], str(each["cores"]), str(per), *times, memory])
+    head = ["engine", "cores", "collisions", "wall us each", "CPU us each", "wall s", "peak memory MB (grown)"]
+    return table(head, rows)

@@ -1,0 +1,125 @@
+"""What was aimed at, and what a record shows of it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wetdoublet.solvers.formatting.markdown import table, us
+
+from ..near import GENERATED
+from ..peers.engines import HEYOKA
+
+Record = dict[str, Any]
+
+BOUND = 1e-8  # of the largest error, at which costs are compared
+TIMES = {"granulation": 8.0, "pendulum": 4.0}  # faster than heyoka
+GRADIENT_TIMES = 5.0
+FIRST, SECOND = 3.0, 0.1  # s: first use with compilation; beyond the imports from then on
+MAP = 10_000  # collisions of a map of 100 x 100
+
+
+def targets(record: Record) -> list[tuple[str, str, str, bool]]:
+    """Rows of: what, target, measured, whether it is met; nothing for what the record does not hold."""
+    return [*_collisions(record), *_gradients(record), *_exact(record), *_near(record), *_use(record)]
+
+
+def _least(rows: list[tuple[str, float, float | None, bool]], name: str) -> float | None:
+    """Least cost of an engine within the bound; None if it never is."""
+    found = [cost for own, cost, error, good in rows if own == name and good and error is not None and error <= BOUND]
+    return min(found, default=None)
+
+
+def _ratio(slow: float, fast: float) -> str:
+    return f"{slow / fast:.1f} times faster ({us(fast)} us beside {us(slow)} us)"
+
+
+def _collisions(record: Record) -> list[tuple[str, str, str, bool]]:
+    found = []
+    for task in record["tasks"]:
+        rows = []
+        for point in task["points"]:
+            s = point["summary"]
+            good = not s["wrong"] and not s["failed"]
+            rows.append((point["engine"], s["cpu_mean"], s["error_largest"], good))
+        ours, theirs = _least(rows, "taylor"), _least(rows, HEYOKA)
+        if ours is not None and theirs is not None and task["preset"] in TIMES:
+            goal = TIMES[task["preset"]]
+            what = f"{task['preset']}: `collide_many` of outcome and restitution, error in e_n at most {BOUND:g}"
+            found.append((what, f"{goal:g} times faster than heyoka", _ratio(theirs, ours), theirs >= goal * ours))
+    wrong = sum(p["summary"]["wrong"] for task in record["tasks"] for p in task["points"] if p["engine"] == "taylor")
+    if found:
+        found.append(("wrong outcomes of taylor", "none", str(wrong or "none"), not wrong))
+    return found
+
+
+def _gradients(record: Record) -> list[tuple[str, str, str, bool]]:
+    found = []
+    for task in record["gradient_work"]:
+        rows = [(row["method"], row["cpu"], row["error_largest"], not row["failed"]) for row in task["rows"]]
+        ours, theirs = _least(rows, "gradients_many"), _least(rows, "heyoka, variational equations")
+        if ours is not None and theirs is not None:
+            what = f"{task['preset']}: gradient to {len(task['parameters'])} parameters, error at most {BOUND:g}"
+            goal = f"{GRADIENT_TIMES:g} times faster than heyoka's variational equations"
+            found.append((what, goal, _ratio(theirs, ours), theirs >= GRADIENT_TIMES * ours))
+    return found
+
+
+def _exact(record: Record) -> list[tuple[str, str, str, bool]]:
+    found = []
+    for each in record["sharp"]:
+        least = min(row["conditioned"] for row in each["rows"])
+        what = f"{each['preset']}: least relative error in e_n over its conditioning"
+        found.append((what, "1e-13", f"{least:.1e}", least <= 1e-13))
+    return found
+
+
+def _near(record: Record) -> list[tuple[str, str, str, bool]]:
+    rows = [row for row in record["near"] if row["distance"] <= 1.1e-6]
+    ours = {(row["rtol"], row["distance"]): row for row in rows if row["engine"] == "taylor"}
+    ratios = [row["cpu"] / ours[row["rtol"], row["distance"]]["cpu"] for row in rows if row["engine"] == GENERATED]
+    if not ratios:
+        return []
+    failed = sum(row["failed"] for row in ours.values())
+    said = f"{min(ratios):.0f} times faster or more, {failed or 'none'} failed"
+    what = "within 1e-6 to 1e-12 of the separatrix"
+    return [(what, f"never slower than {GENERATED}, none fails", said, min(ratios) >= 1 and not failed)]
+
+
+def _use(record: Record) -> list[tuple[str, str, str, bool]]:
+    found = []
+    many = [row for row in record["growth"] if row["engine"] == "taylor" and row["cores"] == 2]
+    million = next((row for row in many if row["collisions"] == 1_000_000), None)
+    if million:
+        said = f"{million['wall']:.1f} s, {(million['memory'] - million['before']) / 2**20:.0f} MB more than before"
+        found.append(("1e6 granulation collisions on two cores", "one call, none fails", said, not million["failed"]))
+    small = next((row for row in many if row["collisions"] == MAP), None)
+    process = min(record["cold_start"].get("import casadi", [math.nan]))
+    if small:
+        said = f"{small['wall']:.3f} s beside {process:.3f} s"
+        what = "100 x 100 collisions of the map"
+        found.append((what, "less than starting a process with casadi", said, small["wall"] < process))
+    for each in record["first_use"]:
+        least = {name: min(each[name]) for name in ("imports", "first", "second")}
+        more = least["second"] - least["imports"]
+        said = f"{least['first']:.2f} s; {more:.3f} s"
+        goal = f"process below {FIRST:g} s with compilation; then {SECOND:g} s beyond the imports"
+        found.append((f"{each['preset']}: first use", goal, said, least["first"] < FIRST and more < SECOND))
+    return found
+
+
+def target_table(record: Record) -> str:
+    """As Markdown."""
+    rows = [[what, goal, said, "yes" if met else "**no**"] for what, goal, said, met in targets(record)]
+    return table(["", "aimed at", "measured", "met"], rows)
+
+
+def headline(record: Record) -> str:
+    """The ratios in a few lines, for the front page."""
+    lines = []
+    for what, goal, said, _ in targets(record):
+        if goal.endswith(("than heyoka", "equations")):
+            peer = "heyoka's variational equations" if goal.endswith("equations") else "heyoka in batches"
+            lines.append(f"* {what.replace('e_n', 'the restitution')}: {said}, {peer}")
+    lines += [f"* {what}: {said}" for what, _, said, _ in _use(record) if what[0] == "1"]
+    return "\n".join(lines)

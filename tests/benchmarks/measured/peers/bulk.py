@@ -1,0 +1,27 @@
+"""What is timed: a function that computes one collision, or a call for many."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from wetdoublet.solvers.verify.stress.answers import Answer
+
+Collide = Callable[[int], Answer]
+
+
+@dataclass(frozen=True)
+class Bulk:
+    """All collisions in one call.
+
+    Arguments:
+        run: the call that is timed.
+        read: what it came to, collision by collision; text says why one has failed.
+    """
+
+    run: Callable[[], Any]
+    read: Callable[[Any], list[Answer | str]]
+
+    def __call__(self) -> list[Answer | str]:
+        return self.read(self.run())

@@ -1,0 +1,161 @@
+"""What is measured: our engines, and the peers that are installed, behind one call a collision or one for all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
+from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.many.collide_many import collide_many
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.settings import ENGINES
+from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
+from wetdoublet.solvers.verify.stress.scipy_engine import fly
+
+from .bulk import Bulk, Collide
+
+
+@dataclass(frozen=True)
+class Engine:
+    """An engine under test: it has `one` or `many`.
+
+    Arguments:
+        one: from scene, impacts and tolerance, the function that computes collision k; it raises ComputationError.
+        many: the same for all of them in one call.
+        builds: it builds integrators for every tolerance, so that a first pass has to be thrown away for each.
+        fast: it is asked at more tolerances, and more often.
+        missing: why it cannot be used here; empty if it can.
+    """
+
+    name: str
+    one: Callable[[Scene, Sequence[Impact], float], Collide] | None = None
+    many: Callable[[Scene, Sequence[Impact], float], Bulk] | None = None
+    builds: bool = True
+    fast: bool = False
+    missing: str = ""
+
+
+KERNEL, HEYOKA = "taylor, kernel alone", "heyoka, batch of 8"
+
+
+def engines() -> tuple[Engine, ...]:
+    """All engines, those that are missing here included."""
+    scipy = _absent("scipy")
+    chained = [Engine(name, one=partial(_chained, name)) for name in ENGINES if name in ("cvodes", "rosenbrock")]
+    absent = "" if compiler() else "no C compiler (cc, gcc, clang)"
+    bulk = [
+        Engine(in_bulk(name), many=partial(_many, name), fast=name == "taylor", missing=absent)
+        for name in ENGINES
+        if name != "cvodes"
+    ]
+    return (
+        *chained,
+        *bulk,
+        Engine(KERNEL, many=_kernel, fast=True, missing=absent),
+        Engine(HEYOKA, many=_heyoka, fast=True, missing=_absent("heyoka")),
+        Engine("sundae CVODE, numba", one=_sundae, missing=_absent("sksundae", "scikit-sundae") or _absent("numba")),
+        Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
+        Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
+        Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
+    )
+
+
+def in_bulk(engine: str) -> str:
+    """What an engine is called where `collide_many` is measured."""
+    return "rosenbrock, compiled" if engine == "rosenbrock" else engine
+
+
+def _absent(module: str, package: str = "") -> str:
+    return "" if find_spec(module) else f"{package or module} is not installed (pip install wetdoublet[bench])"
+
+
+def _chained(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
+    """`collide`, as a user calls it."""
+
+    def one(k: int) -> Answer:
+        impact = impacts[k]
+        found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=plugin, ledger=False)
+        return Answer(found.outcome, found.restitution)
+
+    return one
+
+
+def _columns(impacts: Sequence[Impact]) -> tuple[np.ndarray, np.ndarray]:
+    """Stokes numbers and angles."""
+    return tuple(np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))  # type: ignore[return-value]  # two
+
+
+def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """`collide_many` of outcome and restitution, as a user calls it."""
+    stokes, angle = _columns(impacts)
+
+    def read(data: Any) -> list[Answer | str]:
+        found = zip(data["outcome"].values.tolist(), data["restitution"].values.tolist(), data["reason"].values)
+        return [str(why) if outcome < 0 else Answer(OUTCOMES[outcome], e_n) for outcome, e_n, why in found]
+
+    return Bulk(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine), read)
+
+
+def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """The Taylor kernel without what `collide_many` adds: checks, what the kernel hands over, labels."""
+    from wetdoublet.solvers.engines.taylor.call import Impacts, answers
+
+    stokes, angle = _columns(impacts)
+    given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
+
+    def read(found: Any) -> list[Answer | str]:
+        rows = zip(found["status"].tolist(), found["outcome"].tolist(), found["shown"][:, 0].tolist())
+        return [
+            Answer(OUTCOMES[outcome], e_n if outcome else 0.0) if status <= 1 else f"handed over ({status})"
+            for status, outcome, e_n in rows
+        ]
+
+    return Bulk(lambda: answers(given, rtol), read)
+
+
+def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """All collisions through one queue."""
+    from .heyoka_engine import collisions
+
+    batch = collisions(scene, impacts, min(rtol, LOOSEST))  # looser, its energy misses the level that proves a stick
+
+    def read(_: None) -> list[Answer | str]:
+        pairs = zip(batch.outcomes, batch.restitutions)
+        return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]
+
+    return Bulk(batch.run, read)
+
+
+def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """All collisions side by side."""
+    from .diffrax_engine import collisions
+
+    return collisions(scene, impacts, rtol)
+
+
+def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
+    """One collision after another by CVODE."""
+    from .sundials_engine import fly as flown
+
+    def one(k: int) -> Answer:
+        n = dimensionless(scene, impacts[k])
+        return answer(flown(load(choose(scene, n.oblique)), n.groups, rtol))
+
+    return one
+
+
+def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
+    """The same collision by a method of scipy."""
+
+    def one(k: int) -> Answer:
+        n = dimensionless(scene, impacts[k])
+        return answer(fly(load(choose(scene, n.oblique)), n.groups, rtol, method))
+
+    return one

@@ -1,0 +1,298 @@
+"""Collisions by heyoka's Taylor integrator, in SIMD batches with a queue, from the same emitted equations.
+
+What a practised user of heyoka would do: one adaptive batch integrator whose lanes run on their own (film and freezing
+are runtime parameters), groups that are the same for all collisions written in as numbers, terminal events with
+callbacks that reverse, refill a finished lane from the queue, and go on; one call of `propagate_until` for all of it.
+The level that proves a stick is an event of the energy; it is computed beforehand, at no cost to heyoka.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from wetdoublet.generated.automaton import CRITERIA
+from wetdoublet.solvers.certificates.choice import energy_proof
+from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.model.dimensionless import Numbers
+from wetdoublet.solvers.model.model import Choice, choose, load
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
+
+from .translated import translated
+
+HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
+STEPS = 2000
+_NEVER = -1e4  # a level of energy that is not reached
+BATCH = 8
+
+
+def elementary(name: str) -> Callable[..., Any]:
+    """An elementary function of numbers and of heyoka's expressions."""
+    import heyoka
+
+    if name in ("fmax", "fmin"):  # of expressions by selection, which heyoka expands as a series too
+        first = heyoka.gt if name == "fmax" else heyoka.lt
+        return lambda x, y: heyoka.select(first(as_expression(x), as_expression(y)), as_expression(x), as_expression(y))
+    of_expression, of_number = getattr(heyoka, name), getattr(math, name)
+    return lambda x: of_expression(x) if isinstance(x, heyoka.expression) else of_number(x)
+
+
+def as_expression(value: Any) -> Any:
+    """A number, or what is an expression already."""
+    import heyoka
+
+    return value if isinstance(value, heyoka.expression) else heyoka.expression(float(value))
+
+
+@dataclass(frozen=True)
+class System:
+    """A structure in heyoka's expressions.
+
+    Arguments:
+        rates: of the states, then of the capillary work where it is needed for the energy.
+        events: by name; `film_edge` may cross either way, the others fall through zero. Whether a doublet turned or
+            fell back decides nothing here.
+        varying: groups that are runtime parameters, in their order; then film, active and level.
+    """
+
+    rates: list[tuple[Any, Any]]
+    events: dict[str, Any]
+    varying: tuple[str, ...]
+
+
+def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | None, inside: bool = False) -> System:
+    """The equations of these collisions; what is the same for all of them is written in.
+
+    Arguments:
+        inside: coming below a gap, the last parameter, is an event.
+    """
+    import heyoka
+
+    structure, laws = translated(choice, elementary)
+    varying = tuple(name for name in structure.GROUPS if len({each[name] for each in groups}) > 1)
+    known = {name: float(groups[0][name]) for name in structure.GROUPS if name not in varying}
+    p = known | {name: heyoka.par[k] for k, name in enumerate(varying)}
+    film, active, level = (heyoka.par[len(varying) + k] for k in range(3))
+    y = {name: heyoka.make_vars(name) for name in structure.STATES}
+    rates = [(y[name], active * rate) for name, rate in structure.right_hand_side(y, p, laws, film, 1).items()]
+    found = structure.events(y, p, laws)
+    bridge = choice.law("bridge") is not None
+    events = {name: found[name] for name in ("glass", "half_turn", "unwinding") if name in found}
+    if p.get("elastic_gap") != 0.0:
+        events["elastic"] = found["elastic"]
+    events["rough"] = found["rough"]
+    events["rupture"] = found["rupture"]
+    if inside:
+        events["inside"] = y["gap"] - heyoka.par[len(varying) + 3]
+    if bridge:
+        events["film_edge"] = found["film_edge"]
+    if proved == "energy":
+        energy = sum(structure.energies(y, p, laws).values())
+        if bridge:
+            work = heyoka.make_vars("capillary")
+            rate = structure.energy_rates(y, p, laws, film, 1)["capillary"]
+            rates.append((work, active * rate))
+            energy = energy + work
+        events["certified"] = energy - level
+    elif proved == "tethered":
+        held, larger = structure.tethered(y, p, laws), elementary("fmax")
+        inward = held["outward"] - held["pull"]
+        events["certified"] = larger(inward, larger(held["film"], held["recoil"])) + level
+    return System(rates, events, varying)
+
+
+@dataclass
+class Lane:
+    """Which collision a lane is on, and whether a criterion has been met."""
+
+    collision: int = -1
+    reversed: bool = False
+
+
+@dataclass
+class Start:
+    """Where a collision starts, decided by rule, and its parameters."""
+
+    state: np.ndarray
+    parameters: np.ndarray
+    reversed: bool
+    flight: Locate
+
+
+@dataclass
+class Batch:
+    """An integrator with its queue. `run` returns outcome, e_n for each collision; NaN where it failed.
+
+    Arguments:
+        dry: restitution of the dry contact.
+        steps: of a collision, on average, after which all are given up.
+    """
+
+    integrator: Any = None
+    starts: list[Start] = field(default_factory=list)
+    dry: float = 1.0
+    film: int = 0
+    lanes: list[Lane] = field(default_factory=list)
+    queue: Any = None
+    left: int = 0
+    steps: int = STEPS
+    outcomes: list[str] = field(default_factory=list)
+    restitutions: list[float] = field(default_factory=list)
+
+    def run(self) -> None:
+        """All collisions, once."""
+        ta, count = self.integrator, len(self.starts)
+        size = len(self.lanes)
+        self.outcomes, self.restitutions = [""] * count, [math.nan] * count
+        self.queue, self.left = iter(range(count)), count
+        ta.set_time(0.0)
+        for lane in range(size):
+            ta.reset_cooldowns(lane)
+            ta.state[:, lane], ta.pars[:, lane] = self.starts[0].state, self.starts[0].parameters
+            self._next(lane)
+        ta.propagate_until(np.full(size, HORIZON), max_steps=self.steps * (1 + count // size))
+
+    def _next(self, lane: int) -> bool:
+        """Give a lane its next collision; freeze it if there is none. True while any lane is at work."""
+        ta = self.integrator
+        k = next(self.queue, None)
+        if k is None:
+            ta.pars[self.film + 1, lane] = 0.0
+            return self.left > 0
+        start = self.starts[k]
+        ta.state[:, lane] = start.state
+        ta.pars[:, lane] = start.parameters
+        self.lanes[lane] = Lane(k, start.reversed)
+        return True
+
+    def _proved(self, lane: int) -> bool:
+        flight = self.starts[self.lanes[lane].collision].flight
+        if not flight.watch.certificate:
+            return False
+        proof = energy_proof(flight.proof) or flight.proof  # the cheap one alone, as in the kernel
+        return proof.decided(self.integrator.state[:, lane].copy(), flight.phase)
+
+    def ended(self, lane: int, separated: bool) -> bool:
+        """Record how a collision ended and take the next."""
+        now = self.lanes[lane]
+        self.left -= 1
+        if separated:
+            self.outcomes[now.collision] = "bounce" if now.reversed else "stick-rotate-separate"
+            self.restitutions[now.collision] = float(self.integrator.state[1, lane])
+        else:
+            self.outcomes[now.collision], self.restitutions[now.collision] = "stick", 0.0
+        return self._next(lane)
+
+    def callback(self, event: str) -> Callable[[Any, int, int], bool]:
+        """What heyoka calls when an event happens in a lane; False ends the whole batch."""
+
+        def reverses(ta: Any, _: int, lane: int) -> bool:
+            ta.state[1, lane] *= -self.dry
+            self.lanes[lane].reversed = True
+            # the loss may jump over the level, which then is no crossing
+            return self.ended(lane, False) if self._proved(lane) else True
+
+        def edge(ta: Any, _: int, lane: int) -> bool:
+            ta.pars[self.film, lane] = 1.0 if ta.state[1, lane] < 0 else 0.0
+            return True
+
+        def inside(ta: Any, _: int, lane: int) -> bool:
+            """A barrier inside the film is ahead from here on."""
+            flight = self.starts[self.lanes[lane].collision].flight
+            level = flight.proof.level(ta.state[:, lane].copy(), flight.phase)
+            ta.pars[self.film + 2, lane] = _NEVER if level is None else level
+            return self.ended(lane, False) if self._proved(lane) else True
+
+        if event in ("glass", "elastic", "rough"):
+            return reverses
+        if event == "inside":
+            return inside
+        if event == "film_edge":
+            return edge
+        separated = event == "rupture"
+        return lambda _ta, _sign, lane: self.ended(lane, separated)
+
+
+def prepare(
+    scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = BATCH, inside: bool = False, **options: Any
+) -> Batch:
+    """An integrator for these collisions, compiled, with its queue.
+
+    Arguments:
+        inside: watch for barriers inside the film, which are not ahead at first touch; only beside a separatrix a stick
+            is not proved without.
+
+    ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
+    """
+    import heyoka
+
+    choice = choose(scene, numbers[0].oblique)
+    if any(choose(scene, each.oblique) != choice for each in numbers):
+        raise ComputationError("head-on and oblique collisions are different structures")
+    model = load(choice)
+    flights = [Locate(model, each.groups, min(rtol, 1e-6)) for each in numbers]
+    if any(flight.watch.tangential_edge for flight in flights):
+        raise ComputationError("the tangential edge lies within reach")
+    proved = flights[0].proof.watches
+    equations = system(choice, [each.groups for each in numbers], proved, inside)
+    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
+    batch.starts = starts(flights, numbers, equations.varying)
+    if inside:
+        for start in batch.starts:
+            start.parameters = np.append(start.parameters, _below(start))
+    if not proved:  # heyoka wants no parameter that is not used
+        for start in batch.starts:
+            start.parameters = start.parameters[:-1]
+    batch.lanes = [Lane() for _ in range(size)]
+    either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
+    events = [
+        heyoka.t_event_batch(
+            expression, callback=batch.callback(name), direction=either if name == "film_edge" else falling
+        )
+        for name, expression in equations.events.items()
+    ]
+    first = batch.starts[0]
+    batch.integrator = heyoka.taylor_adaptive_batch(
+        equations.rates,
+        state=np.repeat(first.state[:, None], size, axis=1),
+        pars=np.repeat(first.parameters[:, None], size, axis=1),
+        t_events=events,
+        tol=rtol,
+        **({"compact_mode": False, "force_avx512": True} | options),
+    )
+    return batch
+
+
+def _below(start: Start) -> float:
+    """The gap just below the outermost barrier."""
+    proof = energy_proof(start.flight.proof)
+    barriers = () if proof is None else proof.barriers(start.flight.y)
+    return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
+
+
+def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Sequence[str]) -> list[Start]:
+    """State and parameters at first touch; a criterion that is met there reverses there.
+
+    Parameters are the groups named, then film, active and level.
+    """
+    found = []
+    for flight, each in zip(flights, numbers):
+        y, film, reversed_ = flight.y, 1.0, False
+        values = flight.model.values("events", y, flight.p)
+        if min(values[name] for name in CRITERIA) <= 0:
+            after = flight.model.values("reversal", y, flight.p)
+            y, film, reversed_ = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
+        level = flight.proof.level(y, flight.phase) if flight.watch.certificate else None
+        parameters = [*(each.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
+        found.append(Start(y, np.array(parameters), reversed_, flight))
+    return found
+
+
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False) -> Batch:
+    """The batch of a scene's impacts; as `prepare`."""
+    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside)

@@ -1,0 +1,60 @@
+"""The collisions that everything is measured on: drawn once, by a fixed seed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.verify.stress.answers import Impact
+
+SEED = 2012  # of numpy's default_rng, one generator a task: all Stokes numbers are drawn first, then all angles
+
+
+def place(impact: Impact) -> str:
+    """An impact in words."""
+    return f"St {impact.stokes:.4g} at {math.degrees(impact.angle):.4g} deg"
+
+
+@dataclass(frozen=True)
+class Task:
+    """A preset, and how its impacts are drawn: St log-uniform, angle uniform.
+
+    Arguments:
+        stokes: lowest and highest Stokes number.
+        degrees: largest angle; the smallest is 0.
+    """
+
+    preset: str
+    count: int
+    stokes: tuple[float, float]
+    degrees: float
+
+    @property
+    def scene(self) -> Scene:
+        return Scene.load(self.preset)
+
+    def impacts(self) -> list[Impact]:
+        """The impacts, the same in every run."""
+        return next(self.drawn())
+
+    def drawn(self) -> Iterator[list[Impact]]:
+        """The impacts, then as many again, without end."""
+        draw = np.random.default_rng(SEED)
+        low, high = self.stokes
+        while True:
+            stokes = np.exp(draw.uniform(math.log(low), math.log(high), self.count))
+            angles = np.radians(draw.uniform(0.0, self.degrees, self.count))
+            yield [Impact(float(st), float(theta)) for st, theta in zip(stokes, angles)]
+
+    def __str__(self) -> str:
+        low, high = self.stokes
+        return f"{self.preset}: {self.count} collisions, St {low:g}..{high:g}, angle 0..{self.degrees:g} deg"
+
+
+TASKS = (
+    Task("granulation", 60, (0.005, 0.5), 85.0),
+    Task("pendulum", 20, (0.3, 3.0), 80.0),
+)
