@@ -172,7 +172,8 @@ def _limits(left: Axes, right: Axes, found: WorkPrecision, error: float) -> None
     left.set_xlim(4 * max(errors), least)
     for axes in (left, right):
         if not found.separate:
-            axes.text(0.5, 0.5, "all collisions stick:\nno error to draw", ha="center", transform=axes.transAxes)
+            style: Any = {"ha": "center", "transform": axes.transAxes, "bbox": {"color": "white"}}
+            axes.text(0.5, 0.5, "all collisions stick:\nno error to draw", **style)
         axes.axvline(error, color=_NOTE, linestyle="--", linewidth=1, label="error wanted")
         if own:
             axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the references' difference")

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
-from wetdoublet.solvers.collision import collide as simulate
+from wetdoublet.solvers.collision import by_casadi as simulate
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped
