@@ -251,7 +251,8 @@ CONSTANTS = (
     Constant("REST_SPEED", 1e-9, "of v0: a slower rebound into an inward force rests"),
     Constant("MOST_OBLIQUE", 1e9, "of v0^2/x0: a larger centrifugal force turns the motion within rounding of x0"),
     Constant("LOOSEST", 1e-6, "relative tolerance: a looser one is tightened to it, or sticks stay unproved"),
-    Constant("SAFETY", 30.0, "a proof holds by more than this many times the tolerance of the largest energy"),
+    Constant("SAFETY", 30.0, "a proof holds by more than this many times the tolerance of the largest energy: an "
+             "error made when the motion was fastest stays in it, and errors of many steps add up"),
     Constant("CHATTER_PHASES", 100, "phases: more are rebound after rebound, and no approach and escape"),
     Constant("FILM_DEPTHS", 16, "steps of equal ratio from the gap to contact, at each of which the film certificate "
              "bounds the pressure"),

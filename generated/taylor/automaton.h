@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 ca8dcd5763ad973f15b6275a8dc15c37328efb4c4b9c21439995dbcba37b2525 */
+ * Automaton sha256 93bdef26b6bd5a051353296064eb488ef6211c86e1aaa7ab6a3ac4a088053e4e */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -61,7 +61,7 @@ enum {
 static const double REST_SPEED = 1e-09; /* of v0: a slower rebound into an inward force rests */
 static const double MOST_OBLIQUE = 1000000000.0; /* of v0^2/x0: a larger centrifugal force turns the motion within rounding of x0 */
 static const double LOOSEST = 1e-06; /* relative tolerance: a looser one is tightened to it, or sticks stay unproved */
-static const double SAFETY = 30.0; /* a proof holds by more than this many times the tolerance of the largest energy */
+static const double SAFETY = 30.0; /* a proof holds by more than this many times the tolerance of the largest energy: an error made when the motion was fastest stays in it, and errors of many steps add up */
 enum { CHATTER_PHASES = 100 }; /* phases: more are rebound after rebound, and no approach and escape */
 enum { FILM_DEPTHS = 16 }; /* steps of equal ratio from the gap to contact, at each of which the film certificate bounds the pressure */
 enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same beside an attraction, which a small gap makes large */

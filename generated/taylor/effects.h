@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 ca8dcd5763ad973f15b6275a8dc15c37328efb4c4b9c21439995dbcba37b2525
+ * Automaton sha256 93bdef26b6bd5a051353296064eb488ef6211c86e1aaa7ab6a3ac4a088053e4e
  *
  * What an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions that it calls,
  * are known. */

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...generated.automaton import SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import SAFETY, NoProof, Proof
+from .base import NoProof, Proof
 
 
 class HeldProof:

@@ -8,10 +8,7 @@ import numpy as np
 
 from ..model.phases import Phase
 
-# A proof holds by more than this many times the relative tolerance of the largest energy of the flight: an error made
-# when the motion was fastest stays in the energy, and errors accumulate over some tens of steps.
-SAFETY = 30.0
-BEYOND = 1.0  # more of it at the level a flight stops at, so that rounding there does not leave the proof undecided
+BEYOND = 1.0  # more of SAFETY at the level a flight stops at, so that rounding there does not leave the proof undecided
 
 
 class Proof(Protocol):

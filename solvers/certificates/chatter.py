@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...generated.automaton import CLOSING
+from ...generated.automaton import CLOSING, SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import SAFETY, Proof
+from .base import Proof
 from .quadrature import panels
 
 CYCLES = 20  # maxima, none above the one before, that are taken for chatter

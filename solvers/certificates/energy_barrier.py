@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...generated.automaton import SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import BEYOND, SAFETY
+from .base import BEYOND
 from .quadrature import panels
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 from casadi import SX, Function
 
-from ...generated.automaton import CLOSING
+from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH, SAFETY
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import SAFETY
 from .quadrature import panels
+
+PARTS = 50  # panels of the quadrature between two depths
 
 
 class FilmProof:
@@ -37,12 +38,17 @@ class FilmProof:
         if phase.motion != CLOSING:
             return self.held(gap, opening)
         # closing: neither the solids nor the glass pressure are met before the film stops the motion
-        grid = np.geomspace(gap, max(self.contact, gap * np.exp(-100.0)), 801)
+        grid = self.approach(gap, FILM_DEPTHS)
         speed = self.slowed(-opening, grid)
         if speed[-1] > -self.margin:
             return False
-        # along a panel the speed falls and the pressure per speed rises: its ends bound the pressure from above
-        return self.clear(grid[1:], np.maximum(speed[:-1], 0.0))
+        # from one depth to the next the speed falls and the pressure per speed rises: their ends bound the pressure
+        return self.clear(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0))
+
+    def approach(self, gap: float, depths: int) -> np.ndarray:
+        """Gaps on the way to contact, in equal ratio: PARTS from one depth to the next."""
+        deepest = max(self.contact, gap * LEAST_DEPTH)
+        return np.geomspace(gap, deepest, depths * PARTS + 1)
 
     def held(self, gap: float, opening: float) -> bool:
         """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...generated.automaton import CLOSING
+from ...generated.automaton import ATTRACTED_FILM_DEPTHS, CLOSING
 from ..model.model import Model
 from ..model.phases import Phase
 from .energy_barrier import BarrierProof
-from .film import FilmProof
+from .film import PARTS, FilmProof
 from .quadrature import panels
 
 _WEAK = 1e-3  # of m v0^2; the error of a level is 3e-5 at most, that of the loosest tolerance
@@ -39,23 +39,21 @@ class AttractedProof(BarrierProof):
         film, gap, opening = self._film, float(y[0]), float(y[1])
         if gap > 1:
             return False
-        grid = np.geomspace(gap, max(film.contact, gap * np.exp(-100.0)), 801)
-        if phase.motion == CLOSING:
+        closing = phase.motion == CLOSING
+        grid = film.approach(gap if closing else 1.0, ATTRACTED_FILM_DEPTHS)  # what opens may rise up to x0 and fall
+        if closing:
             speed = film.slowed(-opening, grid)
             if speed[-1] > -film.margin:
                 return False
-        else:
-            if not film.held(gap, opening):
-                return False
+        elif film.held(gap, opening):
             speed = np.zeros(grid.size)
-        above, below = self._fallen(np.geomspace(1.0, gap, 65)), self._fallen(grid)
+        else:
+            return False
+        above, below = self._fallen(np.geomspace(1.0, gap, 65) if closing else np.ones(2)), self._fallen(grid)
         if not self._pulls(above, below):
             return False
-        fastest = np.maximum(speed[:-1], 0.0) + np.sqrt(2 * (above[-1] + below[1:]))
-        if phase.motion != CLOSING:  # it may rise up to x0 before it falls
-            grid = np.geomspace(1.0, grid[-1], 801)
-            fastest = np.sqrt(2 * self._fallen(grid)[1:])
-        return film.clear(grid[1:], fastest)
+        fallen = np.sqrt(2 * (above[-1] + below[PARTS::PARTS]))
+        return film.clear(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0) + fallen)
 
     @staticmethod
     def _pulls(*works: np.ndarray) -> bool:

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...generated.automaton import CLOSING
+from ...generated.automaton import CLOSING, SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import SAFETY, Proof
+from .base import Proof
 from .chatter import CYCLES, STILL, Cycles
 from .quadrature import panels
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from casadi import SX, Function
 
+from ...generated.automaton import SAFETY
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase, tethered_margin
-from .base import BEYOND, SAFETY
+from .base import BEYOND
 
 
 class TetherProof:
