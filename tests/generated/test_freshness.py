@@ -226,3 +226,13 @@ def test_every_used_name_is_imported_and_every_import_used():
         called = {n.func.id for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)}
         local = {n.name for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.ClassDef))}
         assert called <= imported | local | {"setattr", "AttributeError", "getattr"}, name
+
+
+def test_a_broken_automaton_is_named(copy: Path):
+    """The tables are compared as text: what cannot be imported, and a missing header, are told like any other file."""
+    (copy / "automaton.py").write_text("OUTCOMES = (\n")
+    (copy / "taylor" / "automaton.h").unlink()
+    assert [line for line in check(copy) if line.startswith(("differs", "missing", "extra"))] == [
+        "differs: automaton.py",
+        "missing: taylor/automaton.h",
+    ]

@@ -1,0 +1,96 @@
+"""The automaton has what the structures have and what the interface promises, and is emitted without being read."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+
+import pytest
+from wetdoublet.derive.emit.write import GENERATED
+from wetdoublet.derive.equations.automaton import ACTIONS, COMPONENTS, EVENTS, OUTCOMES, RULES, STATUSES, WORDS
+
+# as the interface has them
+KINDS = {
+    "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
+    "rotation reverses", "half turn",
+}  # fmt: skip
+
+
+def event_functions(name: str) -> set[str]:
+    """Keys of what `events` of an emitted structure returns."""
+    tree = ast.parse((GENERATED / name).read_text())
+    found = [node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "events"]
+    dicts = [node for function in found for node in ast.walk(function) if isinstance(node, ast.Dict)]
+    return {str(ast.literal_eval(key)) for each in dicts for key in each.keys if key is not None}
+
+
+STRUCTURES = {path.name: event_functions(path.name) for path in GENERATED.glob("*.py") if event_functions(path.name)}
+
+
+@pytest.mark.parametrize("name", sorted(STRUCTURES))
+def test_every_event_function_of_a_structure_is_a_guard(name):
+    """Nothing that a structure watches for is without an event."""
+    assert STRUCTURES[name] <= {function for event in EVENTS for function in event.functions}
+
+
+def test_every_guard_is_an_event_function_of_some_structure():
+    """Nothing is watched for that no structure has."""
+    assert {function for event in EVENTS for function in event.functions} == set().union(*STRUCTURES.values())
+
+
+def test_the_words_are_those_of_the_interface():
+    """Outcomes in the order of their numbers, and kinds of events."""
+    assert [each.word for each in OUTCOMES] == ["stick", "stick-rotate-separate", "bounce"]
+    assert {each.word for each in WORDS} == KINDS
+
+
+def test_every_word_is_reported_by_an_event_or_a_rule():
+    """And neither reports another."""
+    reported = {word for each in (*EVENTS, *RULES) for word in each.words}
+    assert reported == {word.word for word in WORDS}
+
+
+def test_effects_are_made_of_the_actions_listed():
+    """Each is used, and the actions that end something come last."""
+    assert {action for event in EVENTS for action in event.actions} == {action.name for action in ACTIONS}
+    ends = {"reverse", "separate", "cut off"}
+    assert not [event for event in EVENTS if ends & set(event.actions[:-1])]
+
+
+def test_conditions_are_on_parts_of_the_mode():
+    """A guard names a component and one of its values."""
+    values = {each.name: [value for value, _ in each.values] for each in COMPONENTS}
+    assert all(value in values[part] for event in EVENTS for part, value in event.where)
+    assert {event.follows for event in EVENTS} <= {"", *values}
+
+
+def test_statuses_that_answer_come_first():
+    """One number tells them from those that hand over."""
+    answers = [each.answers for each in STATUSES]
+    assert answers == sorted(answers, reverse=True)
+
+
+def test_the_kernel_has_a_case_for_every_event():
+    """In the emitted switch, in order of precedence."""
+    text = (GENERATED / "taylor" / "effects.h").read_text()
+    cases = [line.strip() for line in text.splitlines() if line.strip().startswith("case ")]
+    assert cases == [f"case AT_{event.name.upper()}:" for event in EVENTS]
+
+
+_COMMAND = """
+import sys
+from wetdoublet.solvers.commands.cli import main
+import wetdoublet.derive.emit.write
+try:
+    main(["generate", "--template"])
+except SystemExit as ended:
+    assert not ended.code
+print([name for name in sys.modules if name.startswith("wetdoublet.generated")], file=sys.stderr)
+"""
+
+
+def test_generate_reads_nothing_emitted():
+    """So it emits, and checks, where the emitted automaton is broken or missing."""
+    done = subprocess.run([sys.executable, "-c", _COMMAND], capture_output=True, text=True, timeout=300, check=False)
+    assert (done.returncode, done.stderr.strip()) == (0, "[]")

@@ -1,0 +1,89 @@
+"""Both engines decide alike: the same events in the same order, and the same certificates on the same states."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from wetdoublet.generated.automaton import CLOSING, KINDS, OUTCOMES, Status
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.certificates import proof_for
+from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.engines.taylor.call import Impacts, answers
+from wetdoublet.solvers.engines.taylor.record import Recorded, recorded
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.phases import Phase
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+GRANULATION, PENDULUM = Scene.load("granulation"), Scene.load("pendulum")
+SOLID = {"liquid.glass_transition_pressure": "1e6 GPa"}
+
+
+def without_bridge(**tables: dict[str, str]) -> Scene:
+    """Granulation with a film alone, and other tables."""
+    return Scene.from_dict({name: table for name, table in GRANULATION.to_dict().items() if name != "bridge"} | tables)
+
+
+SCENES = {  # scene, range of Stokes numbers
+    "granulation": (GRANULATION, 0.005, 2.0),
+    "film alone": (without_bridge(), 0.05, 3.0),
+    "solids": (GRANULATION.with_entries(SOLID), 0.05, 50.0),
+    "pendulum": (PENDULUM, 0.2, 5.0),
+    "infinite film": (GRANULATION.with_entries({"model.film": "infinite", "model.tangential": "film"}), 0.005, 2.0),
+}
+
+
+def by_kernel(scene: Scene, stokes: np.ndarray, angle: np.ndarray) -> Recorded:
+    """Collisions with their events."""
+    impacts = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
+    told = recorded(impacts, bool(angle[0] > 0), 1e-9, trajectory=True, keep=False, fold=False)
+    assert told is not None
+    return told
+
+
+def events(told: Recorded, k: int) -> list[str]:
+    return [KINDS[int(kind)] for kind in told.events[k, : told.answers["events"][k]]["kind"]]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_both_engines_meet_the_same_events(name):
+    """Outcome and list of events of random impacts are equal, by the kernel and by Rosenbrock."""
+    scene, low, high = SCENES[name]
+    rng = np.random.default_rng(13)
+    stokes = np.exp(rng.uniform(np.log(low), np.log(high), 40))
+    angle = np.radians(rng.uniform(5, 85, stokes.size))
+    told, model = by_kernel(scene, stokes, angle), load(choose(scene, True, fold=False))
+    for k in range(stokes.size):
+        n = numbers(scene, float(stokes[k] / scene.stokes_per_speed), float(angle[k]))
+        path = locate(model, n.groups, 1e-9)
+        assert (OUTCOMES[told.answers["outcome"][k]], events(told, k)) == (path.outcome, path.kinds), (k, stokes[k])
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.6])
+def test_a_criterion_that_holds_at_initial_contact_parts_the_films(angle):
+    """Without a bridge a rebound there is at the rupture gap, and over at once."""
+    scene = without_bridge().with_entries({"liquid.glass_transition_pressure": "1 Pa"})
+    told = by_kernel(scene, np.array([1.0]), np.array([angle]))
+    n = numbers(scene, 1.0 / scene.stokes_per_speed, angle)
+    path = locate(load(choose(scene, angle > 0, fold=False)), n.groups, 1e-9)
+    assert events(told, 0) == path.kinds == ["glass", "rupture"]
+
+
+@pytest.mark.parametrize("tables", [{}, {"attraction": {"hamaker": "1e-19 J"}}], ids=["film", "attraction"])
+def test_both_engines_prove_the_same_sticks_by_the_film(tables):
+    """Head-on at initial contact, up to the largest speed that the film stops and beyond."""
+    scene = without_bridge(**tables)
+    stokes = np.geomspace(0.02, 0.3, 25)
+    speed = stokes / scene.stokes_per_speed
+    told = answers(Impacts(scene, speed, np.zeros(speed.size), {}), 1e-9)
+    assert told is not None
+    model = load(choose(scene, False))
+    own = []
+    for each in speed.tolist():
+        p = model.group_values(numbers(scene, each, 0.0).groups)
+        state = np.append(model.start(p), [0.0] * len(model.works))
+        own.append(proof_for(model, p, 1e-9).decided(state, Phase(film=1, shear=0, motion=CLOSING)))
+    assert own == (told["status"] == Status.PROVED_AT_TOUCH).tolist()
+    assert len(set(own)) == 2
