@@ -23,6 +23,8 @@ from wetdoublet.solvers.verify.stress.judge import judge
 from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Found
 
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("scipy")
 
 

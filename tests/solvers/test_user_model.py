@@ -18,6 +18,8 @@ from wetdoublet.solvers.verify.sample import Extent, flights
 from .command import run
 from .yielding import LAW
 
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("user_model")]
+
 
 def with_model(mine: Path, **entries: str) -> Scene:
     """Granulation with the model."""

@@ -28,6 +28,8 @@ from wetdoublet.solvers.verify.plot import draw_budget
 
 from .command import run
 
+pytestmark = pytest.mark.slow
+
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
     "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
