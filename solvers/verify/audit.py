@@ -17,10 +17,9 @@ from ..model.model import choose, load
 from ..model.phases import Phase
 from ..scene.scene import Scene
 from .report import Finding
-from .sample import own_stokes, place
+from .sample import WHOLE, own_stokes, place
 
 _SEED = 20120821
-IMPACTS = 240  # of a scene; a quarter of them head-on
 DECADES = (-1.5, 1.5)  # of the scene's own Stokes number
 STEEPEST = 85.0  # deg
 LONG = 1e4  # x0/v0: beyond what the certificate's own flight took
@@ -78,13 +77,21 @@ class Audit:
     left: int = 0
 
 
-def stick_audit(group: str, scene: Scene, angles: tuple[float, ...] | None = None) -> Iterator[Finding]:
+def stick_audit(
+    group: str,
+    scene: Scene,
+    angles: tuple[float, ...] | None = None,
+    impacts: int = WHOLE.audited,
+    flight: type[Locate] = Locate,
+) -> Iterator[Finding]:
     """Counts, and the law that no certified stick escapes.
 
     Arguments:
         angles: rad, to draw from; None for 0 to STEEPEST degrees.
+        impacts: how many; a quarter of them where angles are given.
+        flight: whose certificate is audited.
     """
-    found = audit(scene, angles)
+    found = audit(scene, angles, impacts, flight)
     statement = (
         f"every stick that is certified, of {found.impacts} seeded impacts (St over {DECADES[1] - DECADES[0]:.0f} "
         f"decades around the scene's own, 0 to {STEEPEST:.0f} deg), still sticks when flown on without the certificate"
@@ -103,12 +110,16 @@ def stick_audit(group: str, scene: Scene, angles: tuple[float, ...] | None = Non
     yield Finding(group, "stick certificate", statement, figure, "", ok, where, tuple(about))
 
 
-def audit(scene: Scene, angles: tuple[float, ...] | None = None) -> Audit:
+def audit(
+    scene: Scene,
+    angles: tuple[float, ...] | None = None,
+    impacts: int = WHOLE.audited,
+    flight: type[Locate] = Locate,
+) -> Audit:
     """Draw impacts, locate each with its certificate, and fly the proved ones on without it."""
-    impacts = IMPACTS if angles is None else IMPACTS // 4
     draw = np.random.default_rng(_SEED)
     found, begun = Audit(), time.process_time()
-    for _ in range(impacts):
+    for _ in range(impacts if angles is None else impacts // 4):
         stokes = own_stokes(scene) * 10 ** draw.uniform(*DECADES)
         angle = float(math.radians(draw.uniform(0, STEEPEST)) if angles is None else draw.choice(angles))
         if time.process_time() - begun > SECONDS:
@@ -117,7 +128,7 @@ def audit(scene: Scene, angles: tuple[float, ...] | None = None) -> Audit:
         found.impacts += 1
         try:
             n = numbers(scene, scene.speed_of(stokes), angle)
-            path = Locate(load(choose(scene, n.oblique)), n.groups, _RTOL).run()
+            path = flight(load(choose(scene, n.oblique)), n.groups, _RTOL).run()
         except WetDoubletError:
             continue  # nothing is certified
         found.sticks += path.outcome == "stick"

@@ -7,7 +7,7 @@ the bound is the tolerance times the norm of the inverse of the stretch's own va
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,8 +50,13 @@ class _Return:
     where: str
 
 
-def backward(group: str, sample: Sample) -> Iterator[Finding]:
-    """Every engine, over stretches of every phase of a few flights."""
+def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[Finding]:
+    """Every engine, over stretches of every phase of a few flights.
+
+    Arguments:
+        back: what makes the integrator backward in time; `returning` if None.
+    """
+    back = returning if back is None else back
     returns: dict[str, list[_Return]] = {engine: [] for engine in PLUGINS}
     for one in _chosen(sample):
         for engine, found in returns.items():
@@ -61,7 +66,7 @@ def backward(group: str, sample: Sample) -> Iterator[Finding]:
                 continue  # the sample names what is not completed
             for piece in flight.flown.pieces:
                 where = place(*one, event=piece.name)
-                found += [_returned(stretch, flight, engine, where) for stretch in stretches(piece, flight.p)]
+                found += [_returned(stretch, flight, engine, where, back) for stretch in stretches(piece, flight.p)]
     for engine, found in returns.items():
         statement = (
             f"a stretch flown forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
@@ -104,7 +109,7 @@ def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
             duration /= 2
 
 
-def _returned(stretch: Stretch, flight: Followed, engine: str, where: str) -> _Return:
+def _returned(stretch: Stretch, flight: Followed, engine: str, where: str, returning: Back) -> _Return:
     told = flight_tolerance(engine)
     scale = _scale(stretch.flow, flight.p)
     bound = _SAFETY * RTOL * stretch.amplification
@@ -135,6 +140,9 @@ class Returning:
                 return np.asarray(self.function(x0=y, p=np.append(p, duration))["xf"].full()).ravel()
         except RuntimeError as error:
             raise IntegrationFailed(str(error).strip().splitlines()[-1]) from None
+
+
+Back = Callable[[Flow, str, Tolerance], Returning]
 
 
 @own_cache(64)

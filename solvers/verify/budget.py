@@ -16,6 +16,7 @@ from ..collision.collide import collide
 from ..collision.result import Collision
 from ..errors import WetDoubletError
 from ..scene.scene import Scene
+from .sample import Collide
 
 if TYPE_CHECKING:
     import xarray
@@ -53,9 +54,15 @@ def restitution_budget(
     >>> bool(budget["excess"] > 0)
     True
     """
+    return budgeted(Scene.load(scene), stokes, angle, rtol)
+
+
+def budgeted(
+    scene: Scene, stokes: Sequence[float], angle: Sequence[float], rtol: float, collide: Collide = collide
+) -> xarray.Dataset:
+    """The budget over impact angle (rad) and Stokes number, of what `collide` flies."""
     import xarray as xr
 
-    loaded = Scene.load(scene)
     shape = (len(angle), len(stokes))
     names = ("restitution", "excess", *TERMS, "residual", "gap", "ceiling")
     values = {name: np.full(shape, np.nan) for name in names}
@@ -63,7 +70,7 @@ def restitution_budget(
     for j, theta in enumerate(angle):
         for k, number in enumerate(stokes):
             try:
-                one = collide(loaded, stokes=float(number), angle=float(theta), rtol=rtol)
+                one = collide(scene, stokes=float(number), angle=float(theta), rtol=rtol)
             except WetDoubletError as failure:
                 reason[j, k] = str(failure)
                 continue
@@ -75,7 +82,7 @@ def restitution_budget(
     return xr.Dataset(
         {"outcome": (("angle", "stokes"), outcome), **data, "reason": (("angle", "stokes"), reason)},
         coords=coordinates,
-        attrs={"scene": loaded.to_toml(), "rtol": rtol, "unit": "m v0^2/2"},
+        attrs={"scene": scene.to_toml(), "rtol": rtol, "unit": "m v0^2/2"},
     )
 
 

@@ -29,7 +29,7 @@ def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
     for check in _alone(symbolic_checks(laws)):
         yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)
     if scene is not None and scene.package is not None:
-        yield from _of_the_model(scene.package)
+        yield from of_the_model(scene.package)
 
 
 def _alone(checks: Iterable[Check]) -> Iterator[Check]:
@@ -43,7 +43,7 @@ def _alone(checks: Iterable[Check]) -> Iterator[Check]:
         yield check
 
 
-def _of_the_model(package: Package) -> Iterator[Finding]:
+def of_the_model(package: Package) -> Iterator[Finding]:
     """The checks of a user's model, out of the model file that it was emitted from."""
     from ...derive.checks.user import model_checks
 

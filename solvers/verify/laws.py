@@ -14,32 +14,35 @@ from .conserved import conserved
 from .order import convergence
 from .region import argument, grid
 from .report import Finding
-from .sample import flights
+from .sample import WHOLE, Extent, flights
 from .surface import surface_arm
 
 if TYPE_CHECKING:
     import xarray
 
 
-def numeric(scene: Scene, head_on: bool = False, budget: xarray.Dataset | None = None) -> Iterator[Finding]:
+def numeric(
+    scene: Scene, head_on: bool = False, budget: xarray.Dataset | None = None, extent: Extent = WHOLE
+) -> Iterator[Finding]:
     """Every law of a scene, measured.
 
     Arguments:
         head_on: its head-on variant: without what turns.
         budget: of the scene, if it is known already.
+        extent: how much is looked at.
     """
     group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
-    sample = flights(scene, (0.0,) if head_on else None)
+    sample = flights(scene, (0.0,) if head_on else None, extent)
     laws: list[tuple[str, Callable[[], Iterator[Finding]]]] = [
         ("conservation", lambda: conserved(group, sample)),
         ("surface arm", lambda: surface_arm(group, sample)),
         ("forward-back", lambda: backward(group, sample)),
         ("closed forms", lambda: closed_forms(group, scene, head_on)),
-        ("convergence", lambda: convergence(group, sample)),
-        ("stick certificate", lambda: stick_audit(group, scene, (0.0,) if head_on else None)),
+        ("convergence", lambda: convergence(group, sample, extent.tolerances)),
+        ("stick certificate", lambda: stick_audit(group, scene, (0.0,) if head_on else None, extent.audited)),
     ]
     if not head_on:
-        laws.append(("e_n > 1", lambda: argument(group, scene, grid(scene) if budget is None else budget)))
+        laws.append(("e_n > 1", lambda: argument(group, scene, grid(scene, extent) if budget is None else budget)))
     for name, law in laws:
         try:
             yield from law()

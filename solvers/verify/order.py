@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +14,8 @@ from ..collision.result import Collision
 from ..errors import WetDoubletError
 from ..settings import ENGINES
 from .report import Finding
-from .sample import REFERENCE, Sample, place
+from .sample import REFERENCE, WHOLE, Collide, Sample, place
 
-TOLERANCES = tuple(10.0**-k for k in range(5, 12))
 _TRUTH = 1e-13
 SLOPES = (0.6, 1.4)  # d log error / d log rtol: p/(p + 1) to 1 for error per step, and some scatter
 RISE = 10.0  # the error may not grow by more than this from one decade of rtol to the next
@@ -24,8 +24,15 @@ _FLOOR = 3e-13  # relative: rounding, and the truth's own error
 _SMALLEST = 0.05  # e_n of a flight that is asked
 
 
-def convergence(group: str, sample: Sample) -> Iterator[Finding]:
-    """The slope of every engine, the worse of two flights of the sample."""
+def convergence(
+    group: str, sample: Sample, tolerances: Sequence[float] = WHOLE.tolerances, collide: Collide = collide
+) -> Iterator[Finding]:
+    """The slope of every engine, the worse of two flights of the sample.
+
+    Arguments:
+        tolerances: rtol, descending.
+        collide: what flies at a tolerance.
+    """
     chosen = _chosen(sample)
     if not chosen:
         yield Finding(
@@ -38,48 +45,53 @@ def convergence(group: str, sample: Sample) -> Iterator[Finding]:
         )
         return
     statement = (
-        f"error of e_n against rtol {_TRUTH:.0e}, over rtol {TOLERANCES[0]:.0e} to {TOLERANCES[-1]:.0e}: its slope"
+        f"error of e_n against rtol {_TRUTH:.0e}, over rtol {tolerances[0]:.0e} to {tolerances[-1]:.0e}: its slope"
         f" is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way;"
         f" or all of it is below {SMALL} rtol"
     )
     flown = {engine for impact in sample.impacts for engine in impact}
     for engine in (engine for engine in ENGINES if engine in flown):
-        yield max((_judged(group, statement, one, engine) for one in chosen), key=lambda found: found[0])[1]
+        judged = [_judged(group, statement, one, engine, tolerances, collide) for one in chosen]
+        yield max(judged, key=lambda found: found[0])[1]
 
 
-def _judged(group: str, statement: str, one: Collision, engine: str) -> tuple[float, Finding]:
+def _judged(
+    group: str, statement: str, one: Collision, engine: str, tolerances: Sequence[float], collide: Collide
+) -> tuple[float, Finding]:
     """The finding of one flight, and how bad it is."""
     name, at = f"convergence, {engine}", place(one.stokes, one.angle)
     try:
-        errors = measured(one, engine)
+        errors = measured(one, engine, tolerances, collide)
     except WetDoubletError as failure:
         return math.inf, Finding(group, name, statement, f"not completed: {failure}", "", False, at)
-    slope, rise = fit(errors)
-    if math.isnan(slope) and all(error <= max(rtol, _FLOOR) for error, rtol in zip(errors, TOLERANCES)):
+    slope, rise = fit(tolerances, errors)
+    if math.isnan(slope) and all(error <= max(rtol, _FLOOR) for error, rtol in zip(errors, tolerances)):
         return 0.0, Finding(group, name, statement, "all errors at rounding", "", True, at)
     held = SLOPES[0] <= slope <= SLOPES[1] and rise <= RISE
-    table = f"  error {' '.join(f'{error:.0e}' for error in errors)} at rtol 1e-5 ... 1e-11"
+    table = (
+        f"  error {' '.join(f'{error:.0e}' for error in errors)} at rtol {tolerances[0]:.0e} ... {tolerances[-1]:.0e}"
+    )
     if math.isfinite(rise) and rise > 1:
         table += f"; rises {rise:.1f}x, bound {RISE:.0f}x"
     figure, bound = f"slope {slope:.2f}", f"{SLOPES[0]}..{SLOPES[1]}"
-    if not held and all(error <= max(SMALL * rtol, _FLOOR) for error, rtol in zip(errors, TOLERANCES)):
+    if not held and all(error <= max(SMALL * rtol, _FLOOR) for error, rtol in zip(errors, tolerances)):
         figure = f"every error below {SMALL} rtol (slope {slope:.2f})"
         return 0.0, Finding(group, name, statement, figure, "", True, at, (table,))
     finding = Finding(group, name, statement, figure, bound, held, at, (table,))
     return abs(slope - 1) if math.isfinite(slope) and held else math.inf, finding
 
 
-def measured(one: Collision, engine: str) -> list[float]:
-    """Relative errors of e_n over TOLERANCES."""
-    known = {"scene": one.scene, "stokes": one.stokes, "angle": one.angle, "ledger": False}
-    truth = collide(**known, rtol=_TRUTH, engine=REFERENCE).restitution  # type: ignore[arg-type]  # by keyword
-    found = [collide(**known, rtol=rtol, engine=engine).restitution for rtol in TOLERANCES]  # type: ignore[arg-type]  # same
+def measured(one: Collision, engine: str, tolerances: Sequence[float], collide: Collide = collide) -> list[float]:
+    """Relative errors of e_n at each tolerance."""
+    known: dict[str, Any] = {"scene": one.scene, "stokes": one.stokes, "angle": one.angle, "ledger": False}
+    truth = collide(**known, rtol=_TRUTH, engine=REFERENCE).restitution
+    found = [collide(**known, rtol=rtol, engine=engine).restitution for rtol in tolerances]
     return [abs(value / truth - 1) for value in found]
 
 
-def fit(errors: list[float]) -> tuple[float, float]:
+def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, float]:
     """Slope of log error over log rtol by least squares, above rounding, and the largest rise between neighbours."""
-    kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(TOLERANCES, errors) if error > _FLOOR]
+    kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(tolerances, errors) if error > _FLOOR]
     if not all(map(math.isfinite, errors)) or len(kept) < 3:
         return math.nan, math.inf  # nothing to fit
     x, y = np.array(kept).T

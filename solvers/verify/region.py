@@ -13,19 +13,18 @@ from .budget import LOSSES, TERMS, restitution_budget
 from .conserved import RESIDUAL
 from .edges import Above, above_one
 from .report import Finding, bounded
-from .sample import own_stokes, place
+from .sample import WHOLE, Extent, own_stokes, place
 
-ANGLES = tuple(range(5, 90, 5))  # deg
-_DECADES, _POINTS = (-1.0, 1.6), 27  # of the scene's own Stokes number: ten a decade
+_DECADES = (-1.0, 1.6)  # of the scene's own Stokes number
 _RTOL = 1e-10
 _HEADS = ("released", "film", "shear", "bridge", "solids", "strings")
 _SHOWN = (30, 60, 75)  # deg: of the table, each with its first, middle and last St that separates
 
 
-def grid(scene: Scene) -> xarray.Dataset:
+def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
     """The budget over the angles and Stokes numbers that matter for a scene."""
-    stokes = own_stokes(scene) * np.logspace(*_DECADES, _POINTS)
-    return restitution_budget(scene, stokes=stokes.tolist(), angle=np.radians(ANGLES).tolist(), rtol=_RTOL)
+    stokes = own_stokes(scene) * np.logspace(*_DECADES, extent.grid_points)
+    return restitution_budget(scene, stokes=stokes.tolist(), angle=np.radians(extent.grid_angles).tolist(), rtol=_RTOL)
 
 
 def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ..collision.collide import collide
@@ -17,6 +17,31 @@ ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))
 FACTORS = (0.3, 1.0, 4.0)  # of the scene's own Stokes number
 PLUGINS = ("cvodes", "rosenbrock")  # engines that fly any equations, not only whole collisions
 REFERENCE = "rosenbrock"  # the engine that also locates
+Collide = Callable[..., Collision]
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much of a scene is looked at; by default, what `verify` looks at.
+
+    Arguments:
+        angles: of the sample, rad; the scene's own is added.
+        factors: Stokes numbers of the sample, over the scene's own.
+        tolerances: of the convergence, descending.
+        audited: impacts of the audit of the stick certificate.
+        grid_angles: of the budget, degrees.
+        grid_points: Stokes numbers of the budget.
+    """
+
+    angles: tuple[float, ...] = ANGLES
+    factors: tuple[float, ...] = FACTORS
+    tolerances: tuple[float, ...] = tuple(10.0**-k for k in range(5, 12))
+    audited: int = 240  # a quarter of them head-on
+    grid_angles: tuple[float, ...] = tuple(range(5, 90, 5))
+    grid_points: int = 27  # ten a decade
+
+
+WHOLE = Extent()
 
 
 @dataclass
@@ -64,16 +89,19 @@ def where(one: Collision) -> str:
     return place(one.stokes, one.angle, one.engine)
 
 
-def flights(scene: Scene, angles: Sequence[float] | None = None) -> Sample:
+def flights(
+    scene: Scene, angles: Sequence[float] | None = None, extent: Extent = WHOLE, collide: Collide = collide
+) -> Sample:
     """Fly the sample of a scene; one that fails is noted, the others go on.
 
     Arguments:
-        angles: rad; None for ANGLES and the scene's own.
+        angles: rad; None for the extent's and the scene's own.
+        collide: what flies one.
     """
     own = own_stokes(scene)
     sample = Sample(scene)
-    for angle in dict.fromkeys((*ANGLES, scene.angle or 0.0) if angles is None else angles):
-        for factor in FACTORS:
+    for angle in dict.fromkeys((*extent.angles, scene.angle or 0.0) if angles is None else angles):
+        for factor in extent.factors:
             found: dict[str, Collision] = {}
             for engine in ENGINES:
                 try:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from casadi import SX, Function, integrator, vertcat
 
@@ -18,8 +18,13 @@ from .sample import REFERENCE, RTOL, Sample, place
 _BOUND = 100 * RTOL  # of the loss and of L: two integrations of the same equations, one by quadrature
 
 
-def surface_arm(group: str, sample: Sample) -> Iterator[Finding]:
-    """For a scene with the surface arm: the drift as a note, and held to the integral of -x F_t dt."""
+def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float] | None = None) -> Iterator[Finding]:
+    """For a scene with the surface arm: the drift as a note, and held to the integral of -x F_t dt.
+
+    Arguments:
+        integral: of a flight, over L(0); `torque` if None.
+    """
+    integral = torque if integral is None else integral
     scene = sample.scene
     if scene.model.arm != "surface" or scene.pendulum is not None:
         return
@@ -31,7 +36,7 @@ def surface_arm(group: str, sample: Sample) -> Iterator[Finding]:
         try:
             flight = follow(scene, one.stokes, one.angle, REFERENCE, RTOL)
             lost = flight.model.values("angular_momentum", flight.flown.y, flight.p)["angular_momentum"] - 1.0
-            apart = abs(lost - torque(flight))
+            apart = abs(lost - integral(flight))
         except WetDoubletError:
             continue  # the sample itself names what is not completed
         found.append((apart if math.isfinite(apart) else math.inf, abs(lost), place(one.stokes, one.angle, REFERENCE)))

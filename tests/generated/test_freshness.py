@@ -85,6 +85,7 @@ print(hashlib.sha256("\\n".join(name + "\\n" + text for name, text in files.item
 """
 
 
+@pytest.mark.slow
 def test_emission_does_not_depend_on_the_hash_seed():
     """A fresh interpreter with hash seed 1 emits the same bytes as this one, whose seed is any."""
     environment = {**os.environ, "PYTHONHASHSEED": "1"}

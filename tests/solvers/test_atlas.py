@@ -26,6 +26,8 @@ from wetdoublet.solvers.model.model import choose, load
 
 from .command import run
 
+pytestmark = pytest.mark.slow
+
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 SPANS = {"granulation": (0.005, 0.5), "pendulum": (0.01, 10.0), "granulation-dry-bridge": (0.05, 0.5)}
 

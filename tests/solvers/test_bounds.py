@@ -13,6 +13,8 @@ from wetdoublet.solvers.boundaries.trace import trace
 
 from .command import run
 
+pytestmark = pytest.mark.slow
+
 PRESETS = ("granulation", "pendulum")
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 SRS_B = ("stick-rotate-separate", "bounce")

@@ -14,6 +14,8 @@ from wetdoublet.solvers.collision.plot.figure import draw
 from wetdoublet.solvers.collision.plot.frames import frames, orientation
 from wetdoublet.solvers.collision.plot.strip import wetted_radius
 
+pytestmark = pytest.mark.xdist_group("draw")
+
 IMPACTS = {
     "escapes": ("granulation", {}),
     "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),

@@ -12,6 +12,8 @@ from wetdoublet.solvers import Collision, Scene, collide
 
 from .independent import Flight, flown
 
+pytestmark = pytest.mark.slow
+
 ENGINES = ("cvodes", "rosenbrock")
 BOUNDARIES: dict[str, Any] = json.loads((Path(__file__).parents[1] / "data" / "boundaries.json").read_text())
 Case = tuple[str, float, dict[str, Any]]  # preset, angle, change of outcome

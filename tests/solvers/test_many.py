@@ -153,6 +153,7 @@ def test_vary():
     assert "particles.roughness" in str(rough.reason.values[1])
 
 
+@pytest.mark.slow
 def test_parallel_equals_serial(monkeypatch):
     """The number of worker processes changes nothing, to the last bit; idle ones are not killed, for which loky needs
     what slim systems lack.

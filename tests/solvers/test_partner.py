@@ -16,6 +16,8 @@ from wetdoublet.solvers.model.model import choose, load
 
 from .newton import Bodies, flown
 
+pytestmark = pytest.mark.slow
+
 BRIDGE = {"bridge.law": "constant", "bridge.volume": 0.05}
 NO_CRITERIA = {"liquid.glass_transition_pressure": "1e6 GPa", "particles.roughness": 0.0}
 

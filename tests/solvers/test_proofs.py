@@ -18,6 +18,8 @@ from wetdoublet.solvers.settings import STEPS
 
 from .independent import Spheres
 
+pytestmark = pytest.mark.slow
+
 LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 
 

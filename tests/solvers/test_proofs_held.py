@@ -13,6 +13,8 @@ from wetdoublet.solvers.engines.casadi.locate import Locate
 from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.model.model import choose, load
 
+pytestmark = pytest.mark.slow
+
 _HELD_LAWS = ("mikami", "willett-simple", "lambert", "soulie", "constant")
 
 
@@ -58,7 +60,7 @@ def _held_sticks(count: int, seed: int, monkeypatch: pytest.MonkeyPatch) -> tupl
         with monkeypatch.context() as patch:
             patch.setattr(locate, "proof_for", lambda *_: NoProof())
             patch.setattr(locate, "STRETCHES", 6)
-            flight = Locate(model, n.groups, 1e-9, (), True, steps=5_000)
+            flight = Locate(model, n.groups, 1e-9, steps=5_000)
             try:
                 escaped += flight.run().separated
             except ComputationError:

@@ -18,6 +18,8 @@ from wetdoublet.solvers.model.model import choose, load
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 from wetdoublet.solvers.settings import STEPS
 
+pytestmark = pytest.mark.slow
+
 
 def flight(scene: Scene, steps: int = STEPS) -> Any:
     """The locating flight of a scene with its impact."""

@@ -20,6 +20,8 @@ from wetdoublet.solvers.engines.casadi.locate import Locate, Path
 from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.model.model import Model, choose, load
 
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proofs_strings")]
+
 
 @dataclass(frozen=True)
 class Tethered:

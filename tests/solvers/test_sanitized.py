@@ -12,6 +12,8 @@ import pytest
 
 from . import sanitized
 
+pytestmark = pytest.mark.slow
+
 SAMPLE: list[list[Any]] = [
     ["reference", "granulation-dry-bridge"],
     ["random", "film alone", "ledger and trajectory", True, 1000],

@@ -24,6 +24,8 @@ from .command import run
 from .independent import flown
 from .sensitive import CASES, DRY, GRANULATION, PENDULUM, Case, apart, cancelling, varied
 
+pytestmark = pytest.mark.slow
+
 REFERENCE: dict[str, dict[str, dict[str, float]]] = json.loads((DATA / "sensitivities.json").read_text())
 NAMES = [case.name for case in CASES]
 

@@ -15,6 +15,8 @@ from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Mov
 from .command import run
 from .sensitive import HARD, cancelling
 
+pytestmark = pytest.mark.slow
+
 # scene, its changes, degrees, Stokes numbers about the one change that is looked at
 LINES = {
     "saddle": ("granulation", {}, 55, (0.02, 0.07)),

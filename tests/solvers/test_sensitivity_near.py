@@ -17,6 +17,8 @@ from wetdoublet.solvers.sensitivity.boundary_distance import checked, limit
 
 from .command import run
 
+pytestmark = pytest.mark.slow
+
 # preset, degrees, which change, its name
 EDGES = [
     ("granulation", 55, 0, "saddle"),

@@ -27,6 +27,8 @@ from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.scipy_engine import fly
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Found
 
+pytestmark = pytest.mark.slow
+
 
 def run(*arguments: str) -> int:
     """Exit status of the command, in this process."""

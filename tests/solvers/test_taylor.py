@@ -14,7 +14,7 @@ from wetdoublet.solvers.engines.taylor.record import recorded
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many import collide_many as many
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 EVERYTHING = tuple(many.QUANTITIES)
 RANGES = {"granulation": (0.005, 0.5), "pendulum": (0.3, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
 VARIANTS: list[tuple[str, dict[str, Any]]] = [

@@ -15,7 +15,7 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.sensitivity.result import Sensitivities
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 EVERYTHING = tuple(many.QUANTITIES)
 STRINGS = {"pendulum.length": 0.01, "bridge.law": "constant", "particles.dry_restitution": 0.9}
 RTOL = 1e-7  # of the lowest order, whose kernel is compiled fastest

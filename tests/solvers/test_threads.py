@@ -17,6 +17,8 @@ from wetdoublet.solvers.host.captured_stderr import listening
 from wetdoublet.solvers.host.thread_caches import once, own_cache
 from wetdoublet.solvers.model.model import Model, choose, load
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = Path(__file__).with_name("threads.py")
 
 

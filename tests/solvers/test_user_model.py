@@ -11,12 +11,14 @@ import pytest
 from wetdoublet.derive.checks.user import model_checks
 from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
-from wetdoublet.solvers.verify import symbolic
 from wetdoublet.solvers.verify.conserved import conserved
-from wetdoublet.solvers.verify.sample import flights
+from wetdoublet.solvers.verify.identities import of_the_model
+from wetdoublet.solvers.verify.sample import Extent, flights
 
 from .command import run
 from .yielding import LAW
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("user_model")]
 
 
 def with_model(mine: Path, **entries: str) -> Scene:
@@ -57,13 +59,13 @@ def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
     assert 'law = "yielding"' in shown.output
 
 
-def test_verify_has_the_models_own_checks(mine: Path, monkeypatch: pytest.MonkeyPatch):
+def test_verify_has_the_models_own_checks(mine: Path):
     """`verify` proves the model's law and holds its flights to the bounds of every scene (the sample is cut short)."""
     scene = with_model(mine, custom__yield_stress="50 Pa")
-    monkeypatch.setattr("wetdoublet.derive.checks.symbolic_checks", lambda _laws: ())
-    assert {(finding.group, finding.ok) for finding in symbolic(scene)} == {("Model: mine", True)}
-    monkeypatch.setattr("wetdoublet.solvers.verify.sample.FACTORS", (1.0,))
-    found = {finding.name: finding for finding in conserved("numeric", flights(scene, (0.0, 1.0)))}
+    assert scene.package is not None
+    assert {(finding.group, finding.ok) for finding in of_the_model(scene.package)} == {("Model: mine", True)}
+    flown = flights(scene, (0.0, 1.0), Extent(factors=(1.0,)))
+    found = {finding.name: finding for finding in conserved("numeric", flown)}
     assert found["energy ledger"].ok
     assert all(finding.ok is not False for finding in found.values())
 

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers import Collision, Scene, collide, collide_many
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
-    audit,
     backward,
     closed,
     conserved,
     edges,
     numeric,
     order,
-    region,
     restitution_budget,
     sample,
     surface,
@@ -26,6 +27,8 @@ from wetdoublet.solvers.verify import (
 from wetdoublet.solvers.verify.plot import draw_budget
 
 from .command import run
+
+pytestmark = pytest.mark.slow
 
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
@@ -35,19 +38,16 @@ LAWS = [
 ]  # fmt: skip
 
 
-@pytest.fixture
-def small(monkeypatch):
-    """Fewer impacts than a user gets, of every kind."""
-    monkeypatch.setattr(audit, "IMPACTS", 30)
-    monkeypatch.setattr(region, "ANGLES", (30, 60, 75))
-    monkeypatch.setattr(region, "_POINTS", 8)
-    monkeypatch.setattr(order, "TOLERANCES", tuple(10.0**-k for k in (5, 7, 9, 11)))
+# fewer impacts than a user gets, of every kind
+SMALL = sample.Extent(
+    tolerances=tuple(10.0**-k for k in (5, 7, 9, 11)), audited=30, grid_angles=(30, 60, 75), grid_points=8
+)
 
 
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
-def test_every_law_holds_on_the_presets(name: str, small: None) -> None:
+def test_every_law_holds_on_the_presets(name: str) -> None:
     """Every law has a finding on every preset that has its subject, and none fails."""
-    found = {finding.name: finding for finding in numeric(Scene.load(name))}
+    found = {finding.name: finding for finding in numeric(Scene.load(name), extent=SMALL)}
     strings = name == "pendulum"
     expected = LAWS + ["swinging"] * strings
     assert sorted(found) == sorted(expected)
@@ -132,10 +132,11 @@ def test_amplification_of_a_relaxing_spin() -> None:
 
 def test_the_slope_of_known_errors() -> None:
     """Errors in proportion to rtol have slope 1; errors that stay have slope 0; what rises is seen."""
-    falling = [3 * rtol for rtol in order.TOLERANCES]
-    assert order.fit(falling) == (pytest.approx(1.0, abs=1e-12), pytest.approx(0.1))
-    assert order.fit([1e-6] * len(falling))[0] == pytest.approx(0.0, abs=1e-12)
-    assert order.fit([*falling[:3], 100 * falling[2], *falling[4:]])[1] == pytest.approx(100.0)
+    tolerances = sample.WHOLE.tolerances
+    falling = [3 * rtol for rtol in tolerances]
+    assert order.fit(tolerances, falling) == (pytest.approx(1.0, abs=1e-12), pytest.approx(0.1))
+    assert order.fit(tolerances, [1e-6] * len(falling))[0] == pytest.approx(0.0, abs=1e-12)
+    assert order.fit(tolerances, [*falling[:3], 100 * falling[2], *falling[4:]])[1] == pytest.approx(100.0)
     assert math.isnan(order.fit([math.inf] * len(falling))[0])
 
 
@@ -216,31 +217,37 @@ def test_closed_forms_stay_where_flights_go(engine: str) -> None:
         assert 0 <= figure < 1e-8  # 100 rtol
 
 
-def test_a_flight_that_is_exact_at_any_tolerance_needs_no_slope(monkeypatch) -> None:
+def off_by(error: Callable[[float], float]) -> sample.Collide:
+    """`collide` whose e_n is that of rtol 1e-13 with an error that depends on the tolerance it is asked for."""
+
+    def run(scene: Scene, rtol: float, **asked: Any) -> Collision:
+        one = collide(scene, rtol=1e-13, **asked)
+        return replace(one, restitution=one.restitution * (1 + error(rtol) * (rtol > 1e-13)))
+
+    return run
+
+
+def test_a_flight_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
     """Errors at rounding for every rtol have no slope; the check holds and says why."""
     one = collide("granulation", stokes=0.12, angle=1.0)
     flown = sample.Sample(one.scene, [{"rosenbrock": one}])
-    monkeypatch.setattr(order, "measured", lambda one, engine: [1e-15] * len(order.TOLERANCES))
-    (found,) = order.convergence("g", flown)
+    (found,) = order.convergence("g", flown, collide=off_by(lambda rtol: 1e-15))
     assert (found.ok, found.figure) == (True, "all errors at rounding")
 
 
 @pytest.mark.parametrize(("part", "ok"), [(0.01, True), (0.2, False)])
-def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool, monkeypatch) -> None:
+def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> None:
     """Errors that fall as rtol^0.5 have too small a slope; that fails unless all are below a twentieth of rtol."""
     one = collide("granulation", stokes=0.12, angle=1.0)
     flown = sample.Sample(one.scene, [{"rosenbrock": one}])
-    last = order.TOLERANCES[-1]
-    monkeypatch.setattr(
-        order, "measured", lambda one, engine: [part * last * (rtol / last) ** 0.5 for rtol in order.TOLERANCES]
-    )
+    last = sample.WHOLE.tolerances[-1]
     # the last one alone would be rounding: 0.01 rtol is 1e-13
-    (found,) = order.convergence("g", flown)
+    (found,) = order.convergence("g", flown, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
     assert (found.ok, "every error below 0.05 rtol" in found.figure) == (ok, ok)
     assert "slope 0.5" in found.figure
 
 
-def test_what_finds_nothing_to_look_at_says_so(monkeypatch) -> None:
+def test_what_finds_nothing_to_look_at_says_so() -> None:
     """A film so thin that glass is met at first touch: every law without a flight is a note with that reason."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
     flown = sample.flights(scene, (0.0, 0.5))

@@ -26,6 +26,8 @@ from wetdoublet.solvers.verify import (
 )
 from wetdoublet.solvers.verify.report import Finding
 
+pytestmark = pytest.mark.xdist_group("verify_mutants")
+
 SCENE = Scene.load("granulation")
 BAD = {"stokes": 0.12, "angle": math.radians(60)}  # one impact of the sample; it separates
 
@@ -49,10 +51,13 @@ def failures(findings: Iterable[Finding]) -> list[str]:
     return [finding.name for finding in findings if finding.ok is False]
 
 
-@pytest.fixture
-def few(monkeypatch):
-    """Two angles of the sample."""
-    monkeypatch.setattr(sample, "ANGLES", (0.0, BAD["angle"]))
+FEW = sample.Extent(angles=(0.0, BAD["angle"]))  # two angles of the sample
+
+
+@pytest.fixture(scope="module")
+def flown() -> sample.Sample:
+    """The sample as it is, with nothing changed."""
+    return sample.flights(SCENE, extent=FEW)
 
 
 def open_ledger(one: Collision) -> Collision:
@@ -70,28 +75,28 @@ def open_ledger(one: Collision) -> Collision:
         ("cvodes = rosenbrock", lambda one: replace(one, outcome="stick", restitution=0.0), "cvodes"),
     ],
 )
-def test_one_bad_collision_is_found_and_named(law, change, engine, few, monkeypatch) -> None:
+def test_one_bad_collision_is_found_and_named(law, change, engine) -> None:
     """An open ledger, one that is no number, a drift, an engine off by 1e-6, another outcome: that law, that place."""
-    monkeypatch.setattr(sample, "collide", doctored(change, engine))
-    found = by_name(conserved.conserved("g", sample.flights(SCENE)))
+    flown = sample.flights(SCENE, extent=FEW, collide=doctored(change, engine))
+    found = by_name(conserved.conserved("g", flown))
     assert failures(found.values()) == [law]
     assert found[law].where.startswith("St 0.12, 60 deg")
 
 
-def test_a_collision_that_fails_does_not_lose_the_others(few, monkeypatch) -> None:
+def test_a_collision_that_fails_does_not_lose_the_others() -> None:
     """One that cannot be computed fails `completed`, with its place and reason; every other law is still judged."""
 
     def fail(one: Collision) -> Collision:
         raise ComputationError("no event within 1e9 x0/v0", phase="closing")
 
-    monkeypatch.setattr(sample, "collide", doctored(fail, "cvodes"))
-    found = by_name(conserved.conserved("g", sample.flights(SCENE)))
+    flown = sample.flights(SCENE, extent=FEW, collide=doctored(fail, "cvodes"))
+    found = by_name(conserved.conserved("g", flown))
     assert failures(found.values()) == ["completed"]
     assert "St 0.12, 60 deg, cvodes" in found["completed"].about[0] and "no event" in found["completed"].about[0]
     assert found["energy ledger"].ok and found["cvodes = rosenbrock"].ok
 
 
-def test_a_wrong_sign_on_the_way_back_is_found(few, monkeypatch) -> None:
+def test_a_wrong_sign_on_the_way_back_is_found(flown) -> None:
     """Backward with the opening rate's sign kept: the stretch does not come back, in any engine."""
 
     def wrong(flow, engine, told):
@@ -101,10 +106,8 @@ def test_a_wrong_sign_on_the_way_back_is_found(few, monkeypatch) -> None:
         dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * vertcat(*rates)}
         return backward.Returning(integrator("wrong", engine, dae, 0, 1, told.options(engine)))
 
-    flown = sample.flights(SCENE)
     assert failures(backward.backward("g", flown)) == []
-    monkeypatch.setattr(backward, "returning", wrong)
-    found = by_name(backward.backward("g", flown))
+    found = by_name(backward.backward("g", flown, wrong))
     assert failures(found.values()) == ["forward-back, cvodes", "forward-back, rosenbrock"]
     assert "St " in found["forward-back, cvodes"].where
 
@@ -135,16 +138,14 @@ def test_a_bounce_that_is_off_misses_the_film_alone(monkeypatch) -> None:
     assert found.where.endswith("glass")
 
 
-def test_an_engine_that_does_not_converge_is_found(few, monkeypatch) -> None:
+def test_an_engine_that_does_not_converge_is_found(flown) -> None:
     """e_n off by 1e-6 whatever the tolerance: the slope of the error breaks down, for that engine only."""
-    flown = sample.flights(SCENE)
 
     def off(scene, **options):
         one = collide(scene, **options)
         return replace(one, restitution=one.restitution * (1 + 1e-6 * (one.engine == "cvodes")))
 
-    monkeypatch.setattr(order, "collide", off)
-    assert failures(order.convergence("g", flown)) == ["convergence, cvodes"]
+    assert failures(order.convergence("g", flown, collide=off)) == ["convergence, cvodes"]
 
 
 class Overeager:
@@ -160,13 +161,20 @@ class Overeager:
         return phase.motion == OPENING
 
 
-def test_a_certificate_that_proves_too_much_is_caught(monkeypatch) -> None:
+class Deceived(locate.Locate):
+    """A flight that believes it."""
+
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        self.proof = Overeager()
+        self.watch = replace(self.watch, certificate=None)
+
+
+def test_a_certificate_that_proves_too_much_is_caught() -> None:
     """Impacts that a false proof certifies escape when flown on; the audit counts them and names one."""
-    monkeypatch.setattr(audit, "IMPACTS", 12)
-    (honest,) = audit.stick_audit("g", SCENE)
+    (honest,) = audit.stick_audit("g", SCENE, impacts=12)
     assert honest.ok and not honest.figure.startswith("0 of 0")
-    monkeypatch.setattr(locate, "proof_for", lambda *_: Overeager())
-    (found,) = audit.stick_audit("g", SCENE)
+    (found,) = audit.stick_audit("g", SCENE, impacts=12, flight=Deceived)
     assert (found.name, found.ok) == ("stick certificate", False)
     assert int(found.figure.split()[0]) > 0
     assert found.where.startswith("St ") and "apart at" in found.where
@@ -193,32 +201,29 @@ def test_a_flight_without_proof_is_the_same_flight() -> None:
         ("e_n^2: ceiling", lambda one: replace(one, restitution=4 * one.restitution)),
     ],
 )
-def test_a_budget_that_does_not_add_up_is_found(law, change, monkeypatch) -> None:
+def test_a_budget_that_does_not_add_up_is_found(law, change) -> None:
     """An open ledger, a spin or an e_n off by 1e-5 break the identity; an e_n four times too large its ceiling."""
-    monkeypatch.setattr(budget, "collide", doctored(change))
-    data = budget.restitution_budget(SCENE, stokes=[0.05, BAD["stokes"]], angle=[0.5, BAD["angle"]], rtol=1e-10)
+    data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [0.5, BAD["angle"]], 1e-10, doctored(change))
     found = by_name(region.argument("g", SCENE, data))
     assert law in failures(found.values())
     assert found[law].where == "St 0.12, 60 deg"
 
 
-def test_a_budget_with_a_failed_point_still_has_its_findings(monkeypatch) -> None:
+def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:
     """A point that cannot be computed is named; the identity is judged on the others."""
 
     def fail(one: Collision) -> Collision:
         raise ComputationError("the integrator gave up")
 
-    monkeypatch.setattr(budget, "collide", doctored(fail))
-    data = budget.restitution_budget(SCENE, stokes=[0.05, BAD["stokes"]], angle=[BAD["angle"]], rtol=1e-10)
+    data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [BAD["angle"]], 1e-10, doctored(fail))
     found = by_name(region.argument("g", SCENE, data))
     assert failures(found.values()) == ["e_n^2 - 1: completed"]
     assert found["e_n^2 - 1: identity"].ok
     assert np.isnan(data["excess"].values[0, 1])
 
 
-def test_a_torque_that_is_off_is_found(few, monkeypatch) -> None:
+def test_a_torque_that_is_off_is_found() -> None:
     """Surface arm: a drift of L that is not the integral of -x F_t fails by name."""
-    flown = sample.flights(SCENE.with_entries({"model.arm": "surface"}))
-    honest = surface.torque
-    monkeypatch.setattr(surface, "torque", lambda flight: honest(flight) * (1 + 1e-4))
-    assert failures(surface.surface_arm("g", flown)) == ["dL = -int x F_t dt"]
+    flown = sample.flights(SCENE.with_entries({"model.arm": "surface"}), extent=FEW)
+    off = surface.surface_arm("g", flown, lambda flight: surface.torque(flight) * (1 + 1e-4))
+    assert failures(off) == ["dL = -int x F_t dt"]
