@@ -87,3 +87,30 @@ def test_both_engines_prove_the_same_sticks_by_the_film(tables):
         own.append(proof_for(model, p, 1e-9).decided(state, Phase(film=1, shear=0, motion=CLOSING)))
     assert own == (told["status"] == Status.PROVED_AT_TOUCH).tolist()
     assert len(set(own)) == 2
+
+
+CIRCLES = {
+    "particles": {
+        "reduced_radius": 1.61e-4, "reduced_mass": 5.4e-10, "roughness": 1.25e-6, "dry_restitution": 0.938,
+        "youngs_modulus": 3.2e10, "poisson_ratio": 0.0156,
+    },
+    "liquid": {"viscosity": 1.794, "film_thickness": 4.66e-5, "glass_transition_pressure": 1.1e8},
+    "bridge": {"surface_tension": 0.096, "volume": 0.9565, "contact_angle": 0.981, "law": "mikami-log10"},
+    "model": {"tangential": "film"},
+}  # fmt: skip
+
+
+def test_more_than_a_hundred_phases_are_chatter_in_both_engines():
+    """A doublet that circles in and out of its film, whose steps the kernel has spent in 100 to 400 phases, is a stick
+    by the momentum of its orbit, as Locate finds.
+    """
+    scene = Scene.from_dict(CIRCLES)
+    speed, angle = 0.0149 / scene.stokes_per_speed, 0.4465
+    impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
+    told = recorded(impacts, True, 1e-9, trajectory=True, budget=2000, keep=False, fold=False)
+    path = locate(load(choose(scene, True, fold=False)), numbers(scene, speed, angle).groups, 1e-9)
+    assert told is not None
+    (answer,) = told.answers
+    assert 100 < answer["events"] < 400
+    assert answer["status"] == Status.DECIDED
+    assert (OUTCOMES[answer["outcome"]], bool(answer["certified"])) == (path.outcome, path.certified) == ("stick", True)
