@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engines.casadi.integrators import tolerance as told
+from ..engines.casadi.integrators import Tolerance, tolerance
 from ..engines.casadi.locate import Path, locate
 from ..engines.casadi.replay import Flown, Stopped, as_located, fly
 from ..errors import ComputationError
@@ -23,24 +23,33 @@ if TYPE_CHECKING:
     import xarray
 
 Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], Path]
+Told = Callable[[float, str, dict[str, float]], Tolerance]
 _TIGHTEST = 1e-13
 _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
 
 
 def by_casadi(
-    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find = locate
+    scene: Scene,
+    n: Numbers,
+    rtol: float,
+    plugin: str,
+    ledger: bool,
+    trajectory: bool,
+    find: Find = locate,
+    told: Told = tolerance,
 ) -> Collision:
     """By CVODES or Rosenbrock: what `collide` does with one of them.
 
     Arguments:
         find: what locates the flight; it is the same for both engines.
+        told: what an engine's integrators are told at a tolerance.
     """
-    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find)
+    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told)
     return _result(scene, n, *found, trajectory)
 
 
 def _compute(
-    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find = locate
+    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find, told: Told
 ) -> tuple[Path, Flown, Flow, str, float]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
 
@@ -50,25 +59,25 @@ def _compute(
     small = load(choose(scene, n.oblique, fold=True))
     choice = choose(scene, n.oblique, full=ledger or trajectory, fold=True)
     flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
-    tolerance = rtol
+    asked = rtol
     while True:
         try:
-            located = find(small, n.groups, tolerance, ())
+            located = find(small, n.groups, asked, ())
         except ComputationError as error:
             raise n.in_si(error) from None
         start = flow.model.start(flow.model.group_values(n.groups))
         try:
-            flown = fly(located, plugin, told(tolerance, plugin, n.groups), flow, start)
+            flown = fly(located, plugin, told(asked, plugin, n.groups), flow, start)
         except Stopped as failure:
-            if failure.missed and tolerance > _TIGHTEST:
-                tolerance = tolerance * 1e-2 if tolerance > 200 * _TIGHTEST else _TIGHTEST
+            if failure.missed and asked > _TIGHTEST:
+                asked = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST
                 continue
             try:
-                located = find(flow.model, n.groups, tolerance, flow.extras)
+                located = find(flow.model, n.groups, asked, flow.extras)
             except ComputationError:
                 raise n.in_si(_failure(failure, flow.model, plugin)) from None
-            return located, as_located(located, choice), flow, "rosenbrock", tolerance
-        return located, flown, flow, plugin, tolerance
+            return located, as_located(located, choice), flow, "rosenbrock", asked
+        return located, flown, flow, plugin, asked
 
 
 def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
@@ -161,8 +170,8 @@ def _trajectory(
     from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
 
     attrs = attributes(scene, path.outcome, plugin, rtol)
-    tolerance, p = told(rtol, plugin, n.groups), model.group_values(n.groups)
-    pieces = [stretch(piece, model, flown, p, plugin, tolerance) for piece in flown.pieces]
+    told, p = tolerance(rtol, plugin, n.groups), model.group_values(n.groups)
+    pieces = [stretch(piece, model, flown, p, plugin, told) for piece in flown.pieces]
     try:
         return dataset(pieces, model, n, flown.y, attrs)
     except ComputationError as error:

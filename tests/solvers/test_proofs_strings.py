@@ -19,6 +19,7 @@ from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import Locate, Path
 from wetdoublet.solvers.model.dimensionless import numbers
 from wetdoublet.solvers.model.model import Model, choose, load
+from wetdoublet.solvers.verify.audit import WithoutProof
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proofs_strings")]
 
@@ -101,21 +102,19 @@ def _rebounding_tethered(rng: np.random.Generator) -> tuple[Scene, float, float]
 
 @pytest.fixture(scope="module")
 def strings() -> list[Tethered]:
-    """Doublets on strings of both kinds, followed without a proof to a cut-off, or for 1e4 x0/v0 a phase."""
+    """Doublets on strings of both kinds, followed without a proof to a cut-off, or for 1e4 x0/v0."""
     rng = np.random.default_rng(20)
     found = []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(locate, "proof_for", lambda *_: NoProof())
-        patch.setattr(locate, "STRETCHES", 4)
-        for draw in [_random_tethered] * 60 + [_rebounding_tethered] * 400:
-            scene, stokes, angle = draw(rng)
-            n = numbers(scene, scene.speed_of(stokes), angle)
-            model = load(choose(scene, oblique=True))
-            free = Locate(model, n.groups, 1e-9, steps=20_000)
-            with contextlib.suppress(ComputationError):  # it creeps or chatters on, unseparated
-                free.run()
-            assert not free.path.certified
-            found.append(Tethered(model, n.groups, free.path.separated))
+    for draw in [_random_tethered] * 60 + [_rebounding_tethered] * 400:
+        scene, stokes, angle = draw(rng)
+        n = numbers(scene, scene.speed_of(stokes), angle)
+        model = load(choose(scene, oblique=True))
+        free = WithoutProof(model, n.groups, 1e-9, steps=20_000)
+        free.proof = NoProof()
+        with contextlib.suppress(ComputationError):  # it creeps on, unseparated
+            free.on(1e4)
+        assert not free.path.certified
+        found.append(Tethered(model, n.groups, free.path.separated))
     return found
 
 

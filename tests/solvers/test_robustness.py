@@ -8,8 +8,9 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,11 @@ import pytest
 from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide
 from wetdoublet.solvers.collision import by_casadi
 from wetdoublet.solvers.collision.by_casadi import _compute
-from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance
+from wetdoublet.solvers.engines.casadi.locate import Locate, Path, locate
 from wetdoublet.solvers.engines.casadi.replay import Flown
+from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.model import Model
 
 # the command, made to collide the same spheres for ever, and to say when it has begun
 LONG = """
@@ -66,26 +70,31 @@ def test_threads_give_the_serial_results() -> None:
     assert together == serial * 2
 
 
-@pytest.fixture
-def few_steps(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Integrators that are built from now on give up after three steps; none of them outlives the test."""
-    monkeypatch.setattr(integrators, "STEPS", 3)
-    integrators.plain.cache_clear()
-    yield
-    integrators.plain.cache_clear()
-    integrators.locator.cache_clear()
+def soon(rtol: float, engine: str, groups: Mapping[str, float]) -> Tolerance:
+    """What an integrator is told that gives up after three steps."""
+    return replace(tolerance(rtol, engine, groups), steps=3)
+
+
+def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Path:
+    """A flight whose locators give up so soon."""
+    flight = Locate(model, groups, rtol, extras)
+    flight.tolerance = replace(flight.tolerance, steps=3)
+    return flight.run()
+
+
+def found_alone(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Path:
+    """One whose locators do so where they carry something along, as where they are the last resort."""
+    return (lost if extras else locate)(model, groups, rtol, extras)
 
 
 @pytest.mark.parametrize("failing", ["locator", "cvodes", "rosenbrock"])
-def test_an_engine_that_gives_up(failing: str, request: pytest.FixtureRequest) -> None:
+def test_an_engine_that_gives_up(failing: str) -> None:
     """Too few steps: ComputationError with phase, time in s, state in SI, and advice, all in its one line."""
     engine = "rosenbrock" if failing == "rosenbrock" else "cvodes"
-    integrators.locator.cache_clear()
-    if failing != "locator":
-        collide("granulation", stokes=0.03, angle="60 deg", engine=engine)  # its locators are built now
-    request.getfixturevalue("few_steps")
+    scene = Scene.load("granulation").with_impact(stokes=0.03, angle="60 deg")
+    n, find = numbers(scene, *scene.need_impact()), lost if failing == "locator" else found_alone
     with pytest.raises(ComputationError) as caught:
-        collide("granulation", stokes=0.03, angle="60 deg", engine=engine)
+        by_casadi.by_casadi(scene, n, 1e-9, engine, True, False, find, soon)
     error = caught.value
     assert failing == "locator" or error.message.startswith(f"{engine} gave up")
     assert error.phase == "closing inside the film"

@@ -70,10 +70,11 @@ def _reason(message: str) -> str:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Relative and absolute tolerance of an integrator."""
+    """Relative and absolute tolerance of an integrator, and the steps after which it gives up."""
 
     relative: float
     absolute: float
+    steps: int = STEPS
 
     @property
     def offset(self) -> float:
@@ -85,7 +86,7 @@ class Tolerance:
         options: dict[str, Any] = {
             "reltol": self.relative,
             "abstol": self.absolute,
-            "max_num_steps": STEPS,
+            "max_num_steps": self.steps,
         }
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
