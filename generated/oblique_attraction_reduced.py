@@ -11,7 +11,7 @@ Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
 - obliquity [1]: tangent of the impact angle
-- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- adhesion [1]: van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a)
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
 - elastic_gap [x0]: elastic length over film thickness
 - rough_gap [x0]: roughness over film thickness
@@ -202,7 +202,7 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at first touch.
+    """State at initial contact.
 
     Total operations: 3
     """

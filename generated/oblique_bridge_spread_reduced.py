@@ -216,7 +216,7 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at first touch.
+    """State at initial contact.
 
     Total operations: 3
     """

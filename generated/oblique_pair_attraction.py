@@ -13,7 +13,7 @@ Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
 - obliquity [1]: tangent of the impact angle
-- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- adhesion [1]: van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a)
 - radius_ratio [1]: radius of the partner over that of the sphere
 - mass_ratio [1]: mass of the partner over that of the sphere
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
@@ -239,7 +239,7 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at first touch.
+    """State at initial contact.
 
     Total operations: 6
     """

@@ -16,7 +16,7 @@ Groups:
 - capillary [1]: capillary number 3 mu a v0/(sigma x0)
 - volume [1]: bridge volume over R^3 (constant)
 - contact_angle [rad]: contact angle of the liquid on the sphere
-- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- adhesion [1]: van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a)
 - radius_ratio [1]: radius of the partner over that of the sphere
 - mass_ratio [1]: mass of the partner over that of the sphere
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
@@ -261,7 +261,7 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at first touch.
+    """State at initial contact.
 
     Total operations: 6
     """

@@ -14,7 +14,7 @@ Groups:
 - capillary [1]: capillary number 3 mu a v0/(sigma x0)
 - volume [1]: bridge volume over R^3 (constant)
 - contact_angle [rad]: contact angle of the liquid on the sphere
-- adhesion [1]: van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)
+- adhesion [1]: van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a)
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
 - elastic_gap [x0]: elastic length over film thickness
 - rough_gap [x0]: roughness over film thickness
@@ -171,7 +171,7 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at first touch.
+    """State at initial contact.
 
     Total operations: 1
     """

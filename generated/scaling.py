@@ -40,7 +40,7 @@ def stokes(reduced_radius: Any, reduced_mass: Any, viscosity: Any, speed: Any) -
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - reduced_mass [kg]: reduced mass, M/2 for equal spheres
     - viscosity [Pa s]: viscosity of the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     """
     return reduced_mass*speed/(6*pi*reduced_radius**2*viscosity)
 
@@ -50,9 +50,9 @@ def capillary(reduced_radius: Any, viscosity: Any, film_thickness: Any, surface_
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - viscosity [Pa s]: viscosity of the liquid
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     - surface_tension [N/m]: surface tension of the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     """
     return 3*reduced_radius*speed*viscosity/(film_thickness*surface_tension)
 
@@ -63,20 +63,20 @@ def centrifugal(reduced_radius: Any, reduced_mass: Any, surface_tension: Any, sp
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - reduced_mass [kg]: reduced mass, M/2 for equal spheres
     - surface_tension [N/m]: surface tension of the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     - angle [rad]: impact angle, 0 head-on
     """
     return reduced_mass*speed**2*tan(angle)**2/(16*reduced_radius**2*surface_tension)
 
 
 def adhesion(reduced_radius: Any, viscosity: Any, film_thickness: Any, hamaker: Any, speed: Any) -> Any:
-    """van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a) [1].
+    """van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a) [1].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - viscosity [Pa s]: viscosity of the liquid
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     - hamaker [J]: Hamaker constant of the spheres across the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     """
     return hamaker/(36*pi*film_thickness*reduced_radius*speed*viscosity)
 
@@ -85,9 +85,9 @@ def reynolds(viscosity: Any, film_thickness: Any, density: Any, speed: Any) -> A
     """film Reynolds number rho v0 x0/mu [1].
 
     - viscosity [Pa s]: viscosity of the liquid
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     - density [kg/m^3]: density of the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     """
     return density*film_thickness*speed/viscosity
 
@@ -96,7 +96,7 @@ def aspect(reduced_radius: Any, film_thickness: Any) -> Any:
     """film thickness over reduced radius, x0/a [1].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     """
     return film_thickness/reduced_radius
 
@@ -114,9 +114,9 @@ def glass_number(reduced_radius: Any, viscosity: Any, film_thickness: Any, glass
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - viscosity [Pa s]: viscosity of the liquid
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     - glass_transition_pressure [Pa]: glass-transition pressure of the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     """
     return film_thickness**2*glass_transition_pressure/(3*reduced_radius*speed*viscosity)
 
@@ -124,9 +124,9 @@ def glass_number(reduced_radius: Any, viscosity: Any, film_thickness: Any, glass
 def weight(film_thickness: Any, gravity: Any, speed: Any) -> Any:
     """gravity over impact deceleration, g x0/v0^2 [1].
 
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     - gravity [m/s^2]: gravitational acceleration
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     """
     return film_thickness*gravity/speed**2
 
@@ -147,8 +147,8 @@ def elastic_gap(reduced_radius: Any, youngs_modulus: Any, poisson_ratio: Any, vi
     - youngs_modulus [Pa]: Young's modulus of the spheres
     - poisson_ratio [1]: Poisson's ratio of the spheres
     - viscosity [Pa s]: viscosity of the liquid
-    - film_thickness [m]: film thickness: the gap at first touch
-    - speed [m/s]: normal approach speed at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
+    - speed [m/s]: normal approach speed at initial contact
     """
     return 2**0.2*3**0.4*reduced_radius**0.6*speed**0.4*viscosity**0.4*(1 - poisson_ratio**2)**0.4/(film_thickness*youngs_modulus**0.4)
 
@@ -157,7 +157,7 @@ def rough_gap(roughness: Any, film_thickness: Any) -> Any:
     """roughness over film thickness [x0].
 
     - roughness [m]: height of the surface roughness
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     """
     return roughness/film_thickness
 
@@ -166,7 +166,7 @@ def rupture_gap(reduced_radius: Any, film_thickness: Any, volume: Any, contact_a
     """rupture distance over film thickness [x0].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
-    - film_thickness [m]: film thickness: the gap at first touch
+    - film_thickness [m]: film thickness: the gap at initial contact
     - volume [1]: bridge volume over R^3 (constant)
     - contact_angle [rad]: contact angle of the liquid on the sphere
     """
@@ -177,7 +177,7 @@ def initial_rate(reduced_radius: Any, speed: Any, angle: Any) -> Any:
     """initial angular velocity, v0 tan(theta0)/(4a) [rad/s].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     - angle [rad]: impact angle, 0 head-on
     """
     return speed*tan(angle)/(4*reduced_radius)
@@ -187,7 +187,7 @@ def initial_rate_pair(reduced_radius: Any, speed: Any, angle: Any, radius_ratio:
     """initial angular velocity of a pair, v0 tan(theta0)/(R1 + R2) [rad/s].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     - angle [rad]: impact angle, 0 head-on
     - radius_ratio [1]: radius of the partner over that of the sphere
     """
@@ -198,7 +198,7 @@ def initial_rate_wall(reduced_radius: Any, speed: Any, angle: Any) -> Any:
     """scale of the spin beside a wall, v0 tan(theta0)/a [rad/s].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     - angle [rad]: impact angle, 0 head-on
     """
     return speed*tan(angle)/reduced_radius
@@ -210,7 +210,7 @@ def centrifugal_pair(reduced_radius: Any, reduced_mass: Any, surface_tension: An
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - reduced_mass [kg]: reduced mass, M/2 for equal spheres
     - surface_tension [N/m]: surface tension of the liquid
-    - speed [m/s]: normal approach speed at first touch
+    - speed [m/s]: normal approach speed at initial contact
     - angle [rad]: impact angle, 0 head-on
     - radius_ratio [1]: radius of the partner over that of the sphere
     """

@@ -111,7 +111,7 @@ class ComputationError(WetDoubletError, RuntimeError):
     Arguments:
         message: what failed.
         phase: name of the phase of the flight.
-        time: s since first touch.
+        time: s since initial contact.
         state: the last state, name to SI value.
         advice: what to try.
     """

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
 from collections import defaultdict
 from functools import cache
@@ -21,6 +22,9 @@ ORDER = (
     "solvers.boundaries", "solvers.sensitivity", "solvers.verify", "solvers.export", "solvers.paper",
     "solvers.commands", "solvers", "solvers.__main__",
 )  # fmt: skip
+
+
+MADE_ELSEWHERE = {"mine.py", "MODEL.py", "NAME.py", "model.py", "model.h", "settings.h", "layout.h"}  # by users, builds
 
 
 @cache
@@ -139,6 +143,20 @@ def test_every_room_says_what_it_is_for() -> None:
     """The `__init__.py` of each folder begins with a docstring."""
     folders = {path.parent for path in modules().values()}
     assert not [folder for folder in folders if not ast.get_docstring(ast.parse((folder / "__init__.py").read_text()))]
+
+
+def test_files_that_are_named_exist() -> None:
+    """Every `name.py` and `name.h` in back-quotes in documentation, docstrings and comments is a file of the tree."""
+    texts = [*(ROOT / "docs").glob("*.md"), *(ROOT / "derive").rglob("*.py"), *(ROOT / "solvers").rglob("*.py")]
+    texts += [*(ROOT / "solvers").rglob("*.h"), ROOT / "README.md"]
+    there = {path.name for top in ("derive", "generated", "solvers", "tests") for path in (ROOT / top).rglob("*.*")}
+    named = {
+        (path.name, found.rpartition("/")[2])
+        for path in texts
+        for found in re.findall(r"`([\w/]+\.(?:py|h))`", path.read_text())
+    }
+    assert len(named) > 30
+    assert not {(page, name) for page, name in named if name not in there | MADE_ELSEWHERE}
 
 
 if __name__ == "__main__":

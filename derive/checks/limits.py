@@ -20,7 +20,7 @@ def reduced_is_full() -> Check:
         if not structure.reduced:
             continue
         reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
-        initial = (4 + aspect) ** 2  # L/(m a^2 omega0) at first touch, where nothing spins
+        initial = (4 + aspect) ** 2  # L/(m a^2 omega0) at initial contact, where nothing spins
         eliminated = {spin: (initial - orbit) * sp.Rational(5, 32)}
         rates, full_rates = emitted_rates(reduced), emitted_rates(full)
         left += [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]

@@ -46,7 +46,7 @@ def _bounds() -> dict[str, tuple[sp.Expr, str]]:
 
 
 def margins_are_the_lemmas() -> tuple[Check, ...]:
-    """What is emitted, opened, is each lemma's bound: at contact, at first touch and half a turn, at the present."""
+    """What is emitted, opened, is each lemma's bound: at contact, initial contact and half a turn, now."""
     model = derive(_TETHERED)
     emitted = {name: model.expanded(value) for name, value in model["tethered"].outputs}
     checks = []

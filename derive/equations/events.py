@@ -24,7 +24,7 @@ from .rates import inward_force
 
 
 def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
-    """State at first touch: closing at v0, the line of centres turning and nothing spinning."""
+    """State at initial contact: closing at v0, the line of centres turning and nothing spinning."""
     touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), opening: sp.Integer(-1)}
     if structure.partner:
         return touching | dict(rotation(structure.partner).start)

@@ -205,7 +205,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             "State just after a reversal by the solids: u -> -e_dry u, all else continues.",
             of_states(reversal(states)),
         ),
-        ModelFunction("start", "State at first touch.", of_states(start(structure))),
+        ModelFunction("start", "State at initial contact.", of_states(start(structure))),
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
         ModelFunction(
             "energy_rates",

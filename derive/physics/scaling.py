@@ -84,12 +84,12 @@ def exponents(monomial: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     return sp.Matrix([powers.get(s, 0) for s in symbols])
 
 
-# The scales of force that the equation of motion puts side by side at first touch.
+# The scales of force that the equation of motion puts side by side at initial contact.
 INERTIA = m * v0**2 / x0  # m du/dt
 VISCOUS = 6 * sp.pi * mu * a**2 * v0 / x0  # F_n
 CAPILLARY = sp.pi * R * sigma  # F_c
 CENTRIFUGAL = m * a * omega0**2  # m r omega^2
-VAN_DER_WAALS = van_der_waals_force().subs(x, x0)  # F_w at first touch
+VAN_DER_WAALS = van_der_waals_force().subs(x, x0)  # F_w at initial contact
 LUBRICATION_PRESSURE = 3 * mu * a * v0 / x0**2
 
 

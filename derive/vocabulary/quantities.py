@@ -60,18 +60,18 @@ nu = _quantity(
     "poisson_ratio", r"\nu", ONE, "1", "Poisson's ratio of the spheres", "Davis, Rager & Good 2002", real=True
 )
 mu = _quantity("viscosity", r"\mu", PRESSURE * TIME, "Pa s", "viscosity of the liquid")
-x0 = _quantity("film_thickness", "x_0", LENGTH, "m", "film thickness: the gap at first touch")
+x0 = _quantity("film_thickness", "x_0", LENGTH, "m", "film thickness: the gap at initial contact")
 p_gt = _quantity("glass_transition_pressure", "p_{gt}", PRESSURE, "Pa", "glass-transition pressure of the liquid")
 rho = _quantity("density", r"\rho", MASS / LENGTH**3, "kg/m^3", "density of the liquid")
 sigma = _quantity("surface_tension", r"\sigma", FORCE / LENGTH, "N/m", "surface tension of the liquid")
 A_H = _quantity("hamaker", "A_H", FORCE * LENGTH, "J", "Hamaker constant of the spheres across the liquid", HAMAKER)
 l_s = _quantity("string_length", "l", LENGTH, "m", "length of the pendulum strings")
 g = _quantity("gravity", "g", LENGTH / TIME**2, "m/s^2", "gravitational acceleration")
-v0 = _quantity("speed", "v_{n,0}", SPEED, "m/s", "normal approach speed at first touch")
+v0 = _quantity("speed", "v_{n,0}", SPEED, "m/s", "normal approach speed at initial contact")
 theta0 = _quantity("angle", r"\theta_0", ONE, "rad", "impact angle, 0 head-on", nonnegative=True)
 
 # Motion
-t = _quantity("time", "t", TIME, "s", "time since first touch", real=True)
+t = _quantity("time", "t", TIME, "s", "time since initial contact", real=True)
 x = _quantity("separation", "x", LENGTH, "m", "gap between the surfaces")
 u = _quantity("separation_rate", "u", SPEED, "m/s", "opening velocity dx/dt, negative on approach", real=True)
 omega = _quantity("rotation_rate", r"\omega", RATE, "rad/s", "angular velocity of the line of centres", real=True)
@@ -139,7 +139,7 @@ cohesive_centrifugal = _quantity(
     "generalised_centrifugal", "Ce_F", ONE, "1", "generalised centrifugal number m omega0^2 a/F", nonnegative=True
 )
 adhesion = _quantity(
-    "adhesion", "Ad", ONE, "1", "van der Waals force at first touch over the film's, A/(36 pi mu v0 x0 a)", HAMAKER,
+    "adhesion", "Ad", ONE, "1", "van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a)", HAMAKER,
     nonnegative=True,
 )  # fmt: skip
 weight = _quantity("weight", r"g x_0/v_0^2", ONE, "1", "gravity over impact deceleration, g x0/v0^2")

@@ -1,6 +1,6 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
 # Equations sha256 36672a25b05cedaf9402710ddff628c5d822f6dfebbc6669f339bce1e845eb3b
-"""glass law `film-corrected`: with the film's rim, 1/x^2 - 1/x0^2: zero at first touch.
+"""glass law `film-corrected`: with the film's rim, 1/x^2 - 1/x0^2: zero at initial contact.
 
 Source: Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure.
 """

@@ -1,6 +1,6 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
 # Equations sha256 cbe29fa6b784a9433b151f8a5c6c8a7a624f3bd19d59c86ae0f66c0c4662e956
-"""glass law `literal`: 3 mu a |u|/x^2 as published: can fire at first touch.
+"""glass law `literal`: 3 mu a |u|/x^2 as published: can fire at initial contact.
 
 Source: Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure.
 """

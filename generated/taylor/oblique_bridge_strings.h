@@ -345,7 +345,7 @@ static inline vec glass_clearance(const constants *c, const vec *y)
     return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
 }
 
-/* State at first touch. */
+/* State at initial contact. */
 static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;

@@ -1,6 +1,6 @@
 """All curves between outcomes in a plane of an entry and the Stokes number, and where they meet: sought and settled.
 
-The curves are sought from a lattice of collisions and from seed lines (`bounds`), followed (`survey`, `continuation`),
+The curves are sought from a lattice of collisions and from seed lines (`trace`), followed (`survey`, `continuation`),
 named (`atlas_points`), and held against the lines, the lattice and random collisions.
 """
 
@@ -107,7 +107,7 @@ def _known_along(plane: Plane, points: np.ndarray, outcomes: np.ndarray) -> np.n
         if found[k] < 0:
             x, stokes = float(plane.x(points[k])), float(plane.stokes_at(points[k]))
             raise ComputationError(
-                f"no collision could be computed at {plane.over} = {x:.6g}, St {stokes:.6g}, which tells regions apart",
+                f"no collision could be computed at {plane.over} = {x:.6g}, St {stokes:.6g}, needed there",
                 advice="try another span, or other Stokes numbers",
             )
     return found

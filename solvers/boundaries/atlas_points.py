@@ -10,12 +10,12 @@ from itertools import pairwise
 import numpy as np
 
 from ..errors import ComputationError
-from ..model.dimensionless import numbers
-from ..model.model import choose, load
+from ..model.dimensionless import nondimensionalise
+from ..model.model import load, select_model
 from .arcs import Arc
 from .changes import FREE, GRAZE, REVERSED
 from .continuation import crossings
-from .line import WITHOUT_SOLIDS, Probe
+from .line import WITHOUT_SOLIDS, UnstoppedTrajectory
 from .plane import ANGLE, Plane
 from .saddle import barrier_of
 from .survey import Meeting
@@ -186,10 +186,10 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
 def _passes_saddle(plane: Plane, place: np.ndarray, reversed_: bool) -> bool | None:
     """Whether an escape passes a barrier inside the rupture gap; None where that is not known."""
     scene, angle = plane.scene_at(float(plane.x(place)))
-    n = numbers(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
+    n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
     groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
     try:
-        probe = Probe(load(choose(scene, n.oblique)), groups, plane.rtol)
+        probe = UnstoppedTrajectory(load(select_model(scene, n.oblique)), groups, plane.rtol)
         probe.run()
         barrier = barrier_of(probe)
     except ComputationError:

@@ -13,9 +13,9 @@ import numpy as np
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, EventKind, Purpose, Status
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.endless import limits
-from ..engines.taylor.record import Recorded, Steps, recorded
-from ..model.dimensionless import Numbers
-from ..model.model import choose
+from ..engines.taylor.record import Recorded, Steps, run_recorded
+from ..model.dimensionless import DimensionlessGroups
+from ..model.model import select_model
 from ..scene.scene import Scene
 
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
@@ -23,7 +23,7 @@ LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a sepa
 _PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
 _FINER = 12  # parts of the surroundings of a maximum, again and again
 _ZOOMS = 4
-_EARLIER = 5  # of the steps that chatter has spent, one in so many leads to the state that its last is held against
+_EARLIER = 5  # the last state of chatter is compared with that after one in so many of its steps
 
 
 LOOK = np.dtype(
@@ -83,7 +83,7 @@ def looked(
             continue
         others = {name: values[which] for name, values in (solids or {}).items()}
         impacts = Impacts(scene, speed[which], angle[which], others)
-        told = recorded(
+        told = run_recorded(
             impacts, oblique, rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
             peaks=True, events=False,
         )  # fmt: skip
@@ -114,9 +114,9 @@ def _take_limits(
     if not endless.size:
         return
     those = impacts.part(endless)
-    before = recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
+    before = run_recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
     assert before is not None  # the kernel is there
-    choice = choose(impacts.scene, oblique, fold=False)
+    choice = select_model(impacts.scene, oblique, fold=False)
     held = limits(before.answers, answers[endless], impacts.scene, those.speed, those.angle, choice, rtol)
     for k, stays in zip(endless.tolist(), held, strict=True):
         if stays is not None:
@@ -127,7 +127,7 @@ def _take_limits(
 
 def approach(
     scene: Scene,
-    n: Numbers,
+    n: DimensionlessGroups,
     rtol: float,
     solids: dict[str, float],
     states: int,
@@ -167,12 +167,12 @@ def approach(
 
 
 def escaping(
-    scene: Scene, n: Numbers, rtol: float, solids: dict[str, float], start: np.ndarray, budget: int
+    scene: Scene, n: DimensionlessGroups, rtol: float, solids: dict[str, float], start: np.ndarray, budget: int
 ) -> Escaping | None:
     """A flight that goes on until it separates, falls back or rests; proved a stick only while it approaches.
 
     Arguments:
-        start: the model's states at first touch.
+        start: the model's states at initial contact.
         budget: steps.
     """
     told = _flown(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
@@ -224,4 +224,4 @@ def _flown(
 ) -> Recorded | None:
     others = {name: np.full(speeds.size, value) for name, value in solids.items()}
     impacts = Impacts(scene, speeds, np.full(speeds.size, angle), others)
-    return recorded(impacts, angle > 0, rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)
+    return run_recorded(impacts, angle > 0, rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)

@@ -198,7 +198,7 @@ def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: flo
 
 
 def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: bool) -> list[list[Change]]:
-    """Changes within each bracket by outcomes: all are divided together until they are _NARROW wide.
+    """Refine all brackets together by outcomes until each is narrower than _NARROW in ln St.
 
     Arguments:
         kernel_only: a bracket in which the kernel decides no collision has no changes here.
@@ -276,7 +276,7 @@ def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
     expected = np.array([OUTCOMES.index(first), *(OUTCOMES.index(one.after) for one in changes)])[where]
     wrong = samples["stokes"][samples["outcome"] != expected]
     if wrong.size:
-        raise ComputationError(f"the outcome at St {wrong[0]:.10g} is not the one that the changes about it say")
+        raise ComputationError(f"the outcome at St {wrong[0]:.10g} disagrees with the adjacent changes of outcome")
 
 
 def _merged(changes: list[Change]) -> list[Change]:

@@ -17,12 +17,12 @@ import numpy as np
 from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..certificates import Barrier, energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, locator, plain, tolerance
-from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, Locate, Path
-from ..engines.taylor.build import compile_all, knows
+from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocator, EventSequence
+from ..engines.taylor.build import compile_all, supported
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import Model, choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import Model, load, select_model
 from ..model.phases import Flow
 from ..scene.scene import Scene
 from ..settings import RTOL
@@ -42,8 +42,8 @@ _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a ph
 
 def ready(scenes: Iterable[Scene]) -> None:
     """Compile what the kernel needs for boundaries of these scenes, on all cores."""
-    known = (scene for scene in scenes if knows(scene))
-    wanted = (variant(scene, choose(scene, True), RTOL, True, trajectory=True) for scene in known)
+    known = (scene for scene in scenes if supported(scene))
+    wanted = (variant(scene, select_model(scene, True), RTOL, True, trajectory=True) for scene in known)
     compile_all(set(wanted))
 
 
@@ -71,15 +71,15 @@ class Line:
 
     def __post_init__(self) -> None:
         """Ask once whether there is a kernel for the scene."""
-        self.kernel = knows(self.scene) if self.kernel is None else self.kernel
+        self.kernel = supported(self.scene) if self.kernel is None else self.kernel
 
-    def numbers(self, stokes: float) -> Numbers:
+    def numbers(self, stokes: float) -> DimensionlessGroups:
         """Dimensionless numbers at a Stokes number."""
-        return numbers(self.scene, self.scene.speed_of(stokes), self.angle)
+        return nondimensionalise(self.scene, self.scene.speed_of(stokes), self.angle)
 
     @property
     def model(self) -> Model:
-        return load(choose(self.scene, self.angle > 0))
+        return load(select_model(self.scene, self.angle > 0))
 
     def criterion(self, stokes: float) -> float:
         """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.
@@ -107,7 +107,7 @@ class Line:
         n = self.numbers(stokes)
         groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
         solids = {} if reversed_ else self._no_glass(n.groups) | _RIGID | {"roughness": 0.0}
-        probe = Probe(self.model, groups, self.rtol)
+        probe = UnstoppedTrajectory(self.model, groups, self.rtol)
         for steps in _ESCAPE_STEPS if self.kernel else ():
             flown = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
             if flown is None:
@@ -131,7 +131,7 @@ def smooth_escape(
     """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
     if not reversed_:
         groups = groups | WITHOUT_SOLIDS
-    probe = Probe(model, groups, rtol, machine_code=machine_code)
+    probe = UnstoppedTrajectory(model, groups, rtol, machine_code=machine_code)
     path = probe.run()
     return Escape(path.separated, _smooth(probe, _Located(probe, path)))
 
@@ -143,7 +143,7 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
     """
     deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
     unmet = _UNMET | {"elastic_gap": 0.0, "rough_gap": deep}
-    flight = Locate(model, groups | unmet, rtol, (), machine_code)
+    flight = EventLocator(model, groups | unmet, rtol, (), machine_code)
     y, phase, p = flight.y, flight.phase, flight.p
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
@@ -181,7 +181,7 @@ def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
     return pressures
 
 
-class Probe(Locate):
+class UnstoppedTrajectory(EventLocator):
     """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
 
     def _proved(self) -> bool:
@@ -199,7 +199,7 @@ class Probe(Locate):
 class _Located:
     """A located flight as `Escaping` has it; it is sampled when it is asked for."""
 
-    def __init__(self, probe: Locate, path: Path) -> None:
+    def __init__(self, probe: EventLocator, path: EventSequence) -> None:
         self.probe, self.path = probe, path
         self.separated = path.separated
         self.fell_back = bool(path.ends) and KINDS[EventKind.FELL_BACK] in path.steps[-1].kinds
@@ -218,7 +218,7 @@ class _Located:
         return self._both[1]
 
 
-def _creeps_out(probe: Locate) -> bool | None:
+def _creeps_out(probe: EventLocator) -> bool | None:
     """Whether a doublet that creeps past the only barrier will separate; None where that is not clear.
 
     All but the unstable mode has died, and its side decides: outside nothing holds the doublet, inside its energy is
@@ -232,7 +232,7 @@ def _creeps_out(probe: Locate) -> bool | None:
     return None if saddle is None else saddle.side(probe.y)
 
 
-def _smooth(probe: Locate, flown: Escaping | _Located) -> float | None:
+def _smooth(probe: EventLocator, flown: Escaping | _Located) -> float | None:
     barrier = barrier_of(probe)
     if barrier is None and energy_proof(probe.proof) is not None:
         return None  # nothing holds the doublet at any gap
@@ -247,8 +247,8 @@ def _smooth(probe: Locate, flown: Escaping | _Located) -> float | None:
     return -2 * inward * (rim - float(flown.end[0]))
 
 
-def _saddle_amplitude(probe: Locate, flown: Escaping | _Located, barrier: Barrier) -> float | None:
-    """Amplitude of the saddle's unstable mode at the nearest approach, taken back to first touch by exp(-lambda t)."""
+def _saddle_amplitude(probe: EventLocator, flown: Escaping | _Located, barrier: Barrier) -> float | None:
+    """Amplitude of the saddle's unstable mode nearest to it, taken back to initial contact by exp(-lambda t)."""
     saddle = saddle_of(probe, barrier)
     if saddle is None:
         return None
@@ -263,7 +263,7 @@ def _saddle_amplitude(probe: Locate, flown: Escaping | _Located, barrier: Barrie
     return float(amplitudes[saddle.unstable].real * math.exp(-growth)) if growth < 500 else None
 
 
-def _sampled(probe: Locate, path: Path) -> tuple[np.ndarray, np.ndarray]:
+def _sampled(probe: EventLocator, path: EventSequence) -> tuple[np.ndarray, np.ndarray]:
     """Times and states of the flight: ends of phases, and a grid over phases that do not end at rest in the gap."""
     times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
     before = states[0]

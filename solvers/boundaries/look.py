@@ -9,12 +9,12 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import CRITERIA, OUTCOMES, Purpose
-from ..engines.casadi.locate import Locate
-from ..engines.taylor.build import knows
+from ..engines.casadi.locate import EventLocator
+from ..engines.taylor.build import supported
 from ..engines.taylor.call import RIGID
 from ..errors import ComputationError, InputError
-from ..model.dimensionless import numbers
-from ..model.model import choose, load
+from ..model.dimensionless import nondimensionalise
+from ..model.model import load, select_model
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
@@ -44,7 +44,7 @@ class Look:
 
     def __post_init__(self) -> None:
         """Ask once whether there is a kernel for the scene."""
-        self.kernel = knows(self.scene) if self.kernel is None else self.kernel
+        self.kernel = supported(self.scene) if self.kernel is None else self.kernel
 
     @property
     def per_decade(self) -> int:
@@ -88,7 +88,7 @@ class Look:
         return told
 
     def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
-        n = numbers(self.scene, self.scene.speed_of(stokes), angle)
+        n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
         self.reasons[angle, stokes] = (
             f"{STEPS} steps do not decide the outcome: {told['events']} events by t = {told['time'] * n.time:.6g} s, "
             f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
@@ -157,8 +157,8 @@ class Look:
         """Fill one sample."""
         stokes = float(found["stokes"][0])
         try:
-            n = numbers(self.scene, self.scene.speed_of(stokes), angle)
-            path = Locate(load(choose(self.scene, angle > 0)), n.groups, self.rtol, machine_code=True).run()
+            n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
+            path = EventLocator(load(select_model(self.scene, angle > 0)), n.groups, self.rtol, machine_code=True).run()
         except (ComputationError, InputError) as error:
             self.reasons[angle, stokes] = str(n.in_si(error)) if isinstance(error, ComputationError) else str(error)
             return

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, Purpose
-from ..engines.taylor.build import knows
-from ..engines.taylor.call import answers
-from ..engines.taylor.record import recorded
+from ..engines.taylor.build import supported
+from ..engines.taylor.call import run_kernel
+from ..engines.taylor.record import run_recorded
 from ..errors import InputError
 from ..host.cores import usable_cores
-from ..many.batch import Request, checked_numbers, checked_vary
+from ..many.batch import Batch, checked_numbers, checked_vary
 from ..many.by_kernel import impacts_of
 from ..many.collide_many import run
 from ..scene.scene import Scene
@@ -55,7 +55,7 @@ class Plane:
 
     def __post_init__(self) -> None:
         """Ask once whether there is a kernel for the scene; begin where collisions are oblique."""
-        self.kernel = knows(self.scene)
+        self.kernel = supported(self.scene)
         self.edge = self.span[0]
         if self.over == ANGLE:
             self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]
@@ -110,7 +110,7 @@ class Plane:
         if self.kernel:
             impacts, sound = impacts_of(request)
             threads = usable_cores() if request.size > _THREADED else 1
-            told = answers(impacts, self.rtol, threads=threads)
+            told = run_kernel(impacts, self.rtol, threads=threads)
             if told is not None:
                 where = np.flatnonzero(sound)
                 outcome[where] = np.where(told["status"] <= LAST_ANSWER, told["outcome"], -1)
@@ -129,17 +129,17 @@ class Plane:
         if self.kernel:
             impacts, sound = impacts_of(self._request(points))
             oblique = bool(impacts.angle[0] > 0)
-            told = recorded(impacts, oblique, self.rtol, trajectory=True, budget=STEPS, purpose=Purpose.ESCAPE,
+            told = run_recorded(impacts, oblique, self.rtol, trajectory=True, budget=STEPS, purpose=Purpose.ESCAPE,
                             keep=False, fold=False)  # fmt: skip
             if told is not None:
                 known = told.answers["status"] <= LAST_ANSWER
                 found[np.flatnonzero(sound)] = np.where(known, told.answers["reversal"], -2)
         return found
 
-    def _request(self, points: np.ndarray) -> Request:
+    def _request(self, points: np.ndarray) -> Batch:
         x, size = self.x(points), points.shape[0]
         angle = x if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
-        return Request(
+        return Batch(
             scene=self.scene,
             stokes=self.stokes_at(points),
             speed=None,

@@ -8,7 +8,7 @@ import numpy as np
 from casadi import Function, jacobian
 
 from ..certificates import Barrier, energy_proof
-from ..engines.casadi.locate import Locate
+from ..engines.casadi.locate import EventLocator
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Region
@@ -17,7 +17,7 @@ from ..model.phases import Region
 _NEAR, _ALONE = 0.1, 1e-3
 
 
-def barrier_of(probe: Locate) -> Barrier | None:
+def barrier_of(probe: EventLocator) -> Barrier | None:
     """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
     proof = energy_proof(probe.proof)
     if proof is None:
@@ -57,7 +57,7 @@ class Saddle:
         return bool(state[0] > self.gap)
 
 
-def saddle_of(probe: Locate, barrier: Barrier) -> Saddle | None:
+def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:
     """The saddle at a barrier for the flight's angular momentum; None where nothing grows."""
     saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
     # a doublet that escapes comes by while opening
@@ -72,7 +72,7 @@ def saddle_of(probe: Locate, barrier: Barrier) -> Saddle | None:
     return Saddle(barrier.gap, saddle, np.linalg.inv(shapes), values, unstable)
 
 
-def _saddle_state(probe: Locate, barrier: Barrier, y: np.ndarray) -> np.ndarray:
+def _saddle_state(probe: EventLocator, barrier: Barrier, y: np.ndarray) -> np.ndarray:
     """Rigid rotation at the barrier's gap with the state's angular momentum."""
     at_barrier = np.concatenate([[barrier.gap], y[1:]])
     return np.array(list(probe.model.values("rigid_rotation", at_barrier, probe.p).values()))

@@ -1,7 +1,7 @@
 """Boundaries between outcomes, traced: every Stokes number at which the outcome changes, angle by angle.
 
 Each line is sampled by collisions until its margins are resolved (`samples`); the changes that show are located by
-functions that are smooth through them (`probe`), and accepted if collisions on either side agree (`changes`).
+functions that are smooth through them (`boundaries.line`), and accepted if collisions on either side agree (`changes`).
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class HeldProof:
 
     def _held(self, y: np.ndarray) -> bool:
         if not y[0] >= self._nearest:
-            return False  # the margins take the solids for the nearest it gets; first touch may lie inside them
+            return False  # the margins take the solids for the nearest it gets; initial contact may lie inside them
         found = self.model.values("held", y, self.p)
         hold = found["hold"]
         # each by more than the error of what it is made of; a NaN proves nothing

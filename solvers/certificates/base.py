@@ -15,7 +15,7 @@ class Proof(Protocol):
     """What a flight asks of a proof. `y` is the locating state: the model's states, then works against attractions."""
 
     theorem: bool  # a stick found by it is proved, not only certain for practical purposes
-    watches: str | None  # what a flight watches for (`Watch.certificate`); by "energy", `y` carries the works
+    watches: str | None  # what a flight watches for (`WatchedEvents.certificate`); by "energy", `y` carries the works
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         """What is watched for: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the

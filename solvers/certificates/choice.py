@@ -11,14 +11,14 @@ from .chatter import ChatterProof
 from .energy_barrier import BarrierProof
 from .film import FilmProof
 from .film_and_attraction import AttractedProof
-from .orbital_momentum import OrbitalProof, knows
+from .orbital_momentum import OrbitalProof, covers
 from .strings import TetherProof
 
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
     """The certificate that holds for a model."""
     found = _first(model, p, rtol)
-    if knows(model):
+    if covers(model):
         return OrbitalProof(model, p, rtol, found)
     chatters = model.oblique and not model.wall and not model.strings and model.works
     return ChatterProof(model, p, rtol, found) if chatters else found

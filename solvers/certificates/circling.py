@@ -1,4 +1,4 @@
-"""What a doublet comes to that circles in and out of its film, a little less deep with every turn.
+"""Limit of a doublet that repeatedly enters and leaves its film, less deeply in each cycle.
 
 Beyond the film and the edge of the shear (the gap e) nothing is lost and the orbit's momentum J stays. With every turn
 the dip into the film gets shallower, and the shear brings J nearer to its value J_e where the doublet turns as one body
@@ -18,7 +18,7 @@ from .orbital_momentum import OrbitalProof
 from .quadrature import panels
 
 _SHALLOW = 0.1  # a dip is shallow below this part of the film
-_SMALL = 0.9  # radial energy over what the barrier has still to lose: below this no turn escapes before the limit does
+_SMALL = 0.9  # radial energy over the remaining decrease of the barrier: below it none escapes before the limit
 _GROWTH = 1.05  # of that ratio, between two states, which counts as none
 _GAPS = 201
 

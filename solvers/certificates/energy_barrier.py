@@ -19,7 +19,7 @@ from .quadrature import panels
 
 @dataclass(frozen=True)
 class Barrier:
-    """A maximum of the effective potential: its gap, and its height over m v0^2 (capillary work from first touch)."""
+    """A maximum of the effective potential: gap, and height over m v0^2 (capillary work from initial contact)."""
 
     gap: float
     height: float
@@ -124,12 +124,12 @@ class BarrierProof:
             reach = barrier
         lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
         energy = self.model.values("effective_potential", y, self.p)["energy"]
-        # first touch is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
+        # initial contact is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
         whole = self._momentum(y) * self.model.values("start", y, self.p)["orbit"]
         return float(4 * energy * max(orbit / rigid, 1.0) * lost / whole)
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:
-        """The orbit's momentum at a gap if all turns as one body with the angular momentum of `y`."""
+        """Orbital angular momentum of rigid rotation at this gap, with the total angular momentum of `y`."""
         return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbit"]
 
     def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -170,6 +170,6 @@ class BarrierProof:
         return float(low + (high - low) * slope[last] / (slope[last] - slope[last + 1]))
 
     def _rise(self, top: float, y: np.ndarray) -> float:
-        """Effective potential at `top` less that at first touch, by Gauss-Legendre panels in ln(gap)."""
+        """Effective potential at `top` less that at initial contact, by Gauss-Legendre panels in ln(gap)."""
         edges = np.linspace(0.0, np.log(top), 2 + int(8 * abs(np.log(top))))
         return float(np.sum(panels(lambda logs: self._slope(np.exp(logs), y) * np.exp(logs), edges)))

@@ -19,7 +19,7 @@ _LEVERS = ("midgap", "surface")
 _GAPS = 49  # at which the doublet is asked whether it gets there
 
 
-def knows(model: Model) -> bool:
+def covers(model: Model) -> bool:
     """Whether the proof is about this model: equal spheres that turn, the library's laws, something that attracts."""
     return model.has("orbital") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
 
@@ -28,7 +28,7 @@ class OrbitalProof:
     """Asks, after another proof, whether some gap ahead is out of reach for good.
 
     On strings no proof covers the slip that their torque makes; there it ends chatter, after some cycles whose maxima
-    do not grow, and the stick is not called a theorem. Nor is it with the surface arm (MODEL.md section 6).
+    do not grow, and the stick is not called a theorem. Nor is it with the surface arm (docs/physics.md).
 
     Arguments:
         beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
@@ -99,7 +99,7 @@ class OrbitalProof:
         return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
 
     def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray, settled: bool) -> np.ndarray:
-        """What the shear can still turn of the spin into motion of the orbit, as far as each of these gaps.
+        """Energy that the tangential force can still transfer from spin to orbit before each of these gaps.
 
         Beyond the edge of the shear only what it does before omega = xi there.
         """

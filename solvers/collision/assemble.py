@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..model.cohesion import generalised_centrifugal
-from ..model.dimensionless import Numbers
+from ..model.dimensionless import DimensionlessGroups
 from ..scene.scene import Scene
 from .outcome import Energy, Event
 from .result import Collision
@@ -42,7 +42,7 @@ class Finding:
     trajectory: xarray.Dataset | None = None
 
 
-def assembled(scene: Scene, n: Numbers, found: Finding) -> Collision:
+def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision:
     """The result of a collision; what a stick leaves undefined is None."""
     separated = found.outcome != "stick"
     time = found.time * n.time
@@ -82,7 +82,9 @@ def assembled(scene: Scene, n: Numbers, found: Finding) -> Collision:
     )
 
 
-def _partner_spin(scene: Scene, own: float | None, outputs: Mapping[str, float], n: Numbers) -> float | None:
+def _partner_spin(
+    scene: Scene, own: float | None, outputs: Mapping[str, float], n: DimensionlessGroups
+) -> float | None:
     """Spin of the partner: its own, that of an equal, or none for a wall."""
     if scene.partner is None or own is None:
         return None

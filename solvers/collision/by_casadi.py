@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engines.casadi.integrators import Tolerance, tolerance
-from ..engines.casadi.locate import Path, locate
+from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Flown, Stopped, as_located, fly
 from ..errors import ComputationError
-from ..model.dimensionless import Numbers
-from ..model.model import Model, choose, load
+from ..model.dimensionless import DimensionlessGroups
+from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
 from .assemble import Finding, assembled
@@ -22,7 +22,7 @@ from .result import Collision
 if TYPE_CHECKING:
     import xarray
 
-Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], Path]
+Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], EventSequence]
 Told = Callable[[float, str, dict[str, float]], Tolerance]
 _TIGHTEST = 1e-13
 _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
@@ -30,7 +30,7 @@ _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attract
 
 def by_casadi(
     scene: Scene,
-    n: Numbers,
+    n: DimensionlessGroups,
     rtol: float,
     plugin: str,
     ledger: bool,
@@ -49,15 +49,22 @@ def by_casadi(
 
 
 def _compute(
-    scene: Scene, n: Numbers, rtol: float, plugin: str, ledger: bool, trajectory: bool, find: Find, told: Told
-) -> tuple[Path, Flown, Flow, str, float]:
+    scene: Scene,
+    n: DimensionlessGroups,
+    rtol: float,
+    plugin: str,
+    ledger: bool,
+    trajectory: bool,
+    find: Find,
+    told: Told,
+) -> tuple[EventSequence, Flown, Flow, str, float]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
 
     Where no tolerance helps, the located flight itself is the answer. Also returns the engine that answers and the
     tolerance that it took.
     """
-    small = load(choose(scene, n.oblique, fold=True))
-    choice = choose(scene, n.oblique, full=ledger or trajectory, fold=True)
+    small = load(select_model(scene, n.oblique, fold=True))
+    choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)
     flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
     asked = rtol
     while True:
@@ -97,7 +104,14 @@ def _failure(failure: Stopped, model: Model, plugin: str) -> ComputationError:
 
 
 def _result(
-    scene: Scene, n: Numbers, path: Path, flown: Flown, flow: Flow, plugin: str, rtol: float, trajectory: bool
+    scene: Scene,
+    n: DimensionlessGroups,
+    path: EventSequence,
+    flown: Flown,
+    flow: Flow,
+    plugin: str,
+    rtol: float,
+    trajectory: bool,
 ) -> Collision:
     model, separated = flow.model, path.separated
     p = model.group_values(n.groups)
@@ -128,7 +142,7 @@ def _rotation(flown: Flown, model: Model) -> float:
     return flown.extra("rotation") if "rotation" in flown.extras else 0.0
 
 
-def _ledger(model: Model, flown: Flown, p: np.ndarray, n: Numbers) -> Energy:
+def _ledger(model: Model, flown: Flown, p: np.ndarray, n: DimensionlessGroups) -> Energy:
     first = model.values("energies", model.start(p), p)
     last = model.values("energies", flown.y, p)
 
@@ -165,7 +179,7 @@ def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
 
 
 def _trajectory(
-    scene: Scene, path: Path, flown: Flown, model: Model, n: Numbers, plugin: str, rtol: float
+    scene: Scene, path: EventSequence, flown: Flown, model: Model, n: DimensionlessGroups, plugin: str, rtol: float
 ) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
 

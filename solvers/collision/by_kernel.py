@@ -8,9 +8,9 @@ import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.record import Recorded, Steps, recorded
-from ..model.dimensionless import Numbers
-from ..model.model import choose, load
+from ..engines.taylor.record import Recorded, Steps, run_recorded
+from ..model.dimensionless import DimensionlessGroups
+from ..model.model import load, select_model
 from ..model.phases import Phase
 from ..scene.scene import Scene
 from ..settings import STEPS
@@ -30,7 +30,12 @@ def kind_of(answer: np.void) -> tuple[str, str | None]:
 
 
 def collision(
-    scene: Scene, n: Numbers, rtol: float, ledger: bool = False, trajectory: bool = False, budget: int = STEPS
+    scene: Scene,
+    n: DimensionlessGroups,
+    rtol: float,
+    ledger: bool = False,
+    trajectory: bool = False,
+    budget: int = STEPS,
 ) -> Collision | None:
     """The collision by one call of the kernel; None if it hands it over, or there is none here.
 
@@ -39,7 +44,7 @@ def collision(
         trajectory: with the flight, sampled from the steps' own series.
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    told = recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
+    told = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
     if told is None or told.answers["status"][0] > LAST_ANSWER:
         return None
     energy = None if told.ledger is None else _energy(scene, n, told.ledger[0])
@@ -49,7 +54,7 @@ def collision(
     if energy is not None and separated and energy.is_open(rtol):
         return None  # the flight is wrong, whatever else it looks like
     happened = told.events[0, : found["events"]]
-    model = load(choose(scene, n.oblique, fold=True))
+    model = load(select_model(scene, n.oblique, fold=True))
     finding = Finding(
         outcome=outcome,
         reversal=reversal,
@@ -68,7 +73,7 @@ def collision(
     return assembled(scene, n, finding)
 
 
-def _energy(scene: Scene, n: Numbers, book: np.void) -> Energy:
+def _energy(scene: Scene, n: DimensionlessGroups, book: np.void) -> Energy:
     own: dict[str, float] = {name: float(book[name]) * n.energy for name in book.dtype.names or ()}
     return Energy(
         initial=own["initial"],
@@ -82,25 +87,25 @@ def _energy(scene: Scene, n: Numbers, book: np.void) -> Energy:
     )
 
 
-def _drift(scene: Scene, n: Numbers, book: np.void) -> float | None:
+def _drift(scene: Scene, n: DimensionlessGroups, book: np.void) -> float | None:
     """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
     if scene.pendulum is not None or (scene.wall and n.oblique):
         return None
     return abs(float(book["momentum"]) - 1.0) if n.oblique else 0.0
 
 
-def _trajectory(scene: Scene, n: Numbers, rtol: float, told: Recorded, full: bool) -> xarray.Dataset:
+def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, told: Recorded, full: bool) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
 
     assert told.steps is not None
-    model = load(choose(scene, n.oblique, full=full, fold=True))
+    model = load(select_model(scene, n.oblique, full=full, fold=True))
     attrs = attributes(scene, OUTCOMES[told.answers["outcome"][0]], "taylor", rtol)
     return dataset(stretches(told.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs)
 
 
 def stretches(steps: Steps, states: int) -> list[Stretch]:
     """The phases of one collision, each with its states at parts of its duration, the angle turned last; none at all
-    where first touch decides.
+    where initial contact decides.
 
     Arguments:
         states: how many of the series are the model's own.
@@ -109,7 +114,7 @@ def stretches(steps: Steps, states: int) -> list[Stretch]:
 
     rows, found = steps.rows, []
     if not rows.size:
-        return []  # decided at first touch
+        return []  # decided at initial contact
     firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1))
     for first, end in zip(firsts, np.append(firsts[1:], rows.size), strict=True):
         own, row = Steps(rows[first:end], steps.turned), rows[first]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ..host.arguments import check_flag
-from ..model.dimensionless import Numbers, numbers
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_engine, check_rtol
@@ -58,14 +58,16 @@ def collide(
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
     v0, theta0 = loaded.need_impact()
-    dimensionless = numbers(loaded, v0, theta0)
+    dimensionless = nondimensionalise(loaded, v0, theta0)
     said = warn(loaded)
     by = _by_kernel if plugin == "taylor" else by_casadi
     result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory)
     return replace(result, warnings=said) if said else result
 
 
-def _by_kernel(scene: Scene, n: Numbers, rtol: float, _plugin: str, ledger: bool, trajectory: bool) -> Collision:
+def _by_kernel(
+    scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool
+) -> Collision:
     """By the Taylor kernel; what it hands over is Rosenbrock's."""
     found = collision(scene, n, rtol, ledger, trajectory)
     return found or by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)

@@ -74,7 +74,7 @@ class Outcome:
         outcome: "stick", "stick-rotate-separate" or "bounce".
         restitution: normal restitution e_n (0 for a stick).
         tangential_restitution: r_f omega_f/(r_0 omega_0); None head-on.
-        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F all that attracts at first touch; None if nothing does.
+        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F the attraction at contact; None without.
         final_spin: spin of each sphere, of the first if the partner is another one.
         final_spin_partner: spin of the partner; None without a [partner].
         rotation: angle turned by the line of centres until separation.

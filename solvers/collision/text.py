@@ -84,7 +84,7 @@ def stopped(collision: Outcome) -> str:
     """Return where the integration of a stick stopped because the outcome was certain; nothing if it did not."""
     if not collision.until or _last(collision) in CUT_OFFS:
         return ""
-    return f"integration stopped there, {quantity(collision.until, 's')} after first touch"
+    return f"integration stopped there, {quantity(collision.until, 's')} after initial contact"
 
 
 def _last(collision: Outcome) -> str:
@@ -95,7 +95,7 @@ def _stuck(collision: Outcome) -> str:
     last, scene = _last(collision), collision.scene
     if last in CUT_OFFS:
         return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
-    when = "" if collision.until else " at first touch"
+    when = "" if collision.until else " at initial contact"
     if not collision.certified and len(collision.events) > _MANY and last == KINDS[EventKind.FELL_BACK]:
         return "decided, not proved: rebound after rebound, none higher than the one before"
     if not collision.certified:

@@ -11,7 +11,7 @@ from ..settings import RTOL, check_engine, check_rtol
 from . import options
 
 
-@click.command("collide", short_help="One collision, from first touch to its outcome.")
+@click.command("collide", short_help="One collision, from initial contact to its outcome.")
 @options.scene_argument
 @options.impact
 @options.changes

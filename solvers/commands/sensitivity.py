@@ -63,7 +63,7 @@ def command(
       wetdoublet sensitivity granulation --of restitution,contact_time --plot tornado.png
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..sensitivity.parameters import check_hold, check_wrt
-    from ..sensitivity.results import check_of
+    from ..sensitivity.results import check_quantities
     from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, spoken
 
@@ -71,7 +71,7 @@ def command(
     chosen = check_engine(engine, "--engine")
     how = "forward" if method is None else check_method(method, "--method")
     held = "speed" if hold is None else check_hold(hold, "--hold")
-    asked = ("restitution",) if of is None else check_of(_names(of), "--of")
+    asked = ("restitution",) if of is None else check_quantities(_names(of), "--of")
     if hessian and chosen in ("cvodes", "taylor"):
         raise InputError("--engine", chosen, "rosenbrock with --hessian", "has no second derivatives")
     if chosen == "taylor" and how != "forward":

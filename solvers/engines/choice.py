@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..scene.scene import Scene
 from ..settings import FEW
-from .taylor.build import knows
+from .taylor.build import supported
 
 
 def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
@@ -14,4 +14,4 @@ def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
     """
     if asked not in (None, "taylor") or (asked is None and count <= FEW):
         return asked or "rosenbrock"
-    return "taylor" if knows(scene) else "rosenbrock"
+    return "taylor" if supported(scene) else "rosenbrock"

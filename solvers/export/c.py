@@ -5,8 +5,8 @@ from __future__ import annotations
 from casadi import CodeGenerator, Function
 
 from ...generated.assemble import casadi_functions
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import Model, choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import Model, load, select_model
 from ..scene.scene import Scene
 from .equations import file_name
 
@@ -17,14 +17,14 @@ _UNITS = {"gap": "x0", "opening": "v0", "orbit": "a^2 omega0", "spin": "omega0",
 def texts(scene: Scene) -> dict[str, str]:
     """NAME.c and NAME.h of a scene: every function of the smallest full structure it needs, in all regions."""
     oblique = scene.angle is None or scene.angle > 0
-    model, name = load(choose(scene, oblique, full=True)), file_name(scene)
+    model, name = load(select_model(scene, oblique, full=True)), file_name(scene)
     found = functions(model, name)
     generator = CodeGenerator(f"{name}.c", {"with_header": False, "casadi_int": "long long int"})
     for function in found:
         generator.add(function)
     values = None
     if scene.speed is not None and scene.angle is not None:
-        values = numbers(scene, scene.speed, scene.angle)
+        values = nondimensionalise(scene, scene.speed, scene.angle)
     return {
         f"{name}.c": _comment(scene, model, values) + generator.dump(),
         f"{name}.h": _header(scene, name, model, found, values),
@@ -48,7 +48,7 @@ def _renamed(function: Function, name: str) -> Function:
     return Function(name, inputs, [function(*inputs)], ["state", "groups"], [name])
 
 
-def _comment(scene: Scene, model: Model, values: Numbers | None) -> str:
+def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:
     """What the functions are, as the head of the file."""
     choice = model.choice
     lines = [
@@ -67,7 +67,7 @@ def _comment(scene: Scene, model: Model, values: Numbers | None) -> str:
     return f"/*\n{inside}\n */\n"
 
 
-def _header(scene: Scene, name: str, model: Model, found: list[Function], values: Numbers | None) -> str:
+def _header(scene: Scene, name: str, model: Model, found: list[Function], values: DimensionlessGroups | None) -> str:
     guard = f"WETDOUBLET_{name.upper()}_H"
     lines = [_comment(scene, model, values), f"#ifndef {guard}", f"#define {guard}", ""]
     lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]

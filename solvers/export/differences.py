@@ -14,7 +14,7 @@ from ..collision.collide import collide
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import text
-from ..model.model import Choice, choose
+from ..model.model import ModelKey, select_model
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
 from ..scene.user_model import Package
@@ -112,7 +112,7 @@ def _scene(source: str, probe: str, label: str) -> Scene:
 
 def _modules(scene: Scene) -> dict[str, str]:
     """Emitted text of the structure and laws of a scene's oblique collisions."""
-    choice = choose(scene, oblique=True, full=True)
+    choice = select_model(scene, oblique=True, full=True)
     found = {"": _structure(choice)}
     for slot, name in choice.laws:
         found[slot] = _law(choice.package, slot, name)
@@ -121,7 +121,7 @@ def _modules(scene: Scene) -> dict[str, str]:
     return found
 
 
-def _structure(choice: Choice) -> str:
+def _structure(choice: ModelKey) -> str:
     package = choice.package
     if package is not None and package.changes(tuple(slot for slot, _ in choice.laws)):
         return package.structure_text(choice.structure)

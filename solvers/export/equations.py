@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..collision.text import name_of
-from ..model.model import choose
+from ..model.model import select_model
 from ..scene.scene import Scene
 from ..scene.user_model import Package
 
@@ -29,7 +29,7 @@ def texts(scene: Scene) -> dict[str, str]:
 
 def chosen_laws(scene: Scene) -> dict[str, str]:
     """Slot -> law of everything that an oblique collision of the scene has."""
-    return dict(choose(scene, oblique=True, full=True).laws)
+    return dict(select_model(scene, oblique=True, full=True).laws)
 
 
 def user_model(package: Package | None) -> UserModel | None:

@@ -1,4 +1,4 @@
-"""Arguments of the public functions that are no quantities: judged by type, so that what is wrong is named."""
+"""Type checks for arguments of public functions that are not physical quantities."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """What CasADi prints on stderr, kept from the user by the thread that causes it.
 
-It prints by way of `sys.stderr`, which all threads share: what is put in its place for a while keeps the words of
-threads that listen, and passes on those of the others. Threads may come and go in any order; left behind by one that
-replaces `sys.stderr` itself, it only passes on.
+CasADi prints on `sys.stderr`, which all threads share. A temporary replacement stores the output of capturing threads
+and passes the output of all others to the original stream. Threads may start and end capturing in any order.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ _listeners = 0
 
 
 class _Sieve:
-    """A stream for threads that do not listen; what those say that do is kept."""
+    """A stream that stores the output of capturing threads and passes on that of the others."""
 
     def __init__(self, through: Any) -> None:
         self.through = through

@@ -1,7 +1,7 @@
-"""Names that live while their process does: files and folders being made, which anyone may sweep once it is gone.
+"""Temporary files and folders, locked by the process that creates them.
 
-Whoever makes one holds a lock on it, which the system lets go when the process ends, however it ends. What can be
-locked by another is therefore left over. Where there are no such locks nothing is swept.
+The system releases the lock when that process ends, however it ends; what another process can lock is stale and may be
+deleted. Where there are no such locks nothing is deleted.
 """
 
 from __future__ import annotations

@@ -33,6 +33,6 @@ def say_once(line: str) -> None:
     say(line)
 
 
-def hush() -> None:
+def silence_workers() -> None:
     """For a worker process: its remarks are for the process that started it."""
     os.environ[_HUSHED] = "1"

@@ -100,7 +100,7 @@ class Once(Generic[P, T]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         key = (args, tuple(sorted(kwargs.items())))
-        found = self._kept.get(key, self)  # itself for nothing: what is made may be None
+        found = self._kept.get(key, self)  # `self` marks a missing entry: a result may be None
         if found is self:
             with self._making(key):
                 found = self._kept.get(key, self)

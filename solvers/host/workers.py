@@ -1,4 +1,4 @@
-"""Worker processes: started the same way everywhere, deaf to Ctrl-C, and never alive without their parent."""
+"""Worker processes: started the same way everywhere, ignoring Ctrl-C, and ended with their parent."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-from .remarks import hush
+from .remarks import silence_workers
 from .user_cache import settle
 
 _LOOK = 0.2  # s between two looks at whether the parent is there
@@ -83,7 +83,7 @@ def _begin(parent: int, bound: bool) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
-    hush()
+    silence_workers()
     if bound and sys.platform == "linux":  # at once, even amid a long computation; it comes when the *thread* ends
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     threading.Thread(target=_watch, args=(parent,), daemon=True).start()

@@ -24,13 +24,13 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "restitution": ("1", "normal restitution e_n"),
     "tangential_restitution": ("1", "tangential restitution r_f omega_f/(r_0 omega_0)"),
     "rotation": ("rad", "angle turned by the line of centres until separation"),
-    "contact_time": ("s", "time from first touch to separation"),
+    "contact_time": ("s", "time from initial contact to separation"),
     "smallest_gap": ("m", "smallest gap until separation"),
 }
 
 
 @dataclass(frozen=True)
-class Request:
+class Batch:
     """What to collide: a scene, impacts, other entries that vary, and what to keep. Arrays of one length, SI."""
 
     scene: Scene
@@ -60,7 +60,7 @@ class Request:
         assert self.stokes is not None
         return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
 
-    def part(self, which: np.ndarray) -> Request:
+    def part(self, which: np.ndarray) -> Batch:
         """The request of these collisions alone."""
         return replace(
             self,
@@ -76,7 +76,7 @@ def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
     return scene.with_entries(dict(entries))
 
 
-def requested(
+def validated_batch(
     scene: Scene | str | Path,
     stokes: Any,
     speed: Any,
@@ -85,10 +85,10 @@ def requested(
     rtol: float,
     engine: str | None,
     of: Sequence[str],
-) -> Request:
+) -> Batch:
     """A validated Request, everything brought to one length."""
     loaded = Scene.load(scene)
-    kept = check_of(of)
+    kept = check_outputs(of)
     arrays = checked_impact(loaded, stokes, speed, angle) | checked_vary(loaded, vary)
     lengths = {name: array.size for name, array in arrays.items() if array.ndim and array.size != 1}
     size = next(iter(lengths.values()), 1)
@@ -99,7 +99,7 @@ def requested(
         name: array.reshape(-1).copy() if array.size == size else np.full(size, array.item())
         for name, array in arrays.items()
     }
-    request = Request(
+    request = Batch(
         scene=loaded,
         stokes=full.pop("impact.stokes", None),
         speed=full.pop("impact.speed", None),
@@ -113,7 +113,7 @@ def requested(
     return request
 
 
-def check_of(of: Sequence[str]) -> tuple[str, ...]:
+def check_outputs(of: Sequence[str]) -> tuple[str, ...]:
     """The quantities to keep; InputError for one that there is not."""
     return check_names(of, (*QUANTITIES, "outcome", "certified", "reason"), "of")
 
@@ -155,7 +155,7 @@ def check_varies(name: str, values: object, label: str = "vary", package: Packag
         raise InputError(label, name, "entries that are numbers", "is a choice")
 
 
-def check_some_scene(request: Request) -> None:
+def check_some_scene(request: Batch) -> None:
     """InputError if what varies makes every single collision impossible; where it spoils a few, they are marked."""
     first: InputError | None = None
     for k in range(request.size if request.vary else 0):

@@ -9,13 +9,13 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import LAST_ANSWER
-from ..engines.taylor.call import Impacts, answers
+from ..engines.taylor.call import Impacts, run_kernel
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..settings import FEW
-from .batch import Request
+from .batch import Batch
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions between two signs of life; memory stays flat
@@ -25,7 +25,7 @@ _NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall ju
 
 
 def collided(
-    request: Request, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
+    request: Batch, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
     """Collide the collisions `which` of a request, in that order; returns those that are for other engines to do.
 
@@ -37,7 +37,7 @@ def collided(
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
         impacts, sound = impacts_of(request if whole else request.part(part))
-        found = answers(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
+        found = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
         if found is None:
             return which
         kept = found["status"] <= LAST_ANSWER
@@ -51,7 +51,7 @@ def collided(
     return np.concatenate(left)
 
 
-def impacts_of(request: Request) -> tuple[Impacts, np.ndarray]:
+def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
     """The impacts of a request in SI, and which collisions they are: the others are bad input, or may be."""
     scene = request.scene
     values: dict[str, np.ndarray] = {}
@@ -77,7 +77,7 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     return usual
 
 
-def _columns(request: Request) -> tuple[dict[str, np.ndarray], np.ndarray]:
+def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Quantities of every collision where entries vary, and which the rules for entries together leave beyond doubt."""
     scene = request.scene
     entries: dict[str, Any] = {name: value for name, value in scene.si if not isinstance(value, str)}
@@ -109,7 +109,7 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def _block(request: Request, found: np.ndarray, impacts: Impacts) -> Block:
+def _block(request: Batch, found: np.ndarray, impacts: Impacts) -> Block:
     """Answers as the columns of a result: those that are asked for."""
     separated = found["outcome"] > 0
 

@@ -14,18 +14,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..engines.casadi.locate import Path, locate
+from ..engines.casadi.locate import EventSequence, locate
 from ..errors import ComputationError, WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import undisturbed, workers
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import load, select_model
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL
-from .batch import QUANTITIES, Request, requested
+from .batch import QUANTITIES, Batch, validated_batch
 from .by_kernel import collided
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def collide_many(
         >>> collide_many("granulation", stokes=[0.01, 0.02], angle=1.3).outcome.values
         array([0, 1], dtype=int8)
     """
-    request = requested(scene, stokes, speed, angle, {} if vary is None else vary, rtol, engine, of)
+    request = validated_batch(scene, stokes, speed, angle, {} if vary is None else vary, rtol, engine, of)
     warn(request.scene)
     results = empty(request.size, request.of)
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
@@ -99,7 +99,7 @@ def fill(results: Block, where: np.ndarray, block: Block) -> None:
         results[name][where] = values
 
 
-def compute(request: Request, which: np.ndarray, finished: Finished, slow: Slow = lambda _count: None) -> None:
+def compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow = lambda _count: None) -> None:
     """Collide the collisions `which`, on all cores if they are many; `finished` is told of every block.
 
     What it has been told stays told, whatever interrupts the rest.
@@ -126,7 +126,7 @@ def compute(request: Request, which: np.ndarray, finished: Finished, slow: Slow 
 
 
 def _in_parallel(
-    request: Request, blocks: list[np.ndarray], cores: int, machine_code: bool
+    request: Batch, blocks: list[np.ndarray], cores: int, machine_code: bool
 ) -> Iterator[tuple[np.ndarray, Block]]:
     """Results in the order in which they are finished; a worker is sent the part of the request it is to do."""
     from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
@@ -155,7 +155,7 @@ def _in_parallel(
         ) from None
 
 
-def run(request: Request, machine_code: bool) -> Block:
+def run(request: Batch, machine_code: bool) -> Block:
     """Collide everything that is requested, one after another."""
     block = empty(request.size, request.of)
     for k in range(request.size):
@@ -164,13 +164,13 @@ def run(request: Request, machine_code: bool) -> Block:
     return block
 
 
-def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
+def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
     try:
         scene, speed, angle = request.impact(k)
         if request.engine == "cvodes":
             return _chained(request, scene, speed, angle)
-        n = numbers(scene, speed, angle)
-        model = load(choose(scene, n.oblique, fold=True))
+        n = nondimensionalise(scene, speed, angle)
+        model = load(select_model(scene, n.oblique, fold=True))
         turns = model.has("turning_rate") and not model.strings
         quadrature = ("rotation",) if "rotation" in request.of and turns else ()
         try:
@@ -184,7 +184,7 @@ def _one(request: Request, k: int, machine_code: bool) -> dict[str, Any]:
         return {"outcome": FAILED, "reason": " ".join(f"internal error: {type(error).__name__}: {error}".split())}
 
 
-def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:
+def _kept(of: Sequence[str], path: EventSequence, n: DimensionlessGroups) -> dict[str, Any]:
     found: dict[str, Any] = {"outcome": OUTCOMES.index(path.outcome), "certified": path.certified, "restitution": 0.0}
     if not path.separated:
         return found
@@ -202,11 +202,11 @@ def _kept(of: Sequence[str], path: Path, n: Numbers) -> dict[str, Any]:
     return found | {name: value for name, value in values.items() if name in of}
 
 
-def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
+def _chained(request: Batch, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
     """One collision by the reference engine."""
     from ..collision.by_casadi import by_casadi
 
-    n = numbers(scene, speed, angle)
+    n = nondimensionalise(scene, speed, angle)
     one = by_casadi(scene, n, request.rtol, "cvodes", ledger=False, trajectory=False).to_dict()
     found = {name: math.nan if one[name] is None else one[name] for name in QUANTITIES if name in request.of}
     return found | {
@@ -216,7 +216,7 @@ def _chained(request: Request, scene: Scene, speed: float, angle: float) -> dict
     }
 
 
-def as_dataset(request: Request, results: Block) -> xarray.Dataset:
+def as_dataset(request: Batch, results: Block) -> xarray.Dataset:
     """Results as a labelled Dataset over `collision`, its impacts and varied entries as coordinates."""
     along = ("collision",)
     coordinates: dict[str, Column] = {}

@@ -24,7 +24,7 @@ from ..scene.ranges import MOST
 from ..scene.scene import Scene
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import QUANTITIES, Request, check_of, check_some_scene, checked_impact, checked_vary
+from .batch import QUANTITIES, Batch, check_outputs, check_some_scene, checked_impact, checked_vary
 from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
 from .journal import Journal
 
@@ -59,11 +59,11 @@ class Grid:
         indices = np.arange(np.prod(self.shape, dtype=int)).reshape(self.shape)
         return np.moveaxis(indices, [0, 1], [-2, -1]).ravel()
 
-    def request(self, rtol: float, engine: str, of: Sequence[str]) -> Request:
+    def request(self, rtol: float, engine: str, of: Sequence[str]) -> Batch:
         """All collisions of the grid, as a list."""
         full = np.meshgrid(self.angle, self.values, *self.vary.values(), indexing="ij")
         angle, values, *varied = (axis.ravel() for axis in full)
-        return Request(
+        return Batch(
             scene=self.scene,
             stokes=values if self.impact == "stokes" else None,
             speed=values if self.impact == "speed" else None,
@@ -122,7 +122,7 @@ def regime_map(
     told = (check_function(progress, "progress"), check_function(slow, "slow"))
     grid = _grid(Scene.load(scene), stokes, speed, angle, {} if vary is None else vary)
     by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
-    request = grid.request(check_rtol(rtol), by, check_of(of))
+    request = grid.request(check_rtol(rtol), by, check_outputs(of))
     check_some_scene(request)
     warn(grid.scene)
     kept = _journal(journal)
@@ -142,7 +142,7 @@ def _journal(journal: object) -> Journal | None:
 
 
 def _computed(
-    grid: Grid, request: Request, kept: Journal | None, progress: Progress | None, slow: Slow | None
+    grid: Grid, request: Batch, kept: Journal | None, progress: Progress | None, slow: Slow | None
 ) -> xarray.Dataset:
     results = empty(request.size, request.of)
     for where, block in kept.read() if kept else ():
@@ -181,7 +181,7 @@ def _grid(scene: Scene, stokes: Any, speed: Any, angle: Any, vary: Mapping[str, 
     return Grid(scene, angles, kind, values, axes)
 
 
-def _identity(grid: Grid, request: Request) -> dict[str, Any]:
+def _identity(grid: Grid, request: Batch) -> dict[str, Any]:
     """Everything that the results depend on."""
     axes = {"angle": grid.angle, grid.impact: grid.values} | {f"vary {name}": axis for name, axis in grid.vary.items()}
     return {
@@ -202,7 +202,7 @@ def _version() -> str:
     return version("wetdoublet")
 
 
-def _dataset(grid: Grid, request: Request, results: Block) -> xarray.Dataset:
+def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
     import xarray as xr
 
     def shaped(values: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What attracts the two at first touch, and the generalised centrifugal number that it makes."""
+"""What attracts the two at initial contact, and the generalised centrifugal number that it makes."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ import numpy as np
 
 from ...generated import scaling
 from ..scene.scene import Scene
-from .dimensionless import Numbers
-from .model import Choice, choose, load
+from .dimensionless import DimensionlessGroups
+from .model import ModelKey, load, select_model
 
 
-def generalised_centrifugal(scene: Scene, n: Numbers) -> float | None:
-    """Return Ce_F = m omega0^2 a/F(x0), F the sum of all attractions at first touch; None where there is none.
+def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | None:
+    """Return Ce_F = m omega0^2 a/F(x0), F the sum of all attractions at initial contact; None where there is none.
 
     Head-on and beside a wall it is 0: nothing turns.
     """
     if scene.bridge is None and scene.attraction is None:
         return None
-    chosen = choose(scene, oblique=False)
+    chosen = select_model(scene, oblique=False)
     free = chosen.structure.replace("_strings", "")  # strings pull, but they are no cohesion
-    model = load(Choice(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
+    model = load(ModelKey(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
     p = model.group_values(n.groups)
     inward = model.values("inward_force", np.array([1.0, 0.0]), p)["inward_force"]
     force = inward * n.energy / n.length

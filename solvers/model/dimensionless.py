@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Numbers:
+class DimensionlessGroups:
     """Groups by name, and the SI scales of length, time, angular velocity and energy.
 
     `centrifugal` and `capillary` are None without a bridge, `reynolds` without the liquid's density.
@@ -93,7 +93,7 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
 
 
-def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
+def nondimensionalise(scene: Scene, speed: float, angle: float) -> DimensionlessGroups:
     """Dimensionless numbers of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
 
     A group exists where the scene has what it is made of; an absent elastic criterion has elastic_gap 0.
@@ -110,7 +110,7 @@ def numbers(scene: Scene, speed: float, angle: float) -> Numbers:
             groups[name] = _finite(name, formula, values)
     x0 = scene.liquid.film_thickness
     scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
-    return Numbers(
+    return DimensionlessGroups(
         groups=groups,
         angle=angle,
         speed=speed,

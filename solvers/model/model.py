@@ -27,7 +27,7 @@ _SMALLEST_GAP = 1e-12
 
 
 @dataclass(frozen=True)
-class Choice:
+class ModelKey:
     """Which structure module, with which law in each slot; laws may be those of a user's model."""
 
     structure: str
@@ -38,7 +38,7 @@ class Choice:
         return dict(self.laws).get(slot)
 
 
-def choose(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) -> Choice:
+def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) -> ModelKey:
     """The smallest structure that has what the scene has.
 
     Arguments:
@@ -71,8 +71,8 @@ def choose(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) 
     if scene.attraction is not None:
         laws.append(("attraction", "van-der-waals"))
     if scene.package is None:
-        return Choice("_".join(parts), tuple(laws))
-    return Choice("_".join(parts), own_laws(scene.package, laws), scene.package)
+        return ModelKey("_".join(parts), tuple(laws))
+    return ModelKey("_".join(parts), own_laws(scene.package, laws), scene.package)
 
 
 def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
@@ -80,7 +80,7 @@ def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[s
     return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
 
 
-def _structure(choice: Choice) -> ModuleType:
+def _structure(choice: ModelKey) -> ModuleType:
     slots = tuple(slot for slot, _ in choice.laws)
     if choice.package is not None and choice.package.changes(slots):
         return choice.package.structure(choice.structure)
@@ -112,7 +112,7 @@ class Model:
     Use `load`, which caches.
     """
 
-    def __init__(self, choice: Choice) -> None:
+    def __init__(self, choice: ModelKey) -> None:
         self.choice = choice
         self.structure: ModuleType = _structure(choice)
         self.laws = Laws(**{slot: _law(choice.package, slot, name) for slot, name in choice.laws})
@@ -238,11 +238,11 @@ class Model:
         return np.array([groups[name] for name in self.groups])
 
     def start(self, p: np.ndarray) -> np.ndarray:
-        """State at first touch."""
+        """State at initial contact."""
         return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
 
 
 @own_cache(None)  # never evicted: expressions are cached in the symbols of their model
-def load(choice: Choice) -> Model:
+def load(choice: ModelKey) -> Model:
     """The model of a choice, built once."""
     return Model(choice)

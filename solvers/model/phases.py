@@ -9,7 +9,7 @@ from casadi import SX, densify, fmax, fmin, if_else, logic_and, vertcat
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
 from ..host.thread_caches import own_cache
-from .model import Choice, Model, load
+from .model import Model, ModelKey, load
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Flow:
     `attraction`.
     """
 
-    choice: Choice
+    choice: ModelKey
     region: Region
     extras: tuple[str, ...] = ()
 
@@ -118,7 +118,7 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Watch:
+class WatchedEvents:
     """What an event table depends on besides the flow.
 
     Arguments:
@@ -130,7 +130,7 @@ class Watch:
     certificate: str | None = None
 
 
-def event_table(flow: Flow, watch: Watch, motion: SX, level: SX) -> tuple[Event, ...]:
+def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tuple[Event, ...]:
     """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
 
     The order is the order of precedence among coincident ones. `level` is the energy below which a stick is proved, or
@@ -183,7 +183,7 @@ def tethered_margin(model: Model, margin: SX | float) -> SX:
 
 
 def mechanical_energy(flow: Flow) -> SX:
-    """Kinetic energy, work against attractions since first touch and, head-on, the strings' potential, over m v0^2."""
+    """Kinetic energy, work against attractions so far and, head-on, the strings' potential, over m v0^2."""
     model, extras = flow.model, expressions(flow).extras
     energy = sum(model(model.escape).values(), SX(0))
     return sum((extras[work] for work in model.works if work in extras), energy)

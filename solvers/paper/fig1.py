@@ -15,7 +15,7 @@ from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
 from .style import COLUMN, LETTERS, sheet
 from .variants import STRING_VARIANTS, TETHERED, described, variant
 
-_BEFORE, _AFTER = 1, 4  # frames before and after first touch
+_BEFORE, _AFTER = 1, 4  # frames before and after initial contact
 _MS = 1e3
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import ComputationError
-from ..model.dimensionless import numbers
+from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, outcomes, shown
@@ -76,7 +76,7 @@ def _sticks_to(line: Line) -> float:
 
 def per_stokes_squared(scene: Scene, angle: float) -> float:
     """Ce over St^2 of a scene at an angle (rad)."""
-    found = numbers(scene, scene.speed_of(1.0), angle).centrifugal
+    found = nondimensionalise(scene, scene.speed_of(1.0), angle).centrifugal
     if found is None:
         raise ComputationError(_NO_BRIDGE)
     return found

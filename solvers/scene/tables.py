@@ -112,7 +112,7 @@ class Model(Table):
 
 @dataclass(frozen=True)
 class Impact(Table):
-    """First touch: Stokes number or normal speed (m/s), and angle (rad); each may be left to the command line."""
+    """Initial contact: Stokes number or normal speed (m/s), and angle (rad); each may be left to the command line."""
 
     name: ClassVar[str] = "impact"
     stokes: float | None = None

@@ -17,7 +17,7 @@ from ..host.arguments import check_function
 from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
-from .parameters import check_wrt, kind_of, references, way
+from .parameters import check_wrt, kind_of, parameter_map, references
 from .result import Row
 
 _TRACED = ("impact.speed", "impact.stokes")
@@ -157,7 +157,7 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
         return Moving(change, reason="no smooth function of its own: not differentiated")
     kind = kind_of(scene, "stokes")
     everything = (*names, "impact.stokes")
-    via = way(kind, everything, found.groups)
+    via = parameter_map(kind, everything, found.groups)
     reference = references(scene, kind, scene.speed_of(change.stokes), angle)
     slopes, units = (np.asarray(each.full()) for each in via.slopes(reference))
     in_theta = found.gradient @ slopes[: len(found.groups)]
@@ -167,7 +167,7 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
     rows = {"stokes": along * change.stokes}
     values = {"stokes": change.stokes, "centrifugal": change.centrifugal}
     if change.centrifugal is not None:
-        own = np.asarray(way(kind, everything, ("centrifugal",)).slopes(reference)[0].full())[0]
+        own = np.asarray(parameter_map(kind, everything, ("centrifugal",)).slopes(reference)[0].full())[0]
         rows["centrifugal"] = own[:-1] + own[-1] * along
     at = dict(zip(kind.entries, reference.tolist(), strict=True))
     return Moving(

@@ -2,7 +2,7 @@
 
 First what the flight itself shows, at little cost: how flat it meets its events, how nearly it meets a criterion that
 it misses, how slowly it passes the barrier. Where that looks near, the distance in the Stokes number is measured, by
-the functions that are smooth through the boundary (`probe`).
+the functions that are smooth through the boundary (`boundaries.line`).
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from ...generated.automaton import CLOSING, CRITERIA, KINDS, EventKind
 from ..boundaries.line import approach, smooth_escape
 from ..certificates import energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
-from ..engines.casadi.locate import Locate, Path, Step
+from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import Model, choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import Model, load, select_model
 from ..model.phases import Flow
 from ..scene.scene import Scene
 from .result import Near
@@ -49,7 +49,9 @@ def limit(rtol: float) -> float:
     return min(max(LIMIT, PER_RTOL * rtol), WIDEST)
 
 
-def checked(scene: Scene, n: Numbers, finder: Locate, path: Path, rtol: float) -> Near | None:
+def checked(
+    scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, rtol: float
+) -> Near | None:
     """The nearest boundary that a flight shows; ComputationError, in one line, if it is too near for derivatives."""
     least = limit(rtol)
     if not path.separated:
@@ -64,14 +66,14 @@ def checked(scene: Scene, n: Numbers, finder: Locate, path: Path, rtol: float) -
     return near
 
 
-def explained(scene: Scene, n: Numbers, error: ComputationError, rtol: float) -> ComputationError:
+def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rtol: float) -> ComputationError:
     """What to say of a flight that could not be followed: the boundary that it lies at, if it does."""
     looked = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
     near = min(looked, key=lambda one: one.distance)
     return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
 
 
-def _nearest(scene: Scene, n: Numbers, suspects: list[Near], least: float) -> Near | None:
+def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: float) -> Near | None:
     """The nearest of the suspects; measured where they look near, and only then if they are no more than a hint."""
     found = []
     for boundary in dict.fromkeys(one.boundary for one in suspects):
@@ -95,7 +97,9 @@ def refused(near: Near, least: float) -> ComputationError:
 # ---- sticks: nothing to differentiate but e_n = 0, which holds up to the boundary
 
 
-def _stick(scene: Scene, n: Numbers, finder: Locate, path: Path, least: float) -> Near | None:
+def _stick(
+    scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, least: float
+) -> Near | None:
     """A boundary within `least` in the Stokes number, by the outcome on either side."""
     decided = len(path.steps) == 1 and path.steps[0].duration == 0
     if decided and energy_proof(finder.proof) is not None:
@@ -111,10 +115,10 @@ def _stick(scene: Scene, n: Numbers, finder: Locate, path: Path, least: float) -
     return None
 
 
-def _located(scene: Scene, n: Numbers, stokes: float, rtol: float) -> Path | None:
-    groups = numbers(scene, scene.speed_of(stokes), n.angle).groups
+def _located(scene: Scene, n: DimensionlessGroups, stokes: float, rtol: float) -> EventSequence | None:
+    groups = nondimensionalise(scene, scene.speed_of(stokes), n.angle).groups
     try:
-        return Locate(load(choose(scene, n.oblique)), groups, min(rtol, 1e-10)).run()
+        return EventLocator(load(select_model(scene, n.oblique)), groups, min(rtol, 1e-10)).run()
     except ComputationError:
         return None
 
@@ -122,7 +126,7 @@ def _located(scene: Scene, n: Numbers, stokes: float, rtol: float) -> Path | Non
 # ---- what a separated flight shows
 
 
-def _suspects(finder: Locate, path: Path) -> Iterator[Near]:
+def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
     """Boundaries by the flight's own measure."""
     model, groups = finder.model, finder.groups
     contact = max(groups["elastic_gap"], groups["rough_gap"])
@@ -137,13 +141,15 @@ def _suspects(finder: Locate, path: Path) -> Iterator[Near]:
         yield from _passing(finder, step, y)
 
 
-def _criteria(model: Model, path: Path, step: Step, y: np.ndarray, glass: float, contact: float) -> Iterator[Near]:
+def _criteria(
+    model: Model, path: EventSequence, step: PhaseRun, y: np.ndarray, glass: float, contact: float
+) -> Iterator[Near]:
     """A closing phase: how flat it meets its criterion, how nearly it meets the others."""
     pressure, first, second = _pressures(model, step.phase.region.film, step.phase.region.shear)(y, path.p).full()
     met = step.kinds[:1] and step.kinds[0]
     if met == "glass":
-        if step.duration == 0:  # true at first touch already
-            yield Near("glass criterion met at first touch", math.log(pressure[-1] / glass), _P_GT)
+        if step.duration == 0:  # true at initial contact already
+            yield Near("glass criterion met at initial contact", math.log(pressure[-1] / glass), _P_GT)
         elif second[-1] < 0 < first[-1]:
             yield Near(GLASS, first[-1] ** 2 / (-2 * second[-1] * glass), _P_GT)
     else:
@@ -165,7 +171,7 @@ def _criteria(model: Model, path: Path, step: Step, y: np.ndarray, glass: float,
 _P_GT = "liquid.glass_transition_pressure"
 
 
-def _barrier(finder: Locate) -> float:
+def _barrier(finder: EventLocator) -> float:
     """Gap of the highest barrier; the rupture gap where that is the barrier, or none is known."""
     rim = finder.groups["rupture_gap"] if finder.model.bridge else 1.0
     proof = energy_proof(finder.proof)
@@ -173,12 +179,12 @@ def _barrier(finder: Locate) -> float:
     return min(barriers[0].gap, rim) if barriers else rim
 
 
-def _separatrix(finder: Locate) -> str:
+def _separatrix(finder: EventLocator) -> str:
     rim = finder.groups["rupture_gap"] if finder.model.bridge else 1.0
     return SADDLE if _barrier(finder) < rim * (1 - 1e-12) else RIM
 
 
-def _passing(finder: Locate, step: Step, y: np.ndarray) -> Iterator[Near]:
+def _passing(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
     """How slowly a phase passes the saddle, or how near to it the doublet turns."""
     if _separatrix(finder) != SADDLE:
         return
@@ -190,7 +196,7 @@ def _passing(finder: Locate, step: Step, y: np.ndarray) -> Iterator[Near]:
         yield Near(SADDLE, (float(y[0, -1]) / _barrier(finder) - 1) ** 2, _HINT)
 
 
-def _leaving(finder: Locate, step: Step, y: np.ndarray) -> Iterator[Near]:
+def _leaving(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
     """How fast the doublet still is where it separates."""
     model = finder.model
     held = model.bridge or model.strings or model.choice.law("attraction") is not None
@@ -204,7 +210,7 @@ def _leaving(finder: Locate, step: Step, y: np.ndarray) -> Iterator[Near]:
         yield Near("reversal of the rotation", float(orbit.min() / np.abs(orbit).max()), "angular momentum")
 
 
-def _region(step: Step) -> tuple[int, int]:
+def _region(step: PhaseRun) -> tuple[int, int]:
     return step.phase.region.film, step.phase.region.shear
 
 
@@ -218,7 +224,7 @@ def _pressures(model: Model, film: int, shear: int) -> Function:
     return Function("pressures", [model.column, model.parameters], [densify(vertcat(pressure, first, second))])
 
 
-def _sampled(finder: Locate, path: Path) -> Iterator[tuple[Step, np.ndarray]]:
+def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseRun, np.ndarray]]:
     """Steps and states along each: coarse, and sharper where the coarse ones would decide something."""
     size = len(finder.model.state)
     before = finder.model.start(path.p)
@@ -248,26 +254,26 @@ class _Aside:
     """A collision's scene at other Stokes numbers."""
 
     scene: Scene
-    n: Numbers
+    n: DimensionlessGroups
 
     def groups(self, stokes: float) -> dict[str, float]:
-        return numbers(self.scene, self.scene.speed_of(stokes), self.n.angle).groups
+        return nondimensionalise(self.scene, self.scene.speed_of(stokes), self.n.angle).groups
 
     def criterion(self, stokes: float) -> float:
         """Largest pressure over p_gt, or contact gap over smallest gap, as a logarithm, of the approach alone."""
         groups = self.groups(stokes)
-        model = load(choose(self.scene, self.n.oblique))
+        model = load(select_model(self.scene, self.n.oblique))
         contact = max(groups["elastic_gap"], groups["rough_gap"])
         pressure, smallest = approach(model, groups, _FINE, machine_code=False)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
     def escape(self, stokes: float, reversed_: bool) -> float | None:
-        model = load(choose(self.scene, self.n.oblique))
+        model = load(select_model(self.scene, self.n.oblique))
         return smooth_escape(model, self.groups(stokes), _FINE, reversed_, machine_code=False).value
 
 
-def _measured(scene: Scene, n: Numbers, near: Near) -> Near:
+def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
     """The distance in the Stokes number of a boundary that looks near."""
     aside = _Aside(scene, n)
     functions: dict[str, tuple[Callable[[float], float | None], ...]] = {

@@ -1,6 +1,6 @@
 """How a change of outcome moves with the parameters: gradients of the functions that are zero there.
 
-The functions are those that are smooth through the change (`probe`): the amplitude of the saddle's unstable mode, the
+They are smooth through the change (`boundaries.line`): the amplitude of the unstable mode, the
 gap at which an escape stops short of the rim, the largest pressure of the approach. Their gradients in the groups are
 one adjoint each, at the change itself; the implicit function theorem does the rest.
 """
@@ -14,14 +14,14 @@ from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute
 
 from ...generated.automaton import KINDS, EventKind
 from ..boundaries.changes import FREE, GRAZE, REVERSED, Change
-from ..boundaries.line import WITHOUT_SOLIDS, Probe
+from ..boundaries.line import WITHOUT_SOLIDS, UnstoppedTrajectory
 from ..boundaries.saddle import Saddle, barrier_of, saddle_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
-from ..engines.casadi.locate import Locate, Path, Step
+from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
-from ..model.dimensionless import numbers
-from ..model.model import Model, choose, load
+from ..model.dimensionless import nondimensionalise
+from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
 from .derivatives import adjoint, evaluate, settled
@@ -59,15 +59,15 @@ def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope | No
 
 
 def _groups(scene: Scene, angle: float, stokes: float) -> dict[str, float]:
-    return numbers(scene, scene.speed_of(stokes), angle).groups
+    return nondimensionalise(scene, scene.speed_of(stokes), angle).groups
 
 
 # ---- a criterion that is just met: the flight up to the maximum, at which time makes no difference
 
 
 def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | None:
-    model = load(choose(scene, angle > 0))
-    finder = Locate(model, _groups(scene, angle, stokes * _ABOVE), rtol)
+    model = load(select_model(scene, angle > 0))
+    finder = EventLocator(model, _groups(scene, angle, stokes * _ABOVE), rtol)
     path = finder.run()
     if path.reversal is None:
         return None
@@ -88,7 +88,7 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
     return Slope(tuple(model.groups), carried + by_group.ravel())
 
 
-def _extremum(model: Model, step: Step, kind: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
+def _extremum(model: Model, step: PhaseRun, kind: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
     """Time within the phase at which the pressure is largest, or the gap smallest, by Newton's method."""
     rates = _rates(model, step.phase.region, kind)
     fly = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
@@ -141,13 +141,13 @@ def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: fl
     return _at_rim(probe, path) if path.separated else None
 
 
-def _probe(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> Probe:
+def _probe(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> UnstoppedTrajectory:
     groups = _groups(scene, angle, stokes) | ({} if reversed_ else WITHOUT_SOLIDS)
-    return Probe(load(choose(scene, angle > 0)), groups, rtol)
+    return UnstoppedTrajectory(load(select_model(scene, angle > 0)), groups, rtol)
 
 
-def _at_rim(probe: Locate, path: Path) -> Slope:
-    """Where it turns just short of the rim the gap moves smoothly; where it leaves, the speed at the rim."""
+def _at_rim(probe: EventLocator, path: EventSequence) -> Slope:
+    """Margin of an escape: the largest gap if it turns before rupture, else the normal velocity at rupture."""
     course = course_of(path, probe.model.choice)
     names = list(probe.model.groups)
     durations = np.array([step.duration for step in path.steps])
@@ -161,7 +161,7 @@ def _at_rim(probe: Locate, path: Path) -> Slope:
     return Slope(tuple(names), found * _active(course, probe))
 
 
-def _at_saddle(probe: Locate, path: Path, saddle: Saddle) -> Slope | None:
+def _at_saddle(probe: EventLocator, path: EventSequence, saddle: Saddle) -> Slope | None:
     """Amplitude of the unstable mode near the saddle, which moves itself.
 
     At a fixed time and with the mode as it is: what that leaves out is smaller than the amplitude's own growth by the
@@ -183,11 +183,11 @@ def _at_saddle(probe: Locate, path: Path, saddle: Saddle) -> Slope | None:
     return Slope(tuple(probe.model.groups), (carried - moved.T @ mode) * _active(course, probe))
 
 
-def _active(course: Course, probe: Locate) -> np.ndarray:
+def _active(course: Course, probe: EventLocator) -> np.ndarray:
     return np.array(influential(course, probe.groups), dtype=float)
 
 
-def _nearest(probe: Locate, path: Path, saddle: Saddle, told: Tolerance) -> tuple[int, float] | None:
+def _nearest(probe: EventLocator, path: EventSequence, saddle: Saddle, told: Tolerance) -> tuple[int, float] | None:
     """Which phase comes nearest to the saddle, and how long into it; of those on the saddle's side of the film edge."""
     size = len(probe.model.state)
     film, shear = int(saddle.gap < 1), int(saddle.gap < probe.edge)
@@ -206,7 +206,7 @@ def _nearest(probe: Locate, path: Path, saddle: Saddle, told: Tolerance) -> tupl
     return None if best is None or best[0] > saddle.gap / 2 else best[1:]
 
 
-def _up_to(path: Path, k: int, last: Step) -> tuple[Course, np.ndarray]:
+def _up_to(path: EventSequence, k: int, last: PhaseRun) -> tuple[Course, np.ndarray]:
     """The course of a path up to a time within step k, and its durations."""
     steps = [*path.steps[:k], last]
     part = replace(path, steps=steps, ends=path.ends[: k + 1])

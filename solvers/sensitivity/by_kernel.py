@@ -9,14 +9,14 @@ from functools import partial
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..engines.casadi.locate import Path
+from ..engines.casadi.locate import EventSequence
 from ..engines.taylor.call import Impacts, order_for
-from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, carried, differentiates
-from ..model.dimensionless import numbers
+from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates, run_tangent
+from ..model.dimensionless import nondimensionalise
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
-from .parameters import SCALES, Kind, references, way
+from .parameters import SCALES, Kind, parameter_map, references
 from .problem import Problem, Slopes, sharpened
 from .result import Near
 from .results import QUANTITIES
@@ -57,7 +57,7 @@ class Along:
     first: np.ndarray
 
 
-def along(
+def gradients_by_kernel(
     impacts: Impacts,
     kind: Kind,
     wrt: tuple[str, ...],
@@ -72,14 +72,14 @@ def along(
     Arguments:
         impacts: of one scene; nothing but speed and angle differs among them.
         order: of the series; None: the cheapest for the tolerance.
-        backward: of the restitution alone, taken back along the flights (`carried`).
+        backward: of the restitution alone, taken back along the flights (`run_tangent`).
     """
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
     names = tuple(name for name in si_values(scene, speed, angle) if name != "density")
-    slopes = np.asarray(way(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
+    slopes = np.asarray(parameter_map(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
     by_quantity = dict(zip(names, slopes, strict=False))
-    found = carried(
+    found = run_tangent(
         impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
         backward,
     )  # fmt: skip
@@ -114,13 +114,13 @@ def along(
     return Along(found, value, first)
 
 
-def one(problem: Problem, path: Path, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
+def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
     """Derivatives of the collision of a located flight; None where the kernel has none, or sees another flight."""
     odd_head_on = not problem.n.oblique and problem.odd(of)
     if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    found = along(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
+    found = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
     if found is None:
         return None
     answer = found.flown.answers[0]
@@ -135,7 +135,7 @@ class _Scales:
 
     def __init__(self, scene: Scene, impacts: Impacts, slopes: dict[str, np.ndarray], wrt: tuple[str, ...]) -> None:
         speed, angle = impacts.speed, impacts.angle
-        n = numbers(scene, float(speed[0]), float(angle[0]))
+        n = nondimensionalise(scene, float(speed[0]), float(angle[0]))
         turn = np.tan(angle) / np.tan(angle[0]) if angle[0] > 0 else np.ones(angle.size)
         steep = np.sin(2 * angle[0]) / np.sin(2 * angle) * angle / angle[0] if angle[0] > 0 else np.ones(angle.size)
         pace = speed / speed[0]

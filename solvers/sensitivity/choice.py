@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from ..engines.taylor.build import at_hand
+from ..engines.taylor.build import is_compiled
 from ..engines.taylor.call import order_for
 from ..engines.taylor.tangent import variant_of
 from ..scene.scene import Scene
@@ -26,5 +26,5 @@ def chosen(scene: Scene, of: Sequence[str], oblique: Collection[bool], rtol: flo
     if count > FEW:
         return "taylor" if kernel.offers(scene, of, oblique) else "rosenbrock"
     order, rotation = order_for(rtol), "rotation" in of
-    there = all(at_hand(variant_of(scene, own, order, rotation)) for own in oblique)
+    there = all(is_compiled(variant_of(scene, own, order, rotation)) for own in oblique)
     return "taylor" if there else "rosenbrock"

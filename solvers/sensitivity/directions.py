@@ -83,7 +83,7 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
     return found
 
 
-def bent(
+def second_derivatives(
     whole: Flight, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, along: np.ndarray, active: Active
 ) -> np.ndarray:
     """Second derivatives of the quantities between directions `dp` (groups, n) and `along` (groups, m): (q, n, m)."""

@@ -13,11 +13,11 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ...generated.automaton import STICK as STICKS
 from ..engines.taylor.call import Impacts, order_for
-from ..engines.taylor.tangent import DISTANCES, Carried, carried
+from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
-from ..many.batch import requested
+from ..many.batch import validated_batch
 from ..many.collide_many import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
@@ -25,10 +25,10 @@ from ..settings import FEW, RTOL, STEPS, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
 from .choice import chosen
-from .parameters import Kind, check_hold, check_wrt, kind_of, references, way
+from .parameters import Kind, check_hold, check_wrt, kind_of, parameter_map, references
 from .problem import NEAR, SHARPEST
 from .result import Near
-from .results import QUANTITIES, check_of
+from .results import QUANTITIES, check_quantities
 from .sensitivities import sensitivities
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class _Asked:
     def units(self, which: np.ndarray) -> np.ndarray:
         """(collisions, parameters): dp/dtheta."""
         first = references(self.scene, self.kind, float(self.speed[which[0]]), float(self.angle[which[0]]))
-        units = np.asarray(way(self.kind, self.wrt, ()).slopes(first)[1].full()).ravel()
+        units = np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(first)[1].full()).ravel()
         units = np.tile(units, (which.size, 1))
         for k, name in enumerate(self.wrt):
             if name in ("impact.speed", "impact.stokes"):
@@ -127,9 +127,9 @@ def gradients_many(
         >>> found.gradient.sel(quantity="restitution", parameter="liquid.viscosity").shape
         (2,)
     """
-    names, held = check_of(of), check_hold(hold)
+    names, held = check_quantities(of), check_hold(hold)
     by = check_engine(engine)
-    request = requested(scene, stokes, speed, angle, {}, rtol, "rosenbrock", ())
+    request = validated_batch(scene, stokes, speed, angle, {}, rtol, "rosenbrock", ())
     loaded = request.scene
     warn(loaded)
     velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
@@ -168,7 +168,9 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     order = order_for(asked.rtol)
 
     def flown(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
-        return kernel.along(asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward)
+        return kernel.gradients_by_kernel(
+            asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward
+        )
 
     found = flown(which, asked.rtol, _SOON, back)
     if found is None:
@@ -222,7 +224,7 @@ def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
 def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
     """Collisions without derivatives, by the same kernel."""
     oblique = bool(asked.angle[which[0]] > 0)
-    found = carried(asked.impacts(which, factor), oblique, rtol, "rotation" in asked.of, (), order_for(asked.rtol))
+    found = run_tangent(asked.impacts(which, factor), oblique, rtol, "rotation" in asked.of, (), order_for(asked.rtol))
     assert found is not None  # the kernel is there
     return found
 

@@ -101,7 +101,7 @@ def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
 
 
 @dataclass(frozen=True)
-class Way:
+class ParameterMap:
     """From parameters to groups and scales: functions of the reference values.
 
     Arguments:
@@ -116,7 +116,7 @@ class Way:
 
 
 @own_cache(128)
-def way(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> Way:
+def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> ParameterMap:
     """The way from a kind's parameters to the groups of a model.
 
     Speed and Stokes number are one variable: either moves whichever of the two the kind holds, by the same part.
@@ -148,7 +148,7 @@ def way(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> Way:
 
     weights = SX.sym("weights", column.numel())
     weighted = (weights.T @ column)[0]
-    return Way(
+    return ParameterMap(
         function("values", [], column),
         function("slopes", [], jacobian(column, theta), vertcat(*units)),
         function("bends", [weights], hessian(weighted, theta)[0]),

@@ -8,15 +8,15 @@ from typing import Literal
 import numpy as np
 
 from ..engines.casadi.integrators import IntegrationFailed, tolerance
-from ..engines.casadi.locate import Locate, Path
+from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import load, select_model
 from ..scene.scene import Scene
 from . import boundary_distance as nearness
 from .derivatives import LANDED_WELL, settled
-from .directions import bent, differentiated, landed
-from .parameters import SCALES, Kind, Way, kind_of, references, way
+from .directions import differentiated, landed, second_derivatives
+from .parameters import SCALES, Kind, ParameterMap, kind_of, parameter_map, references
 from .result import Near
 from .results import QUANTITIES
 from .trajectory_expression import course_of, flight, influential
@@ -45,7 +45,7 @@ class Problem:
     """A collision, the parameters to differentiate in, and the reference that theta is measured from."""
 
     scene: Scene
-    n: Numbers
+    n: DimensionlessGroups
     wrt: tuple[str, ...]
     kind: Kind
     reference: np.ndarray
@@ -54,18 +54,18 @@ class Problem:
     def of(cls, scene: Scene, speed: float, angle: float, wrt: tuple[str, ...], hold: str) -> Problem:
         """The problem of a scene's collision at a normal speed (m/s) and angle (rad)."""
         kind = kind_of(scene, hold)
-        return cls(scene, numbers(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
+        return cls(scene, nondimensionalise(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
 
-    def located(self, of: tuple[str, ...], rtol: float) -> tuple[Path, Near | None]:
+    def located(self, of: tuple[str, ...], rtol: float) -> tuple[EventSequence, Near | None]:
         """The flight and the nearest boundary that it shows; ComputationError if that is too near."""
-        finder = Locate(load(choose(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
+        finder = EventLocator(load(select_model(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
         try:
             path = finder.run()
         except ComputationError as error:
             raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
         near = nearness.checked(self.scene, self.n, finder, path, rtol)
         if not self.n.oblique and path.separated and self.odd(of) and self.scene.pendulum is None:
-            path = Locate(load(choose(self.scene, True)), self.n.groups, _LOCATED).run()
+            path = EventLocator(load(select_model(self.scene, True)), self.n.groups, _LOCATED).run()
         return path, near
 
     def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
@@ -78,11 +78,11 @@ class Problem:
         With strings, whose equations are divided by the impact's rotation. The error is of the square of the angle.
         """
         aside = Problem.of(self.scene, self.n.speed, _ASIDE, ("impact.angle",), self.kind.hold)
-        path = Locate(load(choose(self.scene, True)), aside.n.groups, _LOCATED).run()
+        path = EventLocator(load(select_model(self.scene, True)), aside.n.groups, _LOCATED).run()
         slopes = aside.slopes(path, of, method, plugin, rtol)
         return dict(zip(of, (slopes.first[:, 0] / aside.units()[0]).tolist(), strict=True))
 
-    def defined(self, name: str, path: Path) -> bool:
+    def defined(self, name: str, path: EventSequence) -> bool:
         """Whether physics defines a quantity for the collision, as something that varies."""
         if name == "tangential_restitution" and not self.n.oblique:
             return False
@@ -90,7 +90,7 @@ class Problem:
 
     def slopes(
         self,
-        path: Path,
+        path: EventSequence,
         of: tuple[str, ...],
         method: str,
         plugin: str,
@@ -104,13 +104,13 @@ class Problem:
             ComputationError: the engine could not fly or differentiate it.
         """
         full = "energy.tangential_lubrication" in of
-        course = course_of(path, choose(self.scene, path.model.oblique, full=full))
+        course = course_of(path, select_model(self.scene, path.model.oblique, full=full))
         if plugin == "cvodes":
             rtol = max(rtol, _SHARPEST_CVODES)
         else:
             rtol = sharpened(rtol, near)
         whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
-        via = way(self.kind, self.wrt, whole.groups)
+        via = parameter_map(self.kind, self.wrt, whole.groups)
         size = len(whole.groups)
         p, scales = np.split(via.values(self.reference).full().ravel(), [size])
         slopes = np.asarray(via.slopes(self.reference)[0].full())
@@ -125,7 +125,7 @@ class Problem:
             if along is not None:
                 right = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
                 durations = settled(whole, p, durations, landed(course), LANDED_WELL)
-                second = bent(whole, p, durations, dp, dp @ right, active)
+                second = second_derivatives(whole, p, durations, dp, dp @ right, active)
         except IntegrationFailed as failure:
             raise ComputationError(
                 f"{plugin} could not differentiate the flight ({failure})",
@@ -140,7 +140,7 @@ class Problem:
 
     def units(self) -> np.ndarray:
         """dp/dtheta of the parameters."""
-        return np.asarray(way(self.kind, self.wrt, ()).slopes(self.reference)[1].full()).ravel()
+        return np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(self.reference)[1].full()).ravel()
 
     def value_of(self, name: str) -> float:
         """A parameter's own value, SI."""
@@ -171,7 +171,7 @@ class _Units:
 
     def second(
         self,
-        via: Way,
+        via: ParameterMap,
         reference: np.ndarray,
         z: np.ndarray,
         dz: np.ndarray,

@@ -51,7 +51,7 @@ SPENT = (*LEDGER[2:-1],)
 """Terms that the ledger takes from the initial energy, beside the final one."""
 
 
-def check_of(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
+def check_quantities(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
     """The quantities asked for; InputError naming the nearest for one that there is not."""
     asked = check_names(of, tuple(QUANTITIES), label)
     if not asked:

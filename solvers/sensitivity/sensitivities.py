@@ -17,7 +17,7 @@ from .choice import chosen
 from .parameters import check_hold, check_wrt
 from .problem import Along, Problem, Slopes
 from .result import Sensitivities
-from .results import SPENT, check_of, computed
+from .results import SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
 _PART = Field("hessian", "a number (SI)", "1.0", Range("of either sign", lambda _: True))
@@ -74,7 +74,7 @@ def sensitivities(
         >>> found.gradient["restitution"]["bridge.surface_tension"] < 0
         True
     """
-    of, method, hold = check_of(of), check_method(method), check_hold(hold)
+    of, method, hold = check_quantities(of), check_method(method), check_hold(hold)
     rtol, asked = check_rtol(rtol), check_engine(engine)
     if asked == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")

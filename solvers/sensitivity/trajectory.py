@@ -15,16 +15,16 @@ import numpy as np
 from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
-from ..engines.casadi.locate import Path
+from ..engines.casadi.locate import EventSequence
 from ..errors import ComputationError, InputError
 from ..host.thread_caches import own_cache
-from ..model.model import choose
+from ..model.model import select_model
 from ..model.phases import Flow, expressions
 from ..scene.scene import Scene
 from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
 from .directions import inverse, landed, spanning
-from .parameters import check_hold, check_wrt, way
+from .parameters import check_hold, check_wrt, parameter_map
 from .problem import Problem
 from .trajectory_expression import Course, course_of, ending, flown, influential, symbols
 
@@ -83,7 +83,7 @@ def trajectory_sensitivities(
         raise InputError("wrt", "impact.angle", accepted, "moves a head-on collision out of its line")
     pieces, events = _pieces(problem, path, plugin, rtol)
     if not pieces:
-        raise ComputationError("no trajectory: the outcome is decided at first touch", advice="try another impact")
+        raise ComputationError("no trajectory: the outcome is decided at initial contact", advice="try another impact")
     units = problem.units()
     data: dict[str, Any] = {}
     for k, (name, (unit, what)) in enumerate(_VARIABLES.items()):
@@ -108,13 +108,13 @@ Piece = tuple[np.ndarray, np.ndarray, np.ndarray, str]
 
 
 def _pieces(
-    problem: Problem, path: Path, plugin: str, rtol: float
+    problem: Problem, path: EventSequence, plugin: str, rtol: float
 ) -> tuple[list[Piece], list[tuple[str, float, np.ndarray]]]:
     """The flown phases one by one, and the events with their times and what these do."""
     told = tolerance(rtol, plugin, problem.n.groups)
-    whole = course_of(path, choose(problem.scene, path.model.oblique, full=True))
+    whole = course_of(path, select_model(problem.scene, path.model.oblique, full=True))
     groups = tuple(whole.model.groups)
-    via = way(problem.kind, problem.wrt, groups)
+    via = parameter_map(problem.kind, problem.wrt, groups)
     p, scales = np.split(via.values(problem.reference).full().ravel(), [len(groups)])
     slopes = np.asarray(via.slopes(problem.reference)[0].full())
     active = influential(whole, problem.n.groups)

@@ -14,10 +14,10 @@ import numpy as np
 from casadi import DM, MX, Function, vertcat
 
 from ..engines.casadi.integrators import Tolerance, landing, plain
-from ..engines.casadi.locate import Path
+from ..engines.casadi.locate import EventSequence
 from ..host.thread_caches import own_cache
-from ..model.model import Choice, Model, load
-from ..model.phases import Flow, Phase, Watch
+from ..model.model import Model, ModelKey, load
+from ..model.phases import Flow, Phase, WatchedEvents
 from .results import QUANTITIES
 
 # landing's parameters after the groups: direction of motion, and the level of the certificate, which is never landed on
@@ -40,10 +40,10 @@ class Course:
     """A flight but for its numbers: the key under which its expression is kept.
 
     Arguments:
-        nearest: legs after which the gap was smallest; -1: at first touch.
+        nearest: legs after which the gap was smallest; -1: at initial contact.
     """
 
-    choice: Choice
+    choice: ModelKey
     legs: tuple[Leg, ...]
     tangential_edge: bool
     nearest: int
@@ -53,11 +53,11 @@ class Course:
         return load(self.choice)
 
     @property
-    def watch(self) -> Watch:
-        return Watch(tangential_edge=self.tangential_edge)
+    def watch(self) -> WatchedEvents:
+        return WatchedEvents(tangential_edge=self.tangential_edge)
 
 
-def course_of(path: Path, choice: Choice) -> Course:
+def course_of(path: EventSequence, choice: ModelKey) -> Course:
     """The course of a located path, to be flown with a model (its own, or the full form of it)."""
     legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.reverses, step.holds) for step in path.steps)
     gaps = [1.0, *(float(end[0]) for end in path.ends)]
@@ -86,7 +86,7 @@ class Flown:
 
 
 def flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flown:
-    """Follow a course from first touch."""
+    """Follow a course from initial contact."""
     model = course.model
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..engines.casadi.integrators import Locator, Stop
-from ..engines.casadi.locate import Locate, Path
+from ..engines.casadi.integrators import EventHit, Locator
+from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError, WetDoubletError
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import load, select_model
 from ..model.phases import Phase
 from ..scene.scene import Scene
 from .report import Finding
@@ -32,12 +32,12 @@ class _Long(Exception):
     """The flight has lasted as long as was asked for."""
 
 
-class WithoutProof(Locate):
+class WithoutProof(EventLocator):
     """A flight that no certificate ends; it runs to an event that ends it, or until a time."""
 
     until = math.inf
 
-    def on(self, until: float) -> Path:
+    def on(self, until: float) -> EventSequence:
         """Fly; the path is `separated` if the doublet escaped before `until` (x0/v0)."""
         self.until = until
         try:
@@ -51,7 +51,7 @@ class WithoutProof(Locate):
     def _level(self) -> float | None:
         return None
 
-    def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
+    def _advance(self, find: Locator, stretch: float, level: float) -> EventHit:
         left = self.until - self.path.time
         if left <= 0 or len(self.path.steps) > _PHASES:
             raise _Long
@@ -82,7 +82,7 @@ def stick_audit(
     scene: Scene,
     angles: tuple[float, ...] | None = None,
     impacts: int = WHOLE.audited,
-    flight: type[Locate] = Locate,
+    flight: type[EventLocator] = EventLocator,
 ) -> Iterator[Finding]:
     """Counts, and the law that no certified stick escapes.
 
@@ -114,7 +114,7 @@ def audit(
     scene: Scene,
     angles: tuple[float, ...] | None = None,
     impacts: int = WHOLE.audited,
-    flight: type[Locate] = Locate,
+    flight: type[EventLocator] = EventLocator,
 ) -> Audit:
     """Draw impacts, locate each with its certificate, and fly the proved ones on without it."""
     draw = np.random.default_rng(_SEED)
@@ -127,8 +127,8 @@ def audit(
             continue
         found.impacts += 1
         try:
-            n = numbers(scene, scene.speed_of(stokes), angle)
-            path = flight(load(choose(scene, n.oblique)), n.groups, _RTOL).run()
+            n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+            path = flight(load(select_model(scene, n.oblique)), n.groups, _RTOL).run()
         except WetDoubletError:
             continue  # nothing is certified
         found.sticks += path.outcome == "stick"
@@ -137,15 +137,15 @@ def audit(
     return found
 
 
-def _ended_early(path: Path) -> bool:
+def _ended_early(path: EventSequence) -> bool:
     """Whether the flight stopped inside a phase, by a proof or by what stands in for one."""
     return bool(path.steps) and path.steps[-1].event is None
 
 
-def _fly_on(found: Audit, scene: Scene, n: Numbers, path: Path, where: str) -> None:
+def _fly_on(found: Audit, scene: Scene, n: DimensionlessGroups, path: EventSequence, where: str) -> None:
     found.proved += path.certified
     found.settled += not path.certified
-    flight = WithoutProof(load(choose(scene, n.oblique)), n.groups, _RTOL)
+    flight = WithoutProof(load(select_model(scene, n.oblique)), n.groups, _RTOL)
     try:
         on = flight.on(path.time + LONG)
     except ComputationError as failure:

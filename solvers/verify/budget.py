@@ -103,7 +103,7 @@ def terms(one: Collision) -> dict[str, float]:
 
 
 def _released(one: Collision) -> float:
-    """Energy of rotation at first touch less that at separation, J: from the rates, not from the ledger."""
+    """Energy of rotation at initial contact less that at separation, J: from the rates, not from the ledger."""
     particles, film = one.scene.particles, one.scene.liquid.film_thickness
     a, m = particles.reduced_radius, particles.reduced_mass
     first, last = 4 * a + film, 4 * a + _separation(one)

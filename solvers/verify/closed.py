@@ -14,8 +14,8 @@ import numpy as np
 from ..collision.collide import collide
 from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
 from ..errors import ComputationError
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import load, select_model
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
 from .report import Finding, bounded
@@ -82,7 +82,7 @@ def film_alone(scene: Scene, engine: str) -> tuple[float, str]:
     worst = max(_approach(bare, factor * own_stokes(bare), engine) for factor in (0.3, 1.0, 4.0))
     bounced = 0
     for stokes in _stokes_range(bare):
-        n = numbers(bare, bare.speed_of(stokes), 0.0)
+        n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
         gap = _reversal(n, bare.model.glass)
         loss = film_loss(gap) / stokes
         expected = bare.particles.dry_restitution * (1 - loss) - loss
@@ -99,8 +99,8 @@ def film_alone(scene: Scene, engine: str) -> tuple[float, str]:
 
 def _approach(bare: Scene, stokes: float, engine: str) -> tuple[float, str]:
     """Error of -u/v0 against the closed form on the way in, at several instants."""
-    n = numbers(bare, bare.speed_of(stokes), 0.0)
-    flow, start = Flow(choose(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
+    n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
+    flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
     contact, errors = max(n.groups["elastic_gap"], n.groups["rough_gap"]), [0.0]
     for time in _INSTANTS.tolist():
         gap, opening = _flown(flow, engine, n, start, time)
@@ -116,7 +116,7 @@ def _stokes_range(bare: Scene) -> list[float]:
     return list(np.geomspace(1e-3 * critical, 30 * critical, 60).tolist())
 
 
-def _reversal(n: Numbers, glass: str) -> float:
+def _reversal(n: DimensionlessGroups, glass: str) -> float:
     """The first gap, from x0 inward, at which a criterion is met; by scanning and bisection of the closed form."""
     stokes, limit = n.groups["stokes"], n.groups["glass_number"]
     contact = max(n.groups["elastic_gap"], n.groups["rough_gap"])
@@ -142,16 +142,16 @@ def _reversal(n: Numbers, glass: str) -> float:
     return outer
 
 
-def _oblique(scene: Scene) -> Numbers:
+def _oblique(scene: Scene) -> DimensionlessGroups:
     """Numbers of the scene's impact, or of a slanted one if it is head-on."""
-    return numbers(scene, scene.speed_of(own_stokes(scene)), scene.angle or _ANGLE)
+    return nondimensionalise(scene, scene.speed_of(own_stokes(scene)), scene.angle or _ANGLE)
 
 
 def straight_line(scene: Scene, engine: str) -> tuple[float, str]:
     """Error of r and beta of free spheres, over r0 and 1 rad, at several instants."""
     bare = _bare(scene)
     n = _oblique(bare)
-    flow = Flow(choose(bare, oblique=True, full=True), Region(0, 0, False), ("rotation",))
+    flow = Flow(select_model(bare, oblique=True, full=True), Region(0, 0, False), ("rotation",))
     start = np.array([1.0, 1.0, (4 + n.groups["aspect"]) ** 2, 0.0, 0.0])  # opening, or they would meet
     aspect, tangent = n.groups["aspect"], n.groups["obliquity"]
     distance = (4 + aspect) / aspect  # in x0; the tangential speed over v0 is tan(theta0) r0/(4a)
@@ -173,7 +173,7 @@ def spin_relaxes(scene: Scene, engine: str) -> tuple[float, str]:
     """Error of the slip, and of its end as one rigid body, with the gap held at some depths of the film."""
     bare = _bare(scene).with_entries({"model.arm": "midgap"})
     n = _oblique(bare)
-    choice = choose(bare, oblique=True, full=True)
+    choice = select_model(bare, oblique=True, full=True)
     flow, edge = Flow(choice, Region(1, 1, True)), float(load(choice).laws.shear.edge(n.groups["aspect"]))
     a, m, mu = bare.particles.reduced_radius, bare.particles.reduced_mass, bare.liquid.viscosity
     worst = (-1.0, "")
@@ -202,7 +202,7 @@ def swinging(scene: Scene, engine: str) -> tuple[float, str]:
     tables = {name: value for name, value in scene.to_dict().items() if name != "bridge"}
     dry = Scene.from_dict(tables).with_entries({"pendulum.law": "small-angle"})
     n = _oblique(dry)
-    flow = Flow(choose(dry, oblique=True, full=True), Region(0, 0, False))
+    flow = Flow(select_model(dry, oblique=True, full=True), Region(0, 0, False))
     a, aspect = dry.particles.reduced_radius, n.groups["aspect"]
     start = np.array([1.0, 1.0, (4 + aspect) ** 2, 0.0, 0.0])
     swing = math.sqrt(scene.pendulum.gravity / scene.pendulum.length)  # rad/s
@@ -220,6 +220,6 @@ def swinging(scene: Scene, engine: str) -> tuple[float, str]:
     return worst
 
 
-def _flown(flow: Flow, engine: str, n: Numbers, start: np.ndarray, time: float) -> np.ndarray:
+def _flown(flow: Flow, engine: str, n: DimensionlessGroups, start: np.ndarray, time: float) -> np.ndarray:
     p = flow.model.group_values(n.groups)
     return plain(flow, engine, tolerance(RTOL, engine, n.groups))(start, p, time)

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..engines.casadi.integrators import Tolerance, tolerance
-from ..engines.casadi.locate import Path, locate
+from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Flown, Stopped, fly
 from ..errors import ComputationError
-from ..model.dimensionless import Numbers, numbers
-from ..model.model import Model, choose, load
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
 
@@ -20,8 +20,8 @@ from ..scene.scene import Scene
 class Followed:
     """A flight: its path, as one engine flew it, with spin as a state."""
 
-    numbers: Numbers
-    path: Path
+    nondimensionalise: DimensionlessGroups
+    path: EventSequence
     flown: Flown
     model: Model
     p: np.ndarray
@@ -34,9 +34,9 @@ def follow(scene: Scene, stokes: float, angle: float, engine: str, rtol: float) 
     Raises:
         ComputationError: the outcome cannot be decided, or the engine stopped.
     """
-    n = numbers(scene, scene.speed_of(stokes), angle)
-    path = locate(load(choose(scene, n.oblique)), n.groups, rtol)
-    flow = Flow(choose(scene, n.oblique, full=True), Region(1, 1, False))
+    n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+    path = locate(load(select_model(scene, n.oblique)), n.groups, rtol)
+    flow = Flow(select_model(scene, n.oblique, full=True), Region(1, 1, False))
     p, told = flow.model.group_values(n.groups), tolerance(rtol, engine, n.groups)
     try:
         flown = fly(path, engine, told, flow, flow.model.start(p))

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..host.emitted import DERIVING
-from ..model.model import choose
+from ..model.model import select_model
 from .report import Finding
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
     from ...derive.checks import symbolic_checks
     from ...derive.physics.laws import LAWS
 
-    chosen = choose(scene, oblique=True, full=True).laws if scene is not None else ()
+    chosen = select_model(scene, oblique=True, full=True).laws if scene is not None else ()
     laws = {slot: LAWS[slot][name] for slot, name in chosen if name in LAWS[slot]}
     for check in _alone(symbolic_checks(laws)):
         yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)

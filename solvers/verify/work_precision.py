@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..collision.collide import collide
-from ..engines.taylor.build import knows
+from ..engines.taylor.build import supported
 from ..errors import ComputationError
 from ..host.environment import one_core
 from ..many.collide_many import FAILED, collide_many
@@ -176,7 +176,7 @@ def work_precision(
     Raises:
         ComputationError: no reference could be computed.
     """
-    engines = [name for name in ENGINES if name != "taylor" or knows(scene)]
+    engines = [name for name in ENGINES if name != "taylor" or supported(scene)]
     total = len(engines) * len(tolerances) + 1
     impacts, sample = _drawn(scene, batch)
     progress(0, total)

@@ -21,7 +21,7 @@ from wetdoublet.solvers.engines.casadi import integrators
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.host import compiled
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.verify.stress.answers import dimensionless
 
 from .measured.tasks import TASKS, Task
@@ -47,7 +47,9 @@ class Clock:
 
 def measure(task: Task, level: str) -> dict[str, Any]:
     """Compile everything the task needs in a fresh cache, then fly it."""
-    flights = [(load(choose(task.scene, True)), dimensionless(task.scene, impact).groups) for impact in task.impacts()]
+    flights = [
+        (load(select_model(task.scene, True)), dimensionless(task.scene, impact).groups) for impact in task.impacts()
+    ]
     with tempfile.TemporaryDirectory() as cache:
         integrators.locator.cache_clear()
         with (

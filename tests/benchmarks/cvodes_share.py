@@ -18,7 +18,7 @@ from wetdoublet.solvers.engines.casadi.integrators import Tolerance
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped, fly
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
 from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
@@ -32,7 +32,7 @@ COUNT = 60  # impacts drawn a task, by the seed of the benchmark
 def errors(task: Task, impact: Impact) -> dict[str, list[float | None]] | None:
     """Errors by engine at every tolerance; None for a stick."""
     n = dimensionless(task.scene, impact)
-    model = load(choose(task.scene, True))
+    model = load(select_model(task.scene, True))
     path = locate(model, n.groups, 1e-13)
     if not path.separated:
         return None

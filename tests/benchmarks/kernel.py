@@ -3,8 +3,8 @@
     python -m tests.benchmarks.kernel            measures, prints, writes docs/performance/kernel.json and the page
     python -m tests.benchmarks.kernel --print    only prints
 
-Both tasks of verify/stress/impacts.py, each set repeated 20 times in one call; CPU time over the collisions that are
-not decided at first touch, the best of five runs; error against Rosenbrock at 1e-12.
+Both tasks of measured/tasks.py, each set repeated 20 times in one call; CPU time over the collisions that are
+not decided at initial contact, the best of five runs; error against Rosenbrock at 1e-12.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def work() -> list[dict[str, Any]]:
             cpu = math.inf
             for _ in range(RUNS):
                 before = time.process_time()
-                found = engine.answers(many, rtol)
+                found = engine.run_kernel(many, rtol)
                 cpu = min(cpu, time.process_time() - before)
             assert found is not None
             undecided = int((found["status"] != 1).sum())
@@ -80,7 +80,7 @@ def main() -> None:
     record = {"environment": environment(), "lanes": library.lanes(), "flags": library.FLAGS}
     record["work"] = work()
     text = f"""{BEGIN}
-{record["lanes"]} lanes. CPU time a collision that is not decided at first touch:
+{record["lanes"]} lanes. CPU time a collision that is not decided at initial contact:
 
 {table(record["work"])}
 

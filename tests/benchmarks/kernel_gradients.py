@@ -25,7 +25,7 @@ from wetdoublet.solvers import gradients_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.sensitivity.by_kernel import along
+from wetdoublet.solvers.sensitivity.by_kernel import gradients_by_kernel
 from wetdoublet.solvers.sensitivity.parameters import known
 
 from .measured.gradient_task import Gradients
@@ -57,15 +57,15 @@ def of_parameters(asked: Gradients, many: engine.Impacts) -> list[dict[str, Any]
     rows = []
     size = len(asked.impacts)
     for rtol in (1e-8, 1e-9, 1e-10, 1e-12):
-        runs: dict[str, Callable[[], Any]] = {"value": lambda rtol=rtol: engine.answers(many, rtol)}
+        runs: dict[str, Callable[[], Any]] = {"value": lambda rtol=rtol: engine.run_kernel(many, rtol)}
         for names in (SOME[:1], SOME, asked.names):
-            runs[f"{len(names)}"] = lambda names=names, rtol=rtol: along(
+            runs[f"{len(names)}"] = lambda names=names, rtol=rtol: gradients_by_kernel(
                 many, asked.kind, names, ("restitution",), rtol, backward=True
             )
-            runs[f"{len(names)}, along"] = lambda names=names, rtol=rtol: along(
+            runs[f"{len(names)}, along"] = lambda names=names, rtol=rtol: gradients_by_kernel(
                 many, asked.kind, names, ("restitution",), rtol
             )
-        found = along(many, asked.kind, asked.names, ("restitution",), rtol, backward=True)
+        found = gradients_by_kernel(many, asked.kind, asked.names, ("restitution",), rtol, backward=True)
         assert found is not None
         error = float(asked.errors(found.first[0, :size]).max())
         rows.append({"rtol": rtol} | least(runs, many.angle.size) | {"largest error": error})
@@ -78,10 +78,10 @@ def beside(asked: Gradients, many: engine.Impacts) -> dict[str, Any]:
     exact: dict[str, float] = {}
     size, wrt = len(asked.impacts), list(asked.names)
     for rtol in OURS:
-        runs[f"kernel {rtol}"] = lambda rtol=rtol: along(
+        runs[f"kernel {rtol}"] = lambda rtol=rtol: gradients_by_kernel(
             many, asked.kind, asked.names, ("restitution",), rtol, backward=True
         )
-        found = along(many, asked.kind, asked.names, ("restitution",), rtol, backward=True)
+        found = gradients_by_kernel(many, asked.kind, asked.names, ("restitution",), rtol, backward=True)
         assert found is not None
         exact[f"kernel {rtol}"] = float(asked.errors(found.first[0, :size]).max())
         runs[f"gradients_many {rtol}"] = lambda rtol=rtol: gradients_many(

@@ -24,7 +24,7 @@ from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.many import collide_many as many
-from wetdoublet.solvers.many.batch import Request, requested
+from wetdoublet.solvers.many.batch import Batch, validated_batch
 from wetdoublet.solvers.many.by_kernel import collided
 
 from .kernel import table
@@ -61,9 +61,9 @@ def measured(kind: str, scene: Scene) -> dict[str, Any]:
     stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
     angle = np.where((scene.bridge is None) & (angle < 0.02), 0.02, angle)  # below, escape takes for ever
 
-    def request(rtol: float, engine: str, repeats: int = 1) -> Request:
+    def request(rtol: float, engine: str, repeats: int = 1) -> Batch:
         of = ("outcome", "restitution")
-        return requested(scene, np.tile(stokes, repeats), None, np.tile(angle, repeats), {}, rtol, engine, of)
+        return validated_batch(scene, np.tile(stokes, repeats), None, np.tile(angle, repeats), {}, rtol, engine, of)
 
     def kernel() -> many.Block:
         repeated = request(RTOL, "taylor", REPEATS)

@@ -200,7 +200,7 @@ def test_rupture_distance():
 
 
 def test_start():
-    """At first touch x = x0, u = -v0, omega = v0 tan(theta0)/(4a), xi = beta = 0."""
+    """At initial contact x = x0, u = -v0, omega = v0 tan(theta0)/(4a), xi = beta = 0."""
     published = {x: x0, u: -v0, omega: v0 * sp.tan(q.theta0) / (4 * a), xi: 0, beta: 0}
     assert start_values() == published
 

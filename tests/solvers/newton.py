@@ -84,7 +84,7 @@ class End:
 
 
 def flown(bodies: Bodies, speed: float, angle: float, longest: float, rtol: float = 1e-11) -> End:
-    """From first touch, without any criterion of reversal, to rupture or for `longest` s."""
+    """From initial contact, without any criterion of reversal, to rupture or for `longest` s."""
     (one, other), (mass, second_mass) = bodies.radii, bodies.masses
     contact = one + other
     r0 = contact + bodies.film_thickness

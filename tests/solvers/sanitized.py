@@ -23,9 +23,9 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import Purpose
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.taylor.call import Impacts, answers
-from wetdoublet.solvers.engines.taylor.record import recorded
-from wetdoublet.solvers.engines.taylor.tangent import carried
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.record import run_recorded
+from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.cores import usable_cores
 from wetdoublet.solvers.scene.groups import si_values
@@ -68,19 +68,19 @@ Flown = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
 
 def _recorded(**options: Any) -> Flown:
-    return lambda impacts, oblique: recorded(impacts, oblique, RTOL, budget=BUDGET, **options) is not None
+    return lambda impacts, oblique: run_recorded(impacts, oblique, RTOL, budget=BUDGET, **options) is not None
 
 
 def _carried(backward: bool) -> Flown:
     def fly(impacts: Impacts, oblique: bool) -> bool:
-        return carried(impacts, oblique, RTOL, False, budget=BUDGET, backward=backward) is not None
+        return run_tangent(impacts, oblique, RTOL, False, budget=BUDGET, backward=backward) is not None
 
     return fly
 
 
 KINDS: dict[str, Flown] = {
-    "plain": lambda impacts, _: answers(impacts, RTOL, budget=BUDGET) is not None,
-    "rotation": lambda impacts, _: answers(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
+    "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET) is not None,
+    "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
     "ledger": _recorded(ledger=True, room=(4, 4)),
     "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),
     "trajectory": _recorded(trajectory=True, room=(4, 4)),
@@ -128,7 +128,7 @@ def fly_reference(case: dict[str, Any]) -> None:
     scene = Scene.from_dict(case["scene"], from_file=True).with_impact(**case["impact"])
     speed, angle = scene.need_impact()
     impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
-    found = recorded(impacts, angle > 0, RTOL, ledger=True, trajectory=True)
+    found = run_recorded(impacts, angle > 0, RTOL, ledger=True, trajectory=True)
     assert found is not None
     expected, answer = case["results"], found.answers[0]
     assert ("stick", "stick-rotate-separate", "bounce")[answer["outcome"]] == expected["outcome"]

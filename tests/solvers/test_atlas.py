@@ -21,8 +21,8 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.boundaries.line import approach
 from wetdoublet.solvers.boundaries.plot import draw
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 
 from .command import run
 
@@ -150,8 +150,8 @@ def test_a_plane_of_another_entry() -> None:
     assert [one.kind for one in found.points] == ["criterion change", "triple point"]
     criterion, triple = found.points
     both = scene.with_entries({"particles.roughness": criterion.x})
-    n = numbers(both, both.speed_of(criterion.stokes), scene.angle or 0.0)
-    pressure, gap = approach(load(choose(both, oblique=True)), n.groups, 1e-10)
+    n = nondimensionalise(both, both.speed_of(criterion.stokes), scene.angle or 0.0)
+    pressure, gap = approach(load(select_model(both, oblique=True)), n.groups, 1e-10)
     assert pressure == pytest.approx(n.groups["glass_number"], rel=1e-6)
     assert gap == pytest.approx(n.groups["rough_gap"], rel=1e-6)
     near = triple.stokes * np.exp(np.linspace(-4e-5, 4e-5, 801))

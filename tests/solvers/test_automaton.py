@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from wetdoublet.generated.automaton import CLOSING, KINDS, OUTCOMES, Status
+from wetdoublet.generated.automaton import CLOSING, CRITERIA, EVENTS, KINDS, OUTCOMES, Status
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.certificates import proof_for
 from wetdoublet.solvers.engines.casadi.locate import locate
-from wetdoublet.solvers.engines.taylor.call import Impacts, answers
-from wetdoublet.solvers.engines.taylor.record import Recorded, recorded
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.includes import RUNTIME
+from wetdoublet.solvers.engines.taylor.record import Recorded, run_recorded
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Phase
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
@@ -38,13 +39,23 @@ SCENES = {  # scene, range of Stokes numbers
 def by_kernel(scene: Scene, stokes: np.ndarray, angle: np.ndarray) -> Recorded:
     """Collisions with their events."""
     impacts = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
-    told = recorded(impacts, bool(angle[0] > 0), 1e-9, trajectory=True, keep=False, fold=False)
+    told = run_recorded(impacts, bool(angle[0] > 0), 1e-9, trajectory=True, keep=False, fold=False)
     assert told is not None
     return told
 
 
 def events(told: Recorded, k: int) -> list[str]:
     return [KINDS[int(kind)] for kind in told.events[k, : told.answers["events"][k]]["kind"]]
+
+
+def test_the_kernel_looks_for_every_event() -> None:
+    """Each event of the table is looked for by the kernel's `find_events`, each criterion where a phase begins."""
+    looked, met = ((RUNTIME / name).read_text() for name in ("events.h", "transitions.h"))
+    assert EVENTS
+    for event in EVENTS:
+        assert f"splat_mask(AT_{event.name.upper()})" in looked
+    for word in CRITERIA:
+        assert f"KIND_{word.upper()}" in met
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -54,9 +65,9 @@ def test_both_engines_meet_the_same_events(name):
     rng = np.random.default_rng(13)
     stokes = np.exp(rng.uniform(np.log(low), np.log(high), 40))
     angle = np.radians(rng.uniform(5, 85, stokes.size))
-    told, model = by_kernel(scene, stokes, angle), load(choose(scene, True, fold=False))
+    told, model = by_kernel(scene, stokes, angle), load(select_model(scene, True, fold=False))
     for k in range(stokes.size):
-        n = numbers(scene, float(stokes[k] / scene.stokes_per_speed), float(angle[k]))
+        n = nondimensionalise(scene, float(stokes[k] / scene.stokes_per_speed), float(angle[k]))
         path = locate(model, n.groups, 1e-9)
         assert (OUTCOMES[told.answers["outcome"][k]], events(told, k)) == (path.outcome, path.kinds), (k, stokes[k])
 
@@ -66,8 +77,8 @@ def test_a_criterion_that_holds_at_initial_contact_parts_the_films(angle):
     """Without a bridge a rebound there is at the rupture gap, and over at once."""
     scene = without_bridge().with_entries({"liquid.glass_transition_pressure": "1 Pa"})
     told = by_kernel(scene, np.array([1.0]), np.array([angle]))
-    n = numbers(scene, 1.0 / scene.stokes_per_speed, angle)
-    path = locate(load(choose(scene, angle > 0, fold=False)), n.groups, 1e-9)
+    n = nondimensionalise(scene, 1.0 / scene.stokes_per_speed, angle)
+    path = locate(load(select_model(scene, angle > 0, fold=False)), n.groups, 1e-9)
     assert events(told, 0) == path.kinds == ["glass", "rupture"]
 
 
@@ -77,12 +88,12 @@ def test_both_engines_prove_the_same_sticks_by_the_film(tables):
     scene = without_bridge(**tables)
     stokes = np.geomspace(0.02, 0.3, 25)
     speed = stokes / scene.stokes_per_speed
-    told = answers(Impacts(scene, speed, np.zeros(speed.size), {}), 1e-9)
+    told = run_kernel(Impacts(scene, speed, np.zeros(speed.size), {}), 1e-9)
     assert told is not None
-    model = load(choose(scene, False))
+    model = load(select_model(scene, False))
     own = []
     for each in speed.tolist():
-        p = model.group_values(numbers(scene, each, 0.0).groups)
+        p = model.group_values(nondimensionalise(scene, each, 0.0).groups)
         state = np.append(model.start(p), [0.0] * len(model.works))
         own.append(proof_for(model, p, 1e-9).decided(state, Phase(film=1, shear=0, motion=CLOSING)))
     assert own == (told["status"] == Status.PROVED_AT_TOUCH).tolist()
@@ -102,13 +113,13 @@ CIRCLES = {
 
 def test_more_than_a_hundred_phases_are_chatter_in_both_engines():
     """A doublet that circles in and out of its film, whose steps the kernel has spent in 100 to 400 phases, is a stick
-    by the momentum of its orbit, as Locate finds.
+    by the momentum of its orbit, as EventLocator finds.
     """
     scene = Scene.from_dict(CIRCLES)
     speed, angle = 0.0149 / scene.stokes_per_speed, 0.4465
     impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
-    told = recorded(impacts, True, 1e-9, trajectory=True, budget=2000, keep=False, fold=False)
-    path = locate(load(choose(scene, True, fold=False)), numbers(scene, speed, angle).groups, 1e-9)
+    told = run_recorded(impacts, True, 1e-9, trajectory=True, budget=2000, keep=False, fold=False)
+    path = locate(load(select_model(scene, True, fold=False)), nondimensionalise(scene, speed, angle).groups, 1e-9)
     assert told is not None
     (answer,) = told.answers
     assert 100 < answer["events"] < 400

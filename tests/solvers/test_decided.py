@@ -17,10 +17,10 @@ from wetdoublet.solvers import (
     collide_many,
     regime_map,
 )
-from wetdoublet.solvers.engines.casadi.locate import Locate
-from wetdoublet.solvers.engines.taylor.call import Impacts, answers
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.settings import STEPS
 
 WEAK = {
@@ -64,7 +64,7 @@ def test_sliding_beside_a_wall_in_closed_form() -> None:
     given = {k: v for k, v in Scene.load("granulation-dry-bridge").given if "youngs" not in k and "poisson" not in k}
     scene = Scene("", tuple({**given, **changes, "liquid.glass_transition_pressure": 1e15}.items()))
     found = collide(scene, stokes=1.5, angle=0.9, rtol=1e-11)
-    n = numbers(scene, found.speed, 0.9)
+    n = nondimensionalise(scene, found.speed, 0.9)
     stokes, aspect, low = (n.groups[name] for name in ("stokes", "aspect", "rough_gap"))
 
     def lost(s: float) -> float:
@@ -119,15 +119,15 @@ def test_chatter_of_a_pair_ends() -> None:
 def test_steps_are_counted() -> None:
     """A collision that has spent its steps ends with phase, time, state, and how many phases they went into."""
     scene = Scene.load("granulation")
-    n = numbers(scene, scene.speed_of(0.02), math.radians(75))
-    model = load(choose(scene, oblique=True, fold=True))
-    whole = Locate(model, n.groups, 1e-9)
+    n = nondimensionalise(scene, scene.speed_of(0.02), math.radians(75))
+    model = load(select_model(scene, oblique=True, fold=True))
+    whole = EventLocator(model, n.groups, 1e-9)
     whole.run()
     assert 25 < whole.spent < STEPS / 100
     with pytest.raises(ComputationError, match="steps in . phases have not decided the outcome") as raised:
-        Locate(model, n.groups, 1e-9, steps=whole.spent - 1).run()
+        EventLocator(model, n.groups, 1e-9, steps=whole.spent - 1).run()
     assert raised.value.phase and raised.value.time and raised.value.state
-    assert Locate(model, n.groups, 1e-9, steps=whole.spent).run().outcome == "stick-rotate-separate"
+    assert EventLocator(model, n.groups, 1e-9, steps=whole.spent).run().outcome == "stick-rotate-separate"
 
 
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
@@ -194,7 +194,7 @@ def test_circling_is_decided_by_its_limit() -> None:
     assert first.centrifugal == pytest.approx(second.centrifugal, rel=1e-8)
     aside = first.stokes * np.array([1 - 3e-5, 1 + 3e-5])
     speed = aside / scene.stokes_per_speed
-    told = answers(Impacts(scene, speed, np.full(2, 0.4465), {}), 1e-9, budget=3_000_000)
+    told = run_kernel(Impacts(scene, speed, np.full(2, 0.4465), {}), 1e-9, budget=3_000_000)
     if told is not None:  # there is a kernel
         assert told["status"].tolist() == [0, 0]
         assert told["outcome"].tolist() == [0, 1]

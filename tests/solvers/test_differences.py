@@ -17,8 +17,8 @@ from wetdoublet.derive.emit.read import ReadError, functions
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.c import texts as c_texts
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 
 from .command import run
 
@@ -160,8 +160,8 @@ def test_exported_c_is_the_model(tmp_path: Path):
         ["cc", "-Wall", "-Werror", "-o", program, tmp_path / "main.c", tmp_path / "granulation.c", "-lm"], check=True
     )
     found = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
-    model = load(choose(scene, oblique=True, full=True))
-    groups = model.group_values(numbers(scene, scene.need_impact()[0], scene.need_impact()[1]).groups)
+    model = load(select_model(scene, oblique=True, full=True))
+    groups = model.group_values(nondimensionalise(scene, scene.need_impact()[0], scene.need_impact()[1]).groups)
     expected = [
         value
         for film, shear in suffixes.values()

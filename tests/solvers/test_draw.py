@@ -126,7 +126,7 @@ def test_chatter_does_not_flood_the_figure(collisions):
 
 @pytest.mark.parametrize("name", IMPACTS)
 def test_frames_are_of_the_trajectory(collisions, name):
-    """Frames start at first touch; their centres are 4a + x apart about a resting centre of mass, turned by beta."""
+    """Frames start at contact; their centres are 4a + x apart about a resting centre of mass, turned by beta."""
     collision = collisions[name]
     data, a = collision.trajectory, collision.scene.particles.reduced_radius
     pictures = frames(collision)

@@ -60,7 +60,7 @@ def agree(found: Collision, other: Flight, tolerance: float = SAME) -> None:
 
 
 def test_glass_is_named_before_elastic() -> None:
-    """Glass and elasticity both met at first touch: glass is the one that is reported, and the only one."""
+    """Glass and elasticity both met at initial contact: glass is the one that is reported, and the only one."""
     soft = Scene.load("granulation").with_entries({"particles.youngs_modulus": "1 kPa"})
     found = collide(soft, stokes=0.3, angle="70 deg")
     x_r = soft.elastic_length(found.speed)
@@ -87,7 +87,7 @@ def test_elastic_is_named_before_rough(factor: float, kind: str) -> None:
 
 @pytest.mark.parametrize("stokes", [0.03, 0.3, 3.0])
 def test_without_elastic_constants_nothing_is_elastic(stokes: float) -> None:
-    """Spheres so soft that they are elastic at first touch; without their constants no event is `elastic`."""
+    """Spheres so soft that they are elastic at initial contact; without their constants no event is `elastic`."""
     soft = Scene.load("granulation").with_entries(
         {"particles.youngs_modulus": "1 Pa", "liquid.glass_transition_pressure": "1e6 GPa"}
     )
@@ -97,13 +97,13 @@ def test_without_elastic_constants_nothing_is_elastic(stokes: float) -> None:
     assert found.reversal in (None, "rough")
 
 
-# ---- at first touch, beyond the film, beyond the tangential edge: independent integration
+# ---- at initial contact, beyond the film, beyond the tangential edge: independent integration
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("dry", [0.99, 0.5, 0.0])
 def test_reversal_at_first_touch_with_a_bridge(engine: str, dry: float) -> None:
-    """Glass at first touch with a bridge: the doublet goes on, beyond the film, from e_dry v0 (0 included)."""
+    """Glass at initial contact with a bridge: the doublet goes on, beyond the film, from e_dry v0 (0 included)."""
     scene = Scene.load("granulation").with_entries({"particles.dry_restitution": dry})
     found = collide(scene, stokes=0.3, angle="70 deg", rtol=1e-11, engine=engine)
     assert found.events[0].time == 0.0
@@ -122,7 +122,7 @@ def test_tangential_force_ends_at_two_reduced_radii(stokes: float, angle: float)
 
 @pytest.mark.parametrize("times", [2.5, 14.0])
 def test_soft_spheres(times: float) -> None:
-    """Elastic length above 2 x0, or above 2a: reversed at first touch, then the forces of the gap as it is."""
+    """Elastic length above 2 x0, or above 2a: reversed at initial contact, then the forces of the gap as it is."""
     scene = without_elasticity(Scene.load("granulation")).with_entries(
         {"bridge.volume": 0.95, "bridge.contact_angle": "60 deg", "liquid.glass_transition_pressure": "1e6 GPa"}
     )

@@ -7,7 +7,7 @@ import math
 import pytest
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Region
 
 from .newton import Bodies, flown
@@ -115,7 +115,7 @@ def test_a_cavitated_film_does_not_act():
     """The force flag of a region is off only where the film is there, opens, and cavitates."""
     assert Region(1, 1, False, True).flags == {"film": 0, "shear": 1}
     assert Region(1, 1, False).flags == {"film": 1, "shear": 1}
-    assert [load(choose(alone(film), False)).cavitates for film in ("finite", "cavitating")] == [False, True]
+    assert [load(select_model(alone(film), False)).cavitates for film in ("finite", "cavitating")] == [False, True]
 
 
 @pytest.mark.parametrize("film", ["infinite", "cavitating", "constant-volume"])

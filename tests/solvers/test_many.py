@@ -11,9 +11,9 @@ from loky import process_executor
 from wetdoublet.solvers import Scene, collide, collide_many, gradients_many
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.host.remarks import hush
+from wetdoublet.solvers.host.remarks import silence_workers
 from wetdoublet.solvers.many import collide_many as many
-from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
 
 PRESETS = {"granulation": (0.005, 0.5), "pendulum": (0.1, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
 EVERYTHING = tuple(many.QUANTITIES)
@@ -49,8 +49,8 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
     """A collision that raises has outcome -1, NaN and its reason, even for a defect; its neighbours are unharmed."""
     scene = Scene.load("granulation")
     bad = {
-        numbers(scene, scene.speed_of(0.02), 1.0).groups["stokes"]: ComputationError("no luck"),
-        numbers(scene, scene.speed_of(0.03), 1.0).groups["stokes"]: ZeroDivisionError("oops"),
+        nondimensionalise(scene, scene.speed_of(0.02), 1.0).groups["stokes"]: ComputationError("no luck"),
+        nondimensionalise(scene, scene.speed_of(0.03), 1.0).groups["stokes"]: ZeroDivisionError("oops"),
     }
 
     def locate(model, groups, *rest):
@@ -174,7 +174,7 @@ def test_parallel_equals_serial(monkeypatch):
 def test_without_a_compiler(monkeypatch, capfd):
     """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
-    request = many.requested("granulation", stokes, None, angle, {}, 1e-9, None, EVERYTHING)
+    request = many.validated_batch("granulation", stokes, None, angle, {}, 1e-9, None, EVERYTHING)
     fast = many.run(request, machine_code=True)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
@@ -185,7 +185,7 @@ def test_without_a_compiler(monkeypatch, capfd):
         compiler.cache_clear()
         monkeypatch.setenv("WETDOUBLET_HUSHED", "")
         monkeypatch.delenv("WETDOUBLET_HUSHED")
-        hush()
+        silence_workers()
         assert compiler() is None
     finally:
         compiler.cache_clear()

@@ -11,8 +11,8 @@ from scipy.integrate import trapezoid
 from wetdoublet.solvers import InputError, Scene, boundary, collide, collide_many
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 
 from .newton import Bodies, flown
 
@@ -101,10 +101,10 @@ def test_ratio_one_is_the_equal_doublet(arm):
     for stokes, angle in ((0.03, 60), (0.02, 75), (0.3, 30)):
         found = []
         for scene in (equal, pair):
-            n = numbers(scene, scene.speed_of(stokes), math.radians(angle))
-            path = locate(load(choose(scene, True, full=True)), n.groups, 1e-13)
+            n = nondimensionalise(scene, scene.speed_of(stokes), math.radians(angle))
+            path = locate(load(select_model(scene, True, full=True)), n.groups, 1e-13)
             found.append(path.model.values("outputs", path.y, path.p))
-        assert "pair" in choose(pair, True).structure
+        assert "pair" in select_model(pair, True).structure
         assert found[1]["restitution"] == pytest.approx(found[0]["restitution"], rel=1e-12)
         assert found[1]["final_spin_partner"] == pytest.approx(found[1]["final_spin"], rel=1e-13)
         # and a partner that is the same is computed as the same

@@ -12,8 +12,8 @@ from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers.certificates import BarrierProof, NoProof, energy_proof
 from wetdoublet.solvers.certificates.film_and_attraction import AttractedProof
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.settings import STEPS
 
 from .independent import Spheres
@@ -23,10 +23,10 @@ pytestmark = pytest.mark.slow
 LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 
 
-def flight(scene: Scene, stokes: float, angle: float, rtol: float = 1e-9, steps: int = STEPS) -> locate.Locate:
+def flight(scene: Scene, stokes: float, angle: float, rtol: float = 1e-9, steps: int = STEPS) -> locate.EventLocator:
     """A collision about to be located."""
-    n = numbers(scene, scene.speed_of(stokes), angle)
-    return locate.Locate(load(choose(scene, n.oblique)), n.groups, rtol, steps=steps)
+    n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+    return locate.EventLocator(load(select_model(scene, n.oblique)), n.groups, rtol, steps=steps)
 
 
 def film_loss(s: float) -> float:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers.certificates import HeldProof, NoProof
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.verify.audit import WithoutProof
 
 pytestmark = pytest.mark.slow
@@ -51,8 +51,8 @@ def _held_sticks(count: int, seed: int) -> tuple[int, int]:
     held = escaped = 0
     for _ in range(count):
         scene, stokes, angle = _random_held(rng)
-        n = numbers(scene, scene.speed_of(stokes), angle)
-        model = load(choose(scene, oblique=True))
+        n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+        model = load(select_model(scene, oblique=True))
         start = model.start(model.group_values(n.groups))
         if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
             continue
@@ -66,7 +66,7 @@ def _held_sticks(count: int, seed: int) -> tuple[int, int]:
 
 
 def test_nothing_that_is_held_escapes() -> None:
-    """Doublets that attraction alone is proved to hold at first touch, followed without a proof: none separates."""
+    """Doublets that attraction alone is proved to hold at initial contact, followed without a proof: none separates."""
     held, escaped = _held_sticks(60, 3)
     assert held > 10
     assert escaped == 0
@@ -85,8 +85,8 @@ def test_what_the_hold_does_not_prove(margin: str, stokes: float, angle: float, 
     scene = Scene.load("granulation").with_entries({"particles.dry_restitution": dry})
     found = collide(scene, stokes=stokes, angle=math.radians(angle))
     assert found.outcome != "stick"
-    n = numbers(scene, found.speed, found.angle)
-    model = load(choose(scene, oblique=True))
+    n = nondimensionalise(scene, found.speed, found.angle)
+    model = load(select_model(scene, oblique=True))
     p = model.group_values(n.groups)
     margins = model.values("held", model.start(p), p)
     met = {"hold": margins["hold"] > 0, "flight": margins["flight"] < 0, "rebound": margins["rebound"] < 0}
@@ -98,7 +98,7 @@ def test_what_the_hold_does_not_prove(margin: str, stokes: float, angle: float, 
 
 @pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
 def test_first_touch_inside_the_solids_proves_nothing(engine: str) -> None:
-    """Soft spheres whose elastic length exceeds the rupture distance: reversed at first touch, and flung apart.
+    """Soft spheres whose elastic length exceeds the rupture distance: reversed at initial contact, and flung apart.
 
     The bridge would hold them if they could not come nearer than that length; they are nearer already.
     """

@@ -11,10 +11,10 @@ import pytest
 from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many
 from wetdoublet.solvers.certificates import NoProof, OrbitalProof
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 from wetdoublet.solvers.settings import STEPS
 
@@ -23,8 +23,8 @@ pytestmark = pytest.mark.slow
 
 def flight(scene: Scene, steps: int = STEPS) -> Any:
     """The locating flight of a scene with its impact."""
-    n = numbers(scene, *scene.need_impact())
-    return Locate(load(choose(scene, oblique=True)), n.groups, 1e-9, steps=steps)
+    n = nondimensionalise(scene, *scene.need_impact())
+    return EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9, steps=steps)
 
 
 def impacts(count: int, arm: str, seed: int, shear: str = "immersed") -> list[Scene]:
@@ -54,7 +54,7 @@ def test_what_separates_is_never_held(arm: str, shear: str, monkeypatch: pytest.
     for scene in impacts(32, arm, 5, shear):
         followed = flight(scene, steps=3_000)
         proof, followed.proof = followed.proof, NoProof()
-        followed.watch = locate.Watch(tangential_edge=followed.watch.tangential_edge)
+        followed.watch = locate.WatchedEvents(tangential_edge=followed.watch.tangential_edge)
         assert isinstance(proof, OrbitalProof)
         start = followed.y
         with contextlib.suppress(ComputationError):  # it chatters, or creeps, without end
@@ -130,14 +130,14 @@ def test_spin_that_is_locked_out_does_not_count() -> None:
 def test_both_forms_take_the_same_away() -> None:
     """What counts of the slip is the same with the spin as a state and with the spin eliminated."""
     one = flight(impacts(1, "midgap", 2, "film")[0])
-    full = load(choose(impacts(1, "midgap", 2, "film")[0], oblique=True, full=True))
+    full = load(select_model(impacts(1, "midgap", 2, "film")[0], oblique=True, full=True))
     both = []
     for model in (one.model, full):
         p = model.group_values(one.groups)
         y = model.start(p)
         y[0], y[2:3] = 1.2, 8.0
         if y.size > 3:
-            y[3] = ((4 + one.groups["aspect"]) ** 2 - 8.0) / 6.4  # L is that of first touch
+            y[3] = ((4 + one.groups["aspect"]) ** 2 - 8.0) / 6.4  # L is that of initial contact
         proof = OrbitalProof(model, p, 1e-9, NoProof())
         gaps = np.linspace(1.2, proof.end, 5)
         both.append(

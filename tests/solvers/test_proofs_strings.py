@@ -16,9 +16,9 @@ from wetdoublet.solvers import ComputationError, Scene
 from wetdoublet.solvers.certificates import NoProof
 from wetdoublet.solvers.certificates import strings as tethered
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.engines.casadi.locate import Locate, Path
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import Model, choose, load
+from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import Model, load, select_model
 from wetdoublet.solvers.verify.audit import WithoutProof
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proofs_strings")]
@@ -32,9 +32,9 @@ class Tethered:
     groups: dict[str, float]
     separates: bool
 
-    def path(self) -> Path:
+    def path(self) -> EventSequence:
         """Its flight with the proof."""
-        return Locate(self.model, self.groups, 1e-9).run()
+        return EventLocator(self.model, self.groups, 1e-9).run()
 
 
 def _log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
@@ -107,8 +107,8 @@ def strings() -> list[Tethered]:
     found = []
     for draw in [_random_tethered] * 60 + [_rebounding_tethered] * 400:
         scene, stokes, angle = draw(rng)
-        n = numbers(scene, scene.speed_of(stokes), angle)
-        model = load(choose(scene, oblique=True))
+        n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+        model = load(select_model(scene, oblique=True))
         free = WithoutProof(model, n.groups, 1e-9, steps=20_000)
         free.proof = NoProof()
         with contextlib.suppress(ComputationError):  # it creeps on, unseparated
@@ -171,12 +171,12 @@ def test_the_sample_needs_every_margin(margin, change, strings: list[Tethered], 
 def test_a_margin_that_is_no_number_proves_nothing(margin: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """NaN in any of the four: not proved, though all else says so."""
     scene = Scene.load("pendulum")
-    n = numbers(scene, scene.speed_of(0.3), math.radians(20))
-    model = load(choose(scene, oblique=True))
+    n = nondimensionalise(scene, scene.speed_of(0.3), math.radians(20))
+    model = load(select_model(scene, oblique=True))
     held = {"outward": SX(0), "pull": SX(1), "film": SX(-1), "recoil": SX(-1)}
     for value, expected in ((None, True), (math.nan, False)):
         own = held if value is None else {**held, margin: SX(value)}
         with monkeypatch.context() as patch:
             _broken(patch, lambda _, own=own: own)
-            one = Locate(model, n.groups, 1e-9)
+            one = EventLocator(model, n.groups, 1e-9)
             assert one.proof.decided(one.y, one.phase) is expected

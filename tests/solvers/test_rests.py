@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers.certificates import NoProof
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 
 from .independent import Spheres, flown
 
@@ -25,8 +25,8 @@ def test_chatter_rests(entries: dict[str, object], criterion: str, monkeypatch: 
     """A stick that is not proved and flown on is pulled onto the solids, chatters, and comes to rest at their gap."""
     monkeypatch.setattr(locate, "STRETCHES", 4)
     scene = Scene.load("granulation").with_entries(entries)
-    n = numbers(scene, scene.speed_of(0.05), math.radians(40))
-    flight = locate.Locate(load(choose(scene, oblique=True)), n.groups, 1e-9)
+    n = nondimensionalise(scene, scene.speed_of(0.05), math.radians(40))
+    flight = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
     flight.proof, flight.watch = NoProof(), replace(flight.watch, certificate=None)
     with pytest.raises(ComputationError, match="no event within .* in phase resting contact"):
         flight.run()
@@ -115,8 +115,8 @@ def test_rest_without_shear_is_for_good() -> None:
             "model": {"tangential": "film"},
         }
     )
-    n = numbers(scene, scene.speed_of(187.815), 1.40734)
-    flight: Any = locate.Locate(load(choose(scene, oblique=True)), n.groups, 1e-9)
+    n = nondimensionalise(scene, scene.speed_of(187.815), 1.40734)
+    flight: Any = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
     flight.proof = flight.proof.beside  # the orbit's momentum proves it sooner
     found = flight.run()
     assert found.kinds[-2:] == ["elastic", "rests"]

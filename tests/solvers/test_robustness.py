@@ -19,9 +19,9 @@ from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene,
 from wetdoublet.solvers.collision import by_casadi
 from wetdoublet.solvers.collision.by_casadi import _compute
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance
-from wetdoublet.solvers.engines.casadi.locate import Locate, Path, locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence, locate
 from wetdoublet.solvers.engines.casadi.replay import Flown
-from wetdoublet.solvers.model.dimensionless import numbers
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model
 
 # the command, made to collide the same spheres for ever, and to say when it has begun
@@ -75,14 +75,14 @@ def soon(rtol: float, engine: str, groups: Mapping[str, float]) -> Tolerance:
     return replace(tolerance(rtol, engine, groups), steps=3)
 
 
-def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Path:
+def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
     """A flight whose locators give up so soon."""
-    flight = Locate(model, groups, rtol, extras)
+    flight = EventLocator(model, groups, rtol, extras)
     flight.tolerance = replace(flight.tolerance, steps=3)
     return flight.run()
 
 
-def found_alone(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Path:
+def found_alone(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
     """One whose locators do so where they carry something along, as where they are the last resort."""
     return (lost if extras else locate)(model, groups, rtol, extras)
 
@@ -92,7 +92,7 @@ def test_an_engine_that_gives_up(failing: str) -> None:
     """Too few steps: ComputationError with phase, time in s, state in SI, and advice, all in its one line."""
     engine = "rosenbrock" if failing == "rosenbrock" else "cvodes"
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="60 deg")
-    n, find = numbers(scene, *scene.need_impact()), lost if failing == "locator" else found_alone
+    n, find = nondimensionalise(scene, *scene.need_impact()), lost if failing == "locator" else found_alone
     with pytest.raises(ComputationError) as caught:
         by_casadi.by_casadi(scene, n, 1e-9, engine, True, False, find, soon)
     error = caught.value

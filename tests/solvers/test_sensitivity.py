@@ -125,7 +125,7 @@ def test_dimensional_analysis() -> None:
 
 
 def test_work_of_the_bridge_is_a_function_of_its_ends() -> None:
-    """W_c depends on the bridge and the gaps at first touch and rupture alone, not on the flight between."""
+    """W_c depends on the bridge and the gaps at initial contact and rupture alone, not on the flight between."""
     found = sensitivities(GRANULATION, ["energy.capillary", "energy.residual"], rtol=1e-10, method="adjoint")
     row = found.elasticity["energy.capillary"]
     for name in ("impact.speed", "impact.angle", "liquid.viscosity", "particles.reduced_mass"):

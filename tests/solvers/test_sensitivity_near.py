@@ -10,9 +10,9 @@ from dataclasses import replace
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, boundary, sensitivities
 from wetdoublet.solvers.boundaries.changes import Change
-from wetdoublet.solvers.engines.casadi.locate import Locate
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.sensitivity.boundary_distance import checked, limit
 
 from .command import run
@@ -132,8 +132,8 @@ def test_chatter_is_refused() -> None:
     No scene is known to do this (what holds at rest goes on holding), so a path is told that it did.
     """
     scene = Scene.load("granulation").with_impact(stokes=0.14, angle="40 deg")
-    n = numbers(scene, float(scene.speed or 0), float(scene.angle or 0))
-    finder = Locate(load(choose(scene, True)), n.groups, 1e-9)
+    n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
+    finder = EventLocator(load(select_model(scene, True)), n.groups, 1e-9)
     path = finder.run()
     path.steps[0] = replace(path.steps[0], kinds=("glass", "rests"))
     with pytest.raises(ComputationError, match="chatter"):

@@ -11,8 +11,8 @@ from casadi import Function, jtimes, vertcat
 from wetdoublet.solvers import InputError, Scene, collide, sensitivities
 from wetdoublet.solvers.engines.casadi import integrators
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import SX, choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import SX, load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region, event_table, expressions
 from wetdoublet.solvers.sensitivity import derivatives
 from wetdoublet.solvers.sensitivity import trajectory_expression as flight
@@ -129,7 +129,7 @@ def test_the_first_order_landing_is_not_enough(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_a_criterion_true_at_first_touch() -> None:
-    """Without a bridge, glass at first touch: e_n = e_dry whatever else; so is its gradient."""
+    """Without a bridge, glass at initial contact: e_n = e_dry whatever else; so is its gradient."""
     found = sensitivities(DRY, ["restitution", "contact_time"], stokes=50.0, angle="20 deg", method="adjoint")
     assert found.value["restitution"] == 0.99
     row = found.gradient["restitution"]
@@ -158,7 +158,7 @@ def test_a_criterion_true_at_first_touch_with_a_bridge() -> None:
 
 def flows(scene: Scene) -> list[Flow]:
     """Every smooth flow of a scene."""
-    choice = choose(scene, True)
+    choice = select_model(scene, True)
     return [Flow(choice, Region(film, shear, False)) for film in (0, 1) for shear in (0, 1)]
 
 
@@ -169,7 +169,7 @@ def test_no_switch_acts_along_a_flight(case: Any) -> None:
     A switch that acts inside a phase costs derivatives 3 to 5 digits; the film's edge is an event for that reason.
     """
     scene = case.scene
-    n = numbers(scene, float(scene.speed or 0), float(scene.angle or 0))
+    n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
     guard = 0.5 * min(max(n.groups["elastic_gap"], n.groups["rough_gap"]), 1.0)
     one = collide(scene, ledger=False, engine="rosenbrock")
     assert float(one.smallest_gap or 0) / n.length >= 2 * guard * (1 - 1e-9)
@@ -188,7 +188,7 @@ def test_options_that_derivatives_rest_on() -> None:
     """CVODES controls the error of adjoint quadratures, absolute tolerances are 1e-3 of the relative ones, and the
     spacing of checkpoints is CasADi's own.
     """
-    told = tolerance(1e-9, "rosenbrock", numbers(GLASS, float(GLASS.speed or 0), 0.5).groups)
+    told = tolerance(1e-9, "rosenbrock", nondimensionalise(GLASS, float(GLASS.speed or 0), 0.5).groups)
     assert told.absolute == pytest.approx(1e-3 * told.relative)
     assert told.options("cvodes")["quad_err_con"] is True
     assert "steps_per_checkpoint" not in {**told.options("cvodes"), **told.options("rosenbrock")}

@@ -143,7 +143,7 @@ def test_tornado(tmp_path: Path) -> None:
 
 
 def test_the_table_tells_nothing_from_little() -> None:
-    """Head-on and reversed at first touch the film has no work to do: of the viscosity only rounding is left.
+    """Head-on and reversed at initial contact the film has no work to do: of the viscosity only rounding is left.
 
     At a fixed speed it is in St and Ca, whose shares cancel; roughness does not enter at all.
     """
@@ -180,7 +180,7 @@ def test_the_scene_given_stays_as_it_is() -> None:
 
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
 def test_the_kernel_answers_where_the_other_engine_misses(monkeypatch):
-    """Glass met within rounding of first touch: e_n = e_dry, its derivative 1, whatever the cache holds."""
+    """Glass met within rounding of initial contact: e_n = e_dry, its derivative 1, whatever the cache holds."""
     scene = Scene.load("granulation-dry-bridge").with_entries(
         {"model.glass": "film-corrected", "liquid.glass_transition_pressure": "1e-3 Pa"}
     )

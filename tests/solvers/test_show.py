@@ -53,13 +53,13 @@ def test_fits_a_terminal(collisions, name):
     [
         ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no criterion met"),
         ("bounces", "bounce", "reversed by the glass criterion"),
-        ("sticks at touch", "stick", "proved at first touch: energy below the barrier"),
+        ("sticks at touch", "stick", "proved at initial contact: energy below the barrier"),
         ("sticks later", "stick", "proved: energy below the barrier (certificate)"),
         ("half turn", "stick", "cut off after 767.4 ms: half a turn"),
         ("rotation reverses", "stick", "cut off after 450.7 ms: the strings turn the rotation back"),
         ("tethered", "stick", "proved: the strings hold it for good"),
         ("reversed, sticks", "stick", "the glass criterion had reversed it on the way"),
-        ("film alone", "stick", "proved at first touch: the film stops it"),
+        ("film alone", "stick", "proved at initial contact: the film stops it"),
     ],
 )
 def test_outcome_has_its_reason(collisions, name, outcome, why):
@@ -78,7 +78,7 @@ def test_a_stick_without_proof_says_so(collisions):
 def test_a_stick_says_where_integration_stopped(collisions):
     """`until` is where the outcome was certain, not an event: the table says so, unless a cut-off does."""
     stick = replace(collisions["sticks later"], until=5.889e-3)
-    assert "integration stopped there, 5.889 ms after first touch" in table(stick)
+    assert "integration stopped there, 5.889 ms after initial contact" in table(stick)
     for name in ("sticks at touch", "half turn", "escapes"):
         assert "integration stopped" not in table(collisions[name])
 

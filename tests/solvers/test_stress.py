@@ -15,8 +15,8 @@ from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
@@ -253,14 +253,14 @@ def test_no_tolerance_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(simulate, "fly", missed)
     scene = Scene.load("granulation")
-    n = numbers(scene, *scene.need_impact())
+    n = nondimensionalise(scene, *scene.need_impact())
     found = simulate.by_casadi(scene, n, RTOL, "cvodes", False, False, find)
     assert found.engine == "rosenbrock"
     assert asked == [(pytest.approx(10.0**-k), False) for k in (9, 11)] + [(1e-13, False), (1e-13, True)]
 
 
 def test_what_chatter_takes_is_booked() -> None:
-    """A rebound that rests at first touch leaves no energy behind: the ledger closes, in the dry contact's entry."""
+    """A rebound at rest at initial contact leaves no energy behind: the ledger closes, in the dry contact's entry."""
     scene = Scene.from_dict(
         {
             "particles": {"reduced_radius": 8e-6, "density": 900.0, "roughness": 3e-12, "dry_restitution": 0.7},
@@ -313,8 +313,8 @@ def test_ranges_that_laws_leave_are_counted_once(
 
 def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
     scene = Scene.from_dict(case["scene"]).with_impact(stokes=case["impact"]["stokes"], angle=case["impact"]["angle"])
-    n = numbers(scene, *scene.need_impact())
-    return load(choose(scene, n.oblique)), n.groups
+    n = nondimensionalise(scene, *scene.need_impact())
+    return load(select_model(scene, n.oblique)), n.groups
 
 
 @pytest.mark.parametrize(("method", "rtol", "within"), [("LSODA", 1e-10, 1e-7), ("Radau", 1e-7, 1e-5)])
@@ -340,5 +340,5 @@ def test_a_hidden_graze_is_found_by_the_peers() -> None:
         met = collide(scene, stokes=middle, angle=angle, engine="rosenbrock", ledger=False).reversal is not None
         low, high = (low, middle) if met else (middle, high)
     for stokes, kind in ((high * (1 + 1e-5), "glass"), (low * (1 - 1e-5), None)):
-        n = numbers(scene, scene.speed_of(stokes), angle)
-        assert fly(load(choose(scene, True)), n.groups, 1e-8, "LSODA").reversal == kind
+        n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+        assert fly(load(select_model(scene, True)), n.groups, 1e-8, "LSODA").reversal == kind

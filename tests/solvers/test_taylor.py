@@ -10,7 +10,7 @@ import pytest
 from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
-from wetdoublet.solvers.engines.taylor.record import recorded
+from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many import collide_many as many
 
@@ -129,7 +129,7 @@ def test_what_varies():
 
 def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.MonkeyPatch):
     """A lane without budget leaves its collision to Rosenbrock: the same answer, and `collide` says whose it is."""
-    impossible = recorded(_one("granulation", 0.02, 1.3), True, 1e-9, ledger=True, budget=5)
+    impossible = run_recorded(_one("granulation", 0.02, 1.3), True, 1e-9, ledger=True, budget=5)
     assert impossible is not None
     assert impossible.answers["status"].tolist() == [2]
     monkeypatch.setattr("wetdoublet.solvers.collision.by_kernel.recorded", lambda *given: impossible)

@@ -57,7 +57,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
 def _agrees(scene: Scene, stokes: Any, angle: Any) -> np.ndarray:
     """Outcome, proof and every quantity as Rosenbrock has them; returns which sticks are proved."""
     found = collide_many(scene, stokes=stokes, angle=np.radians(angle), rtol=RTOL, engine="taylor", of=EVERYTHING)
-    own = engine.answers(engine.Impacts(scene, scene.speed_of(np.array(stokes)), np.radians(angle), {}), RTOL, True)
+    own = engine.run_kernel(engine.Impacts(scene, scene.speed_of(np.array(stokes)), np.radians(angle), {}), RTOL, True)
     assert own is not None
     assert (own["status"] <= 1).all()  # nothing was handed over
     expected = collide_many(
@@ -106,7 +106,7 @@ ALONE: list[tuple[str, dict[str, Any]]] = [
 @pytest.mark.parametrize(("preset", "changes"), ALONE, ids=[f"{p} {' '.join(c)}".strip() for p, c in ALONE])
 def test_every_kind_is_known(preset: str, changes: dict[str, Any]):
     """Every preset and every kind of change has its headers, none of which failed to be emitted."""
-    assert library.knows(Scene.load(preset).with_entries(changes))
+    assert library.supported(Scene.load(preset).with_entries(changes))
 
 
 MODEL = '''"""A liquid that thins, and a bridge that is cut off."""

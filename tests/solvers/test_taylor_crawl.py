@@ -20,7 +20,7 @@ BOUNDARIES = json.loads((Path(__file__).parents[1] / "data" / "boundaries.json")
 def flown(scene: Scene, stokes: list[float], angle: float, rtol: float) -> np.ndarray:
     """Answers of the kernel."""
     speed = scene.speed_of(1.0) * np.array(stokes)
-    found = engine.answers(engine.Impacts(scene, speed, np.full(len(stokes), angle), {}), rtol)
+    found = engine.run_kernel(engine.Impacts(scene, speed, np.full(len(stokes), angle), {}), rtol)
     assert found is not None
     return found
 
@@ -91,7 +91,7 @@ def test_flights_that_crawl_to_no_avail_keep_to_their_budget():
     """
     scene = Scene.load("granulation-dry-bridge")
     impact = engine.Impacts(scene, scene.speed_of(np.array([1e-3])), np.array([1e-9]), {})
-    found = engine.answers(impact, 1e-7, budget=1500)
+    found = engine.run_kernel(impact, 1e-7, budget=1500)
     assert found is not None
     assert found["status"].tolist() == [2]
     assert found["steps"][0] < 1500 + 4100

@@ -50,7 +50,7 @@ def test_a_creeping_flight_takes_long_steps():
     scene = Scene.load("granulation")
     stokes, angle = 0.0662, math.radians(42.62)
     impacts = engine.Impacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
-    found = engine.answers(impacts, 1e-8)
+    found = engine.run_kernel(impacts, 1e-8)
     assert found is not None
     assert found["outcome"][0] == 1
     aspect = 8 / 50

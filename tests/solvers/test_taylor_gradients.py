@@ -17,7 +17,7 @@ from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_ma
 from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor.call import Impacts
-from wetdoublet.solvers.engines.taylor.tangent import carried
+from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.sensitivity import gradients_many as many
@@ -93,7 +93,7 @@ def test_contact_by_differences() -> None:
         at = getattr(scene.particles, name)
         steps = np.array([0.0, 1e-4, -1e-4, 2e-4, -2e-4])
         impacts = Impacts(scene, np.full(5, scene.speed_of(1.5)), np.full(5, 0.35), {name: at * (1 + steps)})
-        found = carried(impacts, True, 1e-13, True, (name,), 10)
+        found = run_tangent(impacts, True, 1e-13, True, (name,), 10)
         assert found is not None
         assert (found.answers["outcome"] == 2).all()
         e_n = found.answers["shown"][:, 0]
@@ -111,7 +111,7 @@ def test_backward_is_forward() -> None:
     draw = np.random.default_rng(8)
     speed = scene.speed_of(np.exp(draw.uniform(*np.log([1.3, 3.0]), count)))
     impacts = Impacts(scene, speed, draw.uniform(0.1, 1.3, count), {})
-    forward, backward = (carried(impacts, True, 1e-12, True, order=10, backward=back) for back in (False, True))
+    forward, backward = (run_tangent(impacts, True, 1e-12, True, order=10, backward=back) for back in (False, True))
     assert forward is not None
     assert backward is not None
     np.testing.assert_array_equal(forward.answers["outcome"], backward.answers["outcome"])
@@ -207,14 +207,14 @@ def test_sticks_and_boundaries() -> None:
 
 @pytest.mark.parametrize("distance", [6e-4, 5e-5])
 def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Just past the speed at which first touch is glassy, many say what one says: the derivative, or why there is none.
+    """Just past the speed at which initial contact is glassy, many say what one says: derivative, or why none.
 
-    The pressure at first touch is proportional to the speed, so the distance is the speed's own; the limit is 1e-4.
+    The pressure at initial contact is proportional to the speed, so the distance is the speed's own; the limit is 1e-4.
     """
     rtol, angle, names = 1e-8, 0.3554, "liquid.viscosity"
     scene = Scene.load("granulation")
     probe = 0.2356 / scene.stokes_per_speed
-    seen = carried(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False)
+    seen = run_tangent(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False)
     assert seen is not None
     assert seen.near[0, 1] == 7
     speed = probe * np.exp(distance - seen.near[0, 0])
@@ -231,7 +231,7 @@ def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.Mon
         expected = one.gradient["restitution"]["liquid.viscosity"]
         np.testing.assert_allclose(found.gradient.values.item(), expected, rtol=1e-6)
     else:
-        assert f"glass criterion met at first touch at a relative distance of {distance:.2g}" in said
+        assert f"glass criterion met at initial contact at a relative distance of {distance:.2g}" in said
         assert np.isnan(found.gradient.values).all()
 
 

@@ -12,7 +12,7 @@ from wetdoublet.solvers.engines.taylor import build
 from wetdoublet.solvers.engines.taylor.headers import headers, tangents
 from wetdoublet.solvers.engines.taylor.includes import RUNTIME, included
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.model import choose
+from wetdoublet.solvers.model.model import select_model
 
 NAMES = sorted(path.name for path in RUNTIME.glob("*.h"))
 MADE = ("settings.h", "layout.h", "automaton.h", "effects.h", "model.h")
@@ -28,7 +28,7 @@ VARIANTS = {
 
 def made(name: str) -> dict[str, str]:
     """The files of a variant of a small model beside the runtime's, for two doubles side by side."""
-    choice = choose(Scene.load("granulation"), True, full=name.startswith("ledger"))
+    choice = select_model(Scene.load("granulation"), True, full=name.startswith("ledger"))
     variant = build.Variant(choice, 9, **VARIANTS[name])
     own, along = headers(choice), tangents(choice)
     assert own is not None

@@ -15,7 +15,7 @@ from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import headers, layout, record
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.model import choose
+from wetdoublet.solvers.model.model import select_model
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9
@@ -138,7 +138,7 @@ def test_a_trajectory_is_continuous():
     """Where one step's series ends the next one's begins: both give the state between them, to rounding."""
     scene = Scene.load("granulation")
     impact = record.Impacts(scene, np.array([scene.speed_of(0.02)]), np.array([np.radians(75)]), {})
-    told = record.recorded(impact, True, RTOL, ledger=True, trajectory=True)
+    told = record.run_recorded(impact, True, RTOL, ledger=True, trajectory=True)
     assert told is not None
     assert told.steps is not None
     rows = told.steps.rows
@@ -148,7 +148,7 @@ def test_a_trajectory_is_continuous():
 
 
 def test_decided_at_first_touch():
-    """A stick that is proved at first touch takes no step: its trajectory is that one state, as Rosenbrock's is."""
+    """A stick that is proved at initial contact takes no step: its trajectory is that one state, as Rosenbrock's is."""
     impact: dict[str, Any] = {"stokes": 0.001, "angle": "75 deg"}
     mine, other = (
         collide("granulation", engine=engine, trajectory=True, **impact) for engine in ("taylor", "rosenbrock")
@@ -156,7 +156,7 @@ def test_decided_at_first_touch():
     assert (mine.engine, mine.outcome, mine.until) == ("taylor", "stick", 0.0)
     assert mine.trajectory is not None
     assert other.trajectory is not None
-    assert mine.trajectory.phase.values.tolist() == ["first touch"]
+    assert mine.trajectory.phase.values.tolist() == ["initial contact"]
     for name, values in other.trajectory.items():
         np.testing.assert_allclose(mine.trajectory[name], values, rtol=1e-14, atol=0, err_msg=str(name))
 
@@ -165,7 +165,7 @@ def flown(room: tuple[int, int], keep: bool = True) -> record.Recorded:
     """Chatter on a rough pendulum, and a short flight beside it, with this room for events and steps at first."""
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
     speeds = np.array([scene.speed_of(0.06760659), scene.speed_of(3.0)])
-    found = record.recorded(
+    found = record.run_recorded(
         record.Impacts(scene, speeds, np.full(2, 0.7759), {}), True, RTOL, trajectory=True, keep=keep, room=room
     )
     assert found is not None
@@ -196,7 +196,7 @@ def test_steps_that_are_not_kept_are_not_written():
 def test_a_buffer_that_is_too_small_is_refused(short: str):
     """The kernel is given the size of every buffer, and writes nothing where one does not hold what it would write."""
     scene = Scene.load("granulation")
-    kernel = library.kernel(engine.variant(scene, choose(scene, True, full=True), RTOL, True, True, True))
+    kernel = library.kernel(engine.variant(scene, select_model(scene, True, full=True), RTOL, True, True, True))
     assert kernel is not None
     impacts = record.Impacts(scene, np.full(9, scene.speed_of(0.02)), np.full(9, 1.3), {})
     answers = np.zeros(9, layout.ANSWER)
@@ -218,7 +218,7 @@ def test_a_buffer_that_is_too_small_is_refused(short: str):
 def test_who_does_not_ask_does_not_pay(reduced: bool):
     """What a compiler sees of the plain kernel has no field, constant or function of the variants."""
     scene = Scene.load("granulation" if reduced else "pendulum")
-    variant = library.Variant(choose(scene, True), 10)
+    variant = library.Variant(select_model(scene, True), 10)
     paths = headers.headers(variant.choice)
     found = compiler()
     assert paths is not None

@@ -15,7 +15,7 @@ from casadi import SX
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.host.captured_stderr import listening
 from wetdoublet.solvers.host.thread_caches import once, own_cache
-from wetdoublet.solvers.model.model import Model, choose, load
+from wetdoublet.solvers.model.model import Model, load, select_model
 
 pytestmark = pytest.mark.slow
 
@@ -51,7 +51,7 @@ def test_public_functions_from_several_threads():
 
 def test_a_model_is_a_threads_own():
     """Threads that live together have different symbols and functions of one model, and each always the same."""
-    choice, leave = choose(Scene.load("granulation"), oblique=True), threading.Barrier(3)
+    choice, leave = select_model(Scene.load("granulation"), oblique=True), threading.Barrier(3)
 
     def go() -> tuple[Model, SX]:
         found = load(choice), load(choice).column

@@ -111,13 +111,13 @@ def test_the_picture_shows_the_terms(tmp_path) -> None:
 
 def test_amplification_of_a_relaxing_spin() -> None:
     """Gap held: the slip falls as exp(-k t), so backward the variational matrix grows by about exp(k t)."""
-    from wetdoublet.solvers.model.dimensionless import numbers
-    from wetdoublet.solvers.model.model import choose, load
+    from wetdoublet.solvers.model.dimensionless import nondimensionalise
+    from wetdoublet.solvers.model.model import load, select_model
     from wetdoublet.solvers.model.phases import Flow, Region
 
     scene = Scene.load("granulation-dry-bridge")
-    n = numbers(scene, scene.speed_of(0.03), math.radians(60))
-    flow = Flow(choose(scene, oblique=True, full=True), Region(1, 1, True))
+    n = nondimensionalise(scene, scene.speed_of(0.03), math.radians(60))
+    flow = Flow(select_model(scene, oblique=True, full=True), Region(1, 1, True))
     p = load(flow.choice).group_values(n.groups)
     start = np.array([0.5, 0.0, (4 + n.groups["aspect"] * 0.5) ** 2, 0.0])
     a, m, mu, x = 50e-6, 5.2e-9, 2.0, 4e-6
@@ -248,11 +248,11 @@ def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> 
 
 
 def test_what_finds_nothing_to_look_at_says_so() -> None:
-    """A film so thin that glass is met at first touch: every law without a flight is a note with that reason."""
+    """A film so thin that glass is met at initial contact: every law without a flight is a note with that reason."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
     flown = sample.flights(scene, (0.0, 0.5))
     findings = [*conserved.conserved("g", flown), *backward.backward("g", flown), *order.convergence("g", flown)]
     found = {finding.name: finding for finding in findings}
     for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
-        assert (found[law].ok, found[law].figure) == (None, "no flight lasts: all reverse at first touch")
+        assert (found[law].ok, found[law].figure) == (None, "no flight lasts: all reverse at initial contact")
     assert found["angular momentum"].ok is None and "torque" in found["angular momentum"].figure

@@ -161,7 +161,7 @@ class Overeager:
         return phase.motion == OPENING
 
 
-class Deceived(locate.Locate):
+class Deceived(locate.EventLocator):
     """A flight that believes it."""
 
     def __init__(self, *given: Any) -> None:
@@ -182,11 +182,11 @@ def test_a_certificate_that_proves_too_much_is_caught() -> None:
 
 def test_a_flight_without_proof_is_the_same_flight() -> None:
     """What separates is not changed by flying without a certificate."""
-    from wetdoublet.solvers.model.dimensionless import numbers
-    from wetdoublet.solvers.model.model import choose, load
+    from wetdoublet.solvers.model.dimensionless import nondimensionalise
+    from wetdoublet.solvers.model.model import load, select_model
 
-    n = numbers(SCENE, SCENE.speed_of(0.05), math.radians(70))
-    model = load(choose(SCENE, oblique=True))
+    n = nondimensionalise(SCENE, SCENE.speed_of(0.05), math.radians(70))
+    model = load(select_model(SCENE, oblique=True))
     free, kept = audit.WithoutProof(model, n.groups, 1e-9).on(1e5), locate.locate(model, n.groups, 1e-9)
     assert free.separated and kept.separated
     assert free.y[1] == pytest.approx(float(kept.y[1]), rel=1e-7)  # 100 rtol: the energy is watched in one only

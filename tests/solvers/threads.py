@@ -41,7 +41,7 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
 from wetdoublet.solvers.verify.backward import backward
 from wetdoublet.solvers.verify.budget import restitution_budget
@@ -86,7 +86,7 @@ def _mapped(**options: Any) -> xr.Dataset:
 
 def _failing() -> str:
     """An integrator that cannot: what CasADi prints of it, from whichever thread, is nobody's business."""
-    choice = choose(Scene.load(GRANULATION), oblique=True)
+    choice = select_model(Scene.load(GRANULATION), oblique=True)
     fly = plain(Flow(choice, Region(1, 1, False)), "cvodes", Tolerance(1e-9, 1e-12))
     try:
         fly(np.full(len(load(choice).state), math.nan), np.ones(len(load(choice).groups)), 1.0)

@@ -204,7 +204,7 @@ def _flight(laws: Mapping[str, Law]) -> Iterator[Equation]:
     pressure = sp.factor(pressure.subs({gap: x / x0, opening: u / v0}, simultaneous=True))
     length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
     cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
-    yield Equation(group, f"{latex(x)}(0)", start[x], "first touch")
+    yield Equation(group, f"{latex(x)}(0)", start[x], "initial contact")
     yield Equation(group, f"{latex(u)}(0)", start[u], "no spin, no angle turned yet")
     yield Equation(group, latex(omega0), initial_rate())
     yield Equation(group, latex(p_gt), pressure, "(i) glass transition", r"\leq")

@@ -8,7 +8,7 @@ _WIDTH = 110
 
 
 def each_term(line: str) -> str:
-    """A line that makes coefficient k, for every k: of a series that hangs on none that is still in the making."""
+    """Loop over k, one statement, for a series whose operands are fully known."""
     return line if line.startswith("/*") else f"EACH_TERM({line})"
 
 

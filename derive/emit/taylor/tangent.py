@@ -128,7 +128,7 @@ class Tangent(LinearFlow):
             rows.append((own, [each_term(line)]))
             if operation.name in turning:
                 rows[-1] = own, ["#if TURNING_STATE", each_term(line), "#endif"]
-        # what more groups need comes first: nothing that fewer need is a part of it
+        # operations that more groups need come first; they never depend on those needed by fewer
         rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
         lines: list[str] = []
         for own, some in groupby(rows, key=lambda row: row[0]):

@@ -1,4 +1,4 @@
-"""When attraction alone holds a doublet for good, whatever its energy: three numbers, and why they suffice.
+"""Attraction certificate: three inequalities on the state that exclude separation at any energy, with their proof.
 
 Oblique, with attractions F that fall with the gap, strings or not, midgap arm, per unit mass:
 

@@ -55,6 +55,6 @@ def _law(name: str, pressure: sp.Expr, meaning: str) -> Law:
 
 
 GLASSES = (
-    _law("literal", _literal(), "3 mu a |u|/x^2 as published: can fire at first touch"),
-    _law("film-corrected", _film_corrected(), "with the film's rim, 1/x^2 - 1/x0^2: zero at first touch"),
+    _law("literal", _literal(), "3 mu a |u|/x^2 as published: can fire at initial contact"),
+    _law("film-corrected", _film_corrected(), "with the film's rim, 1/x^2 - 1/x0^2: zero at initial contact"),
 )

@@ -1,4 +1,4 @@
-"""Start of a collision: first touch at x = x0, impact of normal speed v0 at angle theta0, no spin."""
+"""Start of a collision: initial contact at x = x0, impact of normal speed v0 at angle theta0, no spin."""
 
 from __future__ import annotations
 

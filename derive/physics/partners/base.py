@@ -26,7 +26,7 @@ class Rotation:
         outputs: what a separated pair shows.
         least: (least rotational energy over m v0^2 for the state's angular momentum, its slope along the gap).
         rigid: the state of least energy.
-        start: the state at first touch.
+        start: the state at initial contact.
     """
 
     states: tuple[sp.Symbol, ...]

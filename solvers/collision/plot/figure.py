@@ -58,11 +58,11 @@ def _title(collision: Outcome) -> str:
 
 def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     text = "Seen from above, to scale, film and liquid bridge in blue; arrows: velocities"
-    text += "; lines: marks that met at first touch."
+    text += "; lines: marks that met at initial contact."
     if collision.scene.wall and collision.angle:
         text += "\nBeside a wall no line of centres turns (ω = 0): the sphere slides and rolls along it."
     if collision.contact_time == 0 or collision.until == 0:
-        text += "\nThe outcome is certain at first touch: there is no flight to follow."
+        text += "\nThe outcome is certain at initial contact: there is no flight to follow."
     elif pictures[-1].free:
         strings = ", strings left out" if collision.scene.pendulum is not None else ""
         text += f"\nLast picture: drawn on after rupture along straight lines{strings}."
@@ -73,7 +73,7 @@ def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
 
 def _caption(frame: Frame, collision: Outcome, latest: float) -> str:
     factor, unit = prefix(latest)
-    time = "first touch" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
+    time = "initial contact" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
     moved = ""
     if collision.angle and frame.wall:
         size, name = prefix(frame.slid)

@@ -24,7 +24,7 @@ class Frame:
 
     Arguments:
         gap: between the surfaces.
-        angle: of the line of centres, counter-clockwise from that at first touch.
+        angle: of the line of centres, counter-clockwise from that at initial contact.
         turned: angle by which the first sphere has turned.
         radius: of the first sphere.
         partner: radius of the second; infinite for a wall.
@@ -82,7 +82,7 @@ class Frame:
 
 
 def frames(collision: Outcome) -> list[Frame]:
-    """Return instants equally spaced in time from first touch on, and for a separated pair one after rupture."""
+    """Return instants equally spaced in time from initial contact on, and for a separated pair one after rupture."""
     flight = _Flight.of(collision)
     still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.first.radius
     instants = np.linspace(0.0, flight.time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
@@ -94,7 +94,7 @@ def frames(collision: Outcome) -> list[Frame]:
 
 
 def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
-    """Return the given instants, s from first touch: straight lines before it and after rupture.
+    """Return the given instants, s from initial contact: straight lines before it and after rupture.
 
     A stick has no instants after its end.
     """
@@ -118,8 +118,8 @@ class _Flight:
     rotation: np.ndarray
     turned: tuple[np.ndarray, np.ndarray]  # of the two
     slid: np.ndarray  # past a wall
-    first: Frame  # at first touch
-    approach: Vector  # relative velocity at first touch
+    first: Frame  # at initial contact
+    approach: Vector  # relative velocity at initial contact
     parting: tuple[float, float]  # opening velocity and velocity across the line of centres at the end
     spins: tuple[float, float]  # at the end
 
@@ -153,7 +153,7 @@ class _Flight:
         return self.at(float(self.time[-1]))
 
     def before(self, instant: float) -> Frame:
-        """The pair on its way to first touch."""
+        """The pair on its way to initial contact."""
         first = self.at(0.0)
         x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant * (not first.wall)
         gap = math.hypot(x, y) - (first.distance - first.gap)
@@ -177,7 +177,7 @@ class _Flight:
 
 
 def _first(scene: Scene, gap: float) -> Frame:
-    """The two at first touch."""
+    """The two at initial contact."""
     radius = 2 * scene.particles.reduced_radius
     if scene.wall:
         return Frame(0.0, gap, 0.0, 0.0, radius, partner=math.inf, partner_turned=0.0)

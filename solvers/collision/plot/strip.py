@@ -96,7 +96,7 @@ def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: f
 
 
 def _draw_wall(axes: Axes, nearest: Vector, film: float, slid: float) -> None:
-    """The wall, at the right, with its film and the mark that the sphere met at first touch."""
+    """The wall, at the right, with its film and the mark that the sphere met at initial contact."""
     high = 1.6  # of R, as the frame's half_height
     left = nearest[0]
     axes.add_patch(Rectangle((left - film, -high), film, 2 * high, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))

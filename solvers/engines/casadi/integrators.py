@@ -19,7 +19,7 @@ from ...host.buffered import Buffered
 from ...host.captured_stderr import listening
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
-from ...model.phases import Flow, Watch, event_table, expressions, mechanical_energy
+from ...model.phases import Flow, WatchedEvents, event_table, expressions, mechanical_energy
 from ...settings import STEPS
 
 _EXPECTED = "Event support is experimental"
@@ -145,7 +145,7 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
 
 
 @dataclass(frozen=True)
-class Stop:
+class EventHit:
     """Where a locating integrator stopped: the event's name (None: none yet), its time, the state, and whether the
     event's function had already dipped below zero before (its true crossing is then earlier).
     """
@@ -166,7 +166,7 @@ class Locator:
     values: Function  # event functions (y, parameters)
     energy: Function
 
-    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> Stop:
+    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> EventHit:
         parameters = np.concatenate([p, [duration, motion, level]])
         riders = np.zeros(3 + len(self.dips))  # clock, active, number, passed minima
         riders[1] = 1.0
@@ -174,10 +174,10 @@ class Locator:
         after, (time, _, number) = found[: y.size], found[y.size : y.size + 3]
         which = round(number) - 1
         if which < 0:
-            return Stop(None, duration, after, False)
+            return EventHit(None, duration, after, False)
         dipped = which >= len(self.events)
         index = self.dips[which - len(self.events)] if dipped else which
-        return Stop(self.events[index], float(time), after, dipped)
+        return EventHit(self.events[index], float(time), after, dipped)
 
     @property
     def steps(self) -> int:
@@ -191,7 +191,7 @@ class Locator:
 
 
 @own_cache(256)
-def locator(flow: Flow, watch: Watch, tolerance: Tolerance, machine_code: bool = False) -> Locator:
+def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code: bool = False) -> Locator:
     """A Rosenbrock integrator that freezes at the first event.
 
     A clock, a flag that freezes the flow, and the event's number ride along as states. CasADi looks at signs at the
@@ -258,7 +258,7 @@ def locator(flow: Flow, watch: Watch, tolerance: Tolerance, machine_code: bool =
 
 
 @own_cache(512)
-def landing(flow: Flow, watch: Watch, event: str) -> Function:
+def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 
     dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is about zero, but its

@@ -28,9 +28,9 @@ from ....generated.automaton import (
 from ...certificates import OrbitalProof, Proof, proof_for
 from ...errors import ComputationError
 from ...model.model import Model
-from ...model.phases import Flow, Phase, Watch
+from ...model.phases import Flow, Phase, WatchedEvents
 from ...settings import CALL, STEPS
-from .integrators import IntegrationFailed, Locator, Stop, Tolerance, locator, plain, tolerance
+from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
 _NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
@@ -42,7 +42,7 @@ _GAP, _VELOCITY = 0, 1  # places in the state
 
 
 @dataclass(frozen=True)
-class Step:
+class PhaseRun:
     """One phase flown for a duration (x0/v0) to an event, and what is reported of it.
 
     Arguments:
@@ -61,13 +61,13 @@ class Step:
 
 
 @dataclass
-class Path:
+class EventSequence:
     """The located flight of a collision."""
 
     model: Model
     p: np.ndarray
-    watch: Watch
-    steps: list[Step] = field(default_factory=list)
+    watch: WatchedEvents
+    steps: list[PhaseRun] = field(default_factory=list)
     separated: bool = False
     certified: bool = False
     ends: list[np.ndarray] = field(default_factory=list)  # state after each step, its reversal included
@@ -93,7 +93,7 @@ class Path:
         return BOUNCE if self.reversal else ROTATE
 
 
-class Locate:
+class EventLocator:
     """Locates one collision; `run` returns its Path."""
 
     def __init__(
@@ -116,21 +116,21 @@ class Locate:
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < self.rupture_gap
-        self.watch = Watch(tangential_edge=own_edge, certificate=self.proof.watches)
+        self.watch = WatchedEvents(tangential_edge=own_edge, certificate=self.proof.watches)
         works = self.proof.watches == "energy" or any(work in extras for work in model.works)
         self.extras = tuple(name for name in extras if name not in model.works) + (model.works if works else ())
-        self.path = Path(model, self.p, self.watch, extras=self.extras)
+        self.path = EventSequence(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
         self.spent, self.steps = 0, steps
 
-    def run(self) -> Path:
+    def run(self) -> EventSequence:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error("so oblique an impact turns within a rounding error of x0", "try a smaller angle")
         while True:
             if self._proved():
-                self._stop(Step(self.phase, 0.0, None, ()))
+                self._stop(PhaseRun(self.phase, 0.0, None, ()))
                 self.path.certified = self.proof.theorem
                 return self.path
             if self._held_in_chatter():
@@ -155,7 +155,7 @@ class Locate:
             return False
         if not (proof.holds(self.y) or proof.settles(self.y)):
             return False
-        self._stop(Step(self.phase, 0.0, None, ()))
+        self._stop(PhaseRun(self.phase, 0.0, None, ()))
         self.path.certified = proof.proves
         return True
 
@@ -181,7 +181,7 @@ class Locate:
     def _level(self) -> float | None:
         return self.proof.level(self.y, self.phase) if self.watch.certificate else None
 
-    def _stop(self, step: Step) -> None:
+    def _stop(self, step: PhaseRun) -> None:
         self.path.steps.append(step)
         self.path.ends.append(self.y)
 
@@ -201,13 +201,13 @@ class Locate:
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event == "certified":
                 if self._proved():
-                    self._stop(Step(self.phase, flown, None, ()))
+                    self._stop(PhaseRun(self.phase, flown, None, ()))
                     self.path.certified = self.proof.theorem
                     return True
             elif stop.event is not None:
                 return self._act(EVENT_OF[stop.event], flown)
             elif self._proved():
-                self._stop(Step(self.phase, flown, None, ()))
+                self._stop(PhaseRun(self.phase, flown, None, ()))
                 self.path.certified = self.proof.theorem
                 return True
             else:
@@ -218,11 +218,11 @@ class Locate:
         )
 
     def _first_stretch(self) -> float:
-        """No longer than 1e5 times what the force at hand takes to close the film: integrators start at a share."""
+        """Length of the first interval: at most 1e5 times what the force takes to close the film."""
         force = abs(self.model.values("inward_force", self.y, self.p)["inward_force"])
         return FIRST_STRETCH * min(1.0, _STRONG / np.sqrt(force)) if force > 0 else FIRST_STRETCH
 
-    def _advance(self, find: Locator, stretch: float, level: float) -> Stop:
+    def _advance(self, find: Locator, stretch: float, level: float) -> EventHit:
         # an unreachable level is a large negative number: infinities would spoil the integrator's arithmetic
         level = max(level, -1e30)
         try:
@@ -240,7 +240,7 @@ class Locate:
     def _loosened(self) -> bool:
         """Go on with a looser tolerance, where it had been tightened for the start of a grazing flight.
 
-        Further on that may be below the rounding of what has become large.
+        Later the states may be so large that the tightened tolerance is below their rounding error.
         """
         if self.tolerance.relative >= self.rtol:
             return False
@@ -248,11 +248,11 @@ class Locate:
         self.tolerance = Tolerance(looser, self.tolerance.absolute * looser / self.tolerance.relative)
         return True
 
-    def _overshot(self, find: Locator, stop: Stop, level: float) -> Stop:
-        """What a gap met on its way to an extremum: out and back within one step shows no change of sign.
+    def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
+        """The first event crossed before a turning point within one step.
 
-        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. And whatever is
-        below zero where nothing was found was lost beside another function's minimum in the same step.
+        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. If no
+        event was reported but a function is negative at the end, its crossing was masked by another function's minimum.
         """
         crossed = [
             self._refined(find, stop, row.name, level)
@@ -263,7 +263,7 @@ class Locate:
         ]
         return min(crossed, key=lambda found: found.time, default=stop)
 
-    def _refined(self, find: Locator, stop: Stop, event: str, level: float) -> Stop:
+    def _refined(self, find: Locator, stop: EventHit, event: str, level: float) -> EventHit:
         """The crossing before a stop at which `event` is below zero: bisection with secant steps on a plain flow."""
         fly = plain(self._flow(), "rosenbrock", self.tolerance)
 
@@ -285,7 +285,7 @@ class Locate:
                 before, g_before = trial, g
             if after - before < 1e-12 * stop.time:
                 break
-        return Stop(event, after, y_after, False)
+        return EventHit(event, after, y_after, False)
 
     def _act(self, event: Event, flown: float) -> bool:
         """The effect of an event; True if it ends the collision."""
@@ -296,7 +296,7 @@ class Locate:
                 self._reverse(word, flown, event.name)
                 return False
             phase = self._done(action, phase)
-        self._next(Step(before, flown, event.name, (word,)), phase)
+        self._next(PhaseRun(before, flown, event.name, (word,)), phase)
         return event.actions[-1] in _ENDS
 
     def _word(self, event: Event) -> str:
@@ -343,7 +343,7 @@ class Locate:
         self.y[position] = value
         self.path.y = self.y
 
-    def _next(self, step: Step, phase: Phase) -> None:
+    def _next(self, step: PhaseRun, phase: Phase) -> None:
         self._stop(step)
         self.phase = phase
 
@@ -359,7 +359,7 @@ class Locate:
         if self.y[0] >= self.rupture_gap:
             self.path.separated = True
             kinds += (KINDS[EventKind.RUPTURE],)
-            self._next(Step(self.phase, flown, event, kinds, reverses=True), self._opening(self.phase))
+            self._next(PhaseRun(self.phase, flown, event, kinds, reverses=True), self._opening(self.phase))
             return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
         holds = inward > 0 and self._too_weak(after["opening"], inward)
@@ -370,10 +370,10 @@ class Locate:
             phase = self.phase.with_(resting=True, motion=OPENING)
         else:
             phase = self._opening(self.phase)
-        self._next(Step(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
+        self._next(PhaseRun(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
 
     def _opening(self, phase: Phase) -> Phase:
-        """The phase that opens from here; from first touch, beyond the film at once."""
+        """The phase that opens from here; from initial contact, beyond the film at once."""
         film = phase.film if self.y[0] != 1.0 or not self.model.edged else 0
         shear = phase.shear if self.y[0] != self.edge else 0
         return self._towards(OPENING, phase).with_(film=film, shear=shear)
@@ -397,7 +397,7 @@ class Locate:
 
 def locate(
     model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = (), machine_code: bool = False
-) -> Path:
+) -> EventSequence:
     """Phases and events of a collision.
 
     Arguments:
@@ -407,4 +407,4 @@ def locate(
     Raises:
         ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
     """
-    return Locate(model, groups, rtol, extras, machine_code).run()
+    return EventLocator(model, groups, rtol, extras, machine_code).run()

@@ -13,11 +13,11 @@ from casadi import SX, Function, jtimes, vertcat
 
 from ....generated.automaton import EVENTS
 from ...host.thread_caches import own_cache
-from ...model.model import Choice
-from ...model.phases import Flow, Watch, event_table, expressions
+from ...model.model import ModelKey
+from ...model.phases import Flow, WatchedEvents, event_table, expressions
 from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
-from .locate import Path, Step
+from .locate import EventSequence, PhaseRun
 
 _LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
 _MISSES = 1e-13  # of its scale: what an event's function may be off after the step
@@ -32,7 +32,7 @@ class Stopped(Exception):
     `missed`: its solution misses the located event, so a tighter tolerance may help.
     """
 
-    def __init__(self, why: str, step: Step, time: float, y: np.ndarray, missed: bool = False) -> None:
+    def __init__(self, why: str, step: PhaseRun, time: float, y: np.ndarray, missed: bool = False) -> None:
         super().__init__(why, step, time, y, missed)
         self.why, self.step, self.time, self.y, self.missed = why, step, time, y, missed
 
@@ -67,12 +67,12 @@ class Flown:
         return float(self.y[len(self.y) - len(self.extras) + self.extras.index(name)]) - self.offset
 
 
-def fly(path: Path, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Flown:
+def fly(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Flown:
     """Fly `path` with an integrator plugin.
 
     Arguments:
         kind: the model to fly and its extras (the regions come from the path).
-        start: state at first touch.
+        start: state at initial contact.
 
     Raises:
         Stopped: the engine gave up, or its solution misses an event of the path.
@@ -103,7 +103,7 @@ def fly(path: Path, plugin: str, tolerance: Tolerance, kind: Flow, start: np.nda
     return flown
 
 
-def as_located(path: Path, choice: Choice) -> Flown:
+def as_located(path: EventSequence, choice: ModelKey) -> Flown:
     """The located flight itself, its extras integrated along: one solution, which cannot miss its own events."""
     start = path.model.start(path.p)
     begun = np.concatenate([start, np.zeros(len(path.extras))])
@@ -119,7 +119,7 @@ def as_located(path: Path, choice: Choice) -> Flown:
 
 
 def _flight(
-    engine: Plain, flow: Flow, watch: Watch, step: Step, flown: Flown, p: np.ndarray
+    engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, flown: Flown, p: np.ndarray
 ) -> tuple[float, np.ndarray]:
     """Duration and end of one phase, on the event's surface."""
 
@@ -136,7 +136,7 @@ def _flight(
     y = flight(step.duration)
     if step.event is None:
         return step.duration, y
-    watched = Watch(tangential_edge=watch.tangential_edge)
+    watched = WatchedEvents(tangential_edge=watch.tangential_edge)
     land = landing(flow, watched, step.event)
     motion = float(step.phase.motion)
     parameters = np.append(p, [motion, 0.0])
@@ -164,7 +164,7 @@ def _flight(
 
 
 @own_cache(512)
-def _slope(flow: Flow, watch: Watch, event: str) -> Function:
+def _slope(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """Rate of an event's function along the flow."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")

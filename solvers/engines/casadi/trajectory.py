@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from ...errors import ComputationError
-from ...model.dimensionless import Numbers
+from ...model.dimensionless import DimensionlessGroups
 from ...model.model import Model
 from ...scene.scene import Scene
 from .integrators import IntegrationFailed, Tolerance, plain
@@ -81,14 +81,14 @@ def stretch(piece: Piece, model: Model, flown: Flown, p: np.ndarray, plugin: str
 def dataset(
     flight: Sequence[Stretch],
     model: Model,
-    n: Numbers,
+    n: DimensionlessGroups,
     first: np.ndarray,
     attrs: Mapping[str, str | float] | None = None,
 ) -> xr.Dataset:
     """A flight on a grid of _POINTS per phase; an event's time stands twice, before and after it.
 
     Arguments:
-        first: the state at first touch, shown alone where all is decided there.
+        first: the state at initial contact, shown alone where all is decided there.
     """
     p, size = model.group_values(n.groups), len(model.state)
     times: list[np.ndarray] = []
@@ -101,8 +101,8 @@ def dataset(
         columns.append(states)
         angles.append(np.zeros(_GRID.size) if angle is None else angle)
         phases += [one.name] * _GRID.size
-    if not columns:  # decided at first touch
-        times, columns, phases = [np.zeros(1)], [first[:size, None]], ["first touch"]
+    if not columns:  # decided at initial contact
+        times, columns, phases = [np.zeros(1)], [first[:size, None]], ["initial contact"]
         angles = [np.zeros(1)]
     y, time = np.hstack(columns), np.concatenate(times) * n.time
     zero = np.zeros(time.size)
@@ -125,7 +125,7 @@ def dataset(
         for name, value in values.items()
     }
     coordinates = {
-        "time": ("time", time, {"units": "s", "long_name": "time since first touch"}),
+        "time": ("time", time, {"units": "s", "long_name": "time since initial contact"}),
         "phase": ("time", np.array(phases)),
     }
     return xr.Dataset(variables, coordinates, dict(attrs or {}))

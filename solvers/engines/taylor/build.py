@@ -18,7 +18,7 @@ from ...host.cores import usable_cores
 from ...host.remarks import say_once
 from ...host.thread_caches import once
 from ...host.user_cache import has, kept, loaded
-from ...model.model import Choice, choose
+from ...model.model import ModelKey, select_model
 from .headers import automaton, headers, tangents
 from .includes import resolved
 from .layout import MOST_STEPS, RESULTS, declarations
@@ -60,7 +60,7 @@ class Variant:
         trajectory: every step is written as it was taken.
     """
 
-    choice: Choice
+    choice: ModelKey
     order: int
     rotation: bool = False
     own_rupture: bool = False
@@ -92,9 +92,9 @@ def _processor() -> frozenset[str]:
     return frozenset({"sse2"})
 
 
-def knows(scene: Scene) -> bool:
+def supported(scene: Scene) -> bool:
     """Whether the kernel can collide a scene here: its laws have recurrences, and there is a compiler."""
-    return compiler() is not None and all(headers(choose(scene, oblique, fold=True)) for oblique in (True, False))
+    return compiler() is not None and all(headers(select_model(scene, oblique, fold=True)) for oblique in (True, False))
 
 
 def source(variant: Variant, emitted: tuple[str, ...]) -> str:
@@ -162,7 +162,7 @@ def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
     return f"{_stem(variant)}-{key(text, flags, machine)}.so"
 
 
-def at_hand(variant: Variant) -> bool:
+def is_compiled(variant: Variant) -> bool:
     """Whether the library of a variant has been compiled before; nothing is derived or compiled to see."""
     if not has(f"{_stem(variant)}-"):
         return False  # its headers need not even have been derived

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...model.model import Choice, choose
+from ...model.model import ModelKey, select_model
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
-from .build import LARGEST_ORDER, Variant, kernel, knows
+from .build import LARGEST_ORDER, Variant, kernel, supported
 from .endless import decide
 from .layout import ANSWER, Task, names
 
@@ -52,7 +52,7 @@ def order_for(rtol: float) -> int:
 
 def variant(
     scene: Scene,
-    choice: Choice,
+    choice: ModelKey,
     rtol: float,
     rotation: bool,
     ledger: bool = False,
@@ -64,7 +64,7 @@ def variant(
     return Variant(choice, order_for(rtol), rotation, own, few=few, ledger=ledger, trajectory=trajectory)
 
 
-def answers(
+def run_kernel(
     impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = STEPS, few: bool = False
 ) -> np.ndarray | None:
     """An array of ANSWER, a collision each; None if there is no kernel here.
@@ -112,13 +112,13 @@ def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fl
 def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> Fly | None:
     """The kernel of these impacts; None if there is none here."""
     scene = those.scene
-    if not knows(scene):
+    if not supported(scene):
         return None
-    choice = choose(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
+    choice = select_model(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
     library = kernel(variant(scene, choice, rtol, rotation, few=few))
     if library is None:
         return None
-    fly = calling(library, rtol, budget)
+    fly = bind_kernel(library, rtol, budget)
 
     def decided(impacts: Impacts, made: np.ndarray) -> None:
         fly(impacts, made)
@@ -145,7 +145,7 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
     return asked
 
 
-def calling(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
+def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
     """A kernel as a function of impacts that fit it, and answers to be filled (zeros of ANSWER)."""
 
     def fly(impacts: Impacts, made: np.ndarray) -> None:

@@ -6,13 +6,13 @@ import numpy as np
 
 from ....generated.automaton import OUTCOMES, STICK, Status
 from ...certificates import OrbitalProof, comes_to, proof_for
-from ...model.dimensionless import numbers
-from ...model.model import Choice, load
+from ...model.dimensionless import nondimensionalise
+from ...model.model import ModelKey, load
 from ...scene.scene import Scene
 
 
 def decide(
-    answers: np.ndarray, scene: Scene, speed: np.ndarray, angle: np.ndarray, choice: Choice, rtol: float
+    answers: np.ndarray, scene: Scene, speed: np.ndarray, angle: np.ndarray, choice: ModelKey, rtol: float
 ) -> None:
     """Make sticks of the collisions among `answers` whose last state is held by the momentum of the orbit.
 
@@ -35,7 +35,7 @@ def limits(
     scene: Scene,
     speed: np.ndarray,
     angle: np.ndarray,
-    choice: Choice,
+    choice: ModelKey,
     rtol: float,
 ) -> list[bool | None]:
     """Whether doublets that circle are held in the limit of many turns; None where that is not clear.
@@ -52,9 +52,9 @@ def limits(
     return found
 
 
-def _proof(scene: Scene, speed: float, angle: float, choice: Choice, rtol: float) -> OrbitalProof | None:
+def _proof(scene: Scene, speed: float, angle: float, choice: ModelKey, rtol: float) -> OrbitalProof | None:
     model = load(choice)
-    found = proof_for(model, model.group_values(numbers(scene, float(speed), float(angle)).groups), rtol)
+    found = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
     return found if isinstance(found, OrbitalProof) and not model.strings else None  # strings may feed the slip
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...host import emitted
 from ...host.remarks import say
 from ...host.thread_caches import once
-from ...model.model import Choice
+from ...model.model import ModelKey
 
 _NONE = "#error "  # how a header begins that could not be emitted
 
@@ -17,18 +17,18 @@ def automaton() -> tuple[str, str]:
 
 
 @once
-def headers(choice: Choice) -> tuple[str, ...] | None:
+def headers(choice: ModelKey) -> tuple[str, ...] | None:
     """Texts of the headers of a choice, laws first; None where a law has no recurrence, which is said once."""
     return _sound("no Taylor kernel", _texts(choice, tangent=False))
 
 
 @once
-def tangents(choice: Choice) -> tuple[str, ...] | None:
+def tangents(choice: ModelKey) -> tuple[str, ...] | None:
     """Texts of the headers with the derivatives of a choice, laws first; None where a law has none, said once."""
     return _sound("no derivatives by the Taylor kernel", _texts(choice, tangent=True))
 
 
-def _texts(choice: Choice, tangent: bool) -> list[str]:
+def _texts(choice: ModelKey, tangent: bool) -> list[str]:
     return [*(_law(choice, slot, name, tangent) for slot, name in choice.laws), _structure(choice, tangent)]
 
 
@@ -40,14 +40,14 @@ def _sound(without: str, texts: list[str]) -> tuple[str, ...] | None:
     return tuple(texts)
 
 
-def _law(choice: Choice, slot: str, name: str, tangent: bool) -> str:
+def _law(choice: ModelKey, slot: str, name: str, tangent: bool) -> str:
     package = choice.package
     if package is not None and (name in package.laws(slot) or package.changes((slot,))):
         return package.law_header(slot, name, tangent)
     return emitted.header(f"{_folder(tangent)}/laws/{slot}_{name.replace('-', '_')}.h")
 
 
-def _structure(choice: Choice, tangent: bool) -> str:
+def _structure(choice: ModelKey, tangent: bool) -> str:
     package, slots = choice.package, tuple(slot for slot, _ in choice.laws)
     if package is not None and package.changes(slots):
         return package.structure_header(choice.structure, tangent)

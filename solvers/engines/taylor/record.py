@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import Purpose
-from ...model.model import choose
+from ...model.model import select_model
 from ...settings import STEPS
-from .build import kernel, knows
+from .build import kernel, supported
 from .call import Impacts, task, variant
 from .endless import decide
 from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
@@ -65,7 +65,7 @@ class Recorded:
     peaks: np.ndarray | None = None
 
 
-def recorded(
+def run_recorded(
     impacts: Impacts,
     oblique: bool,
     rtol: float,
@@ -91,9 +91,9 @@ def recorded(
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are flown again.
     """
-    if not knows(impacts.scene):
+    if not supported(impacts.scene):
         return None
-    choice = choose(impacts.scene, oblique, full=ledger, fold=fold)
+    choice = select_model(impacts.scene, oblique, full=ledger, fold=fold)
     library = kernel(variant(impacts.scene, choice, rtol, True, ledger, trajectory))
     if library is None:
         return None

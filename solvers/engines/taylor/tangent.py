@@ -10,7 +10,7 @@ import numpy as np
 
 from ....generated.automaton import LOOSEST
 from ...host.compiler import compiler
-from ...model.model import choose
+from ...model.model import select_model
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, kernel
@@ -22,7 +22,7 @@ COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # the boundary of a flight that rested on the solids
 DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
     6: ("tie of roughness and elastic length", "particles.roughness"),
-    7: ("glass criterion met at first touch", "liquid.glass_transition_pressure"),
+    7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
 }
 STRICTER = 4.0  # steps that no direction holds are held to a tolerance stricter by this
@@ -49,7 +49,7 @@ class Carried:
     by_energy: bool
 
 
-def carried(
+def run_tangent(
     impacts: Impacts,
     oblique: bool,
     rtol: float,
@@ -96,7 +96,7 @@ def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: 
 def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False) -> Variant:
     """What the kernel that differentiates a scene's collisions is compiled for."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(choose(scene, oblique), order, rotation, own, gradients=True, backward=backward)
+    return Variant(select_model(scene, oblique), order, rotation, own, gradients=True, backward=backward)
 
 
 def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
@@ -105,7 +105,7 @@ def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> b
     Arguments:
         oblique: of oblique ones, of those head-on: what is not asked about is not derived.
     """
-    choices = [choose(scene, own) for own in oblique]
+    choices = [select_model(scene, own) for own in oblique]
     return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...engines.casadi.locate import Path
-from ...model.dimensionless import Numbers, numbers
+from ...engines.casadi.locate import EventSequence
+from ...model.dimensionless import DimensionlessGroups, nondimensionalise
 from ...scene.scene import Scene
 
 
@@ -25,12 +25,12 @@ class Answer:
     restitution: float
 
 
-def dimensionless(scene: Scene, impact: Impact) -> Numbers:
+def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
     """The numbers of a scene's collision."""
-    return numbers(scene, scene.speed_of(impact.stokes), impact.angle)
+    return nondimensionalise(scene, scene.speed_of(impact.stokes), impact.angle)
 
 
-def answer(path: Path) -> Answer:
+def answer(path: EventSequence) -> Answer:
     """What a located flight came to."""
     outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
     return Answer(path.outcome, outputs.get("restitution", 0.0))

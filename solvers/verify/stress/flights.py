@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from ...engines.casadi.locate import Locate, Path
+from ...engines.casadi.locate import EventLocator, EventSequence
 from ...errors import ComputationError
 from ...model.model import Model
 
@@ -14,29 +14,29 @@ class Flights:
     """Flights that several engines, and the audit, ask for: located once, as nothing in it is left to chance."""
 
     def __init__(self) -> None:
-        self._known: dict[Any, tuple[Locate, ComputationError | None, float]] = {}
+        self._known: dict[Any, tuple[EventLocator, ComputationError | None, float]] = {}
         self.spared = 0.0  # s of CPU time that were not spent again
 
     def forget(self) -> None:
         """A new case."""
         self._known.clear()
 
-    def find(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Path:
+    def find(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
         """What `locate` does."""
         return self._flown(model, groups, rtol, extras).path
 
-    def handed_out(self, model: Model, groups: dict[str, float], rtol: float) -> Locate:
+    def handed_out(self, model: Model, groups: dict[str, float], rtol: float) -> EventLocator:
         """A located flight, for its taker to fly on: nobody is given it again."""
         flight = self._flown(model, groups, rtol)
         self.forget()
         return flight
 
-    def _flown(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()) -> Locate:
+    def _flown(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()) -> EventLocator:
         key = model.choice, tuple(groups.items()), rtol, extras
         if key in self._known:
             self.spared += self._known[key][2]
         else:
-            start, flight, failure = time.process_time(), Locate(model, groups, rtol, extras), None
+            start, flight, failure = time.process_time(), EventLocator(model, groups, rtol, extras), None
             try:
                 flight.run()
             except ComputationError as error:

@@ -19,7 +19,7 @@ from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
-from ...model.model import choose, load
+from ...model.model import load, select_model
 from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
@@ -51,7 +51,7 @@ def fast(scene: Scene, rtol: float) -> Found:
 
 def fast_kernel(scene: Scene) -> Variant:
     """The kernel that `fast` flies a scene with."""
-    return variant(scene, choose(scene, bool(scene.angle), fold=True), RTOL, rotation=False, few=True)
+    return variant(scene, select_model(scene, bool(scene.angle), fold=True), RTOL, rotation=False, few=True)
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
@@ -88,7 +88,7 @@ def by_scipy(scene: Scene, rtol: float, method: str = "LSODA") -> Found:
     """By a method of scipy, with its own event location."""
     impact = Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0))
     n = dimensionless(scene, impact)
-    path = Limited(load(choose(scene, n.oblique)), n.groups, rtol, method).run()
+    path = Limited(load(select_model(scene, n.oblique)), n.groups, rtol, method).run()
     said = answer(path)
     if said.restitution < 0:
         raise ComputationError(f"{method} takes the start for its end")  # a step below the rounding of x0
@@ -255,7 +255,7 @@ def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
     """
     n = dimensionless(case.scene, Impact(float(case.scene.stokes or 0.0), float(case.scene.angle or 0.0)))
     try:
-        flight: Any = _FLIGHTS.handed_out(load(choose(case.scene, n.oblique, fold=True)), n.groups, RTOL)
+        flight: Any = _FLIGHTS.handed_out(load(select_model(case.scene, n.oblique, fold=True)), n.groups, RTOL)
         proved = flight.path.certified
         flight.proof = Audit()
         flight.watch = replace(flight.watch, certificate=None)

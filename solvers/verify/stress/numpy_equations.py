@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 
-from ...model.phases import Flow, Watch, event_table, expressions
+from ...model.phases import Flow, WatchedEvents, event_table, expressions
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Equations:
 
 
 @lru_cache(maxsize=256)
-def equations(flow: Flow, watch: Watch) -> Equations:
+def equations(flow: Flow, watch: WatchedEvents) -> Equations:
     """What an integrator from elsewhere needs of a flow; parameters are the groups, motion and level."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")

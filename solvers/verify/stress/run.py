@@ -15,7 +15,7 @@ from ...engines.taylor.call import variant
 from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.workers import undisturbed, workers
-from ...model.model import choose
+from ...model.model import select_model
 from .judge import SHARE, fast_kernel, judge, runs
 from .sample import SEED, sample
 from .verdict import FAST, RTOL, Case, Issue, Verdict
@@ -122,7 +122,7 @@ def _prepared(count: int, seed: int) -> list[Case]:
 def _kernel_of(case: Case) -> Variant:
     """The kernel that a case asks for first."""
     if case.angles:
-        return variant(case.scene, choose(case.scene, True), RTOL, True, trajectory=True)
+        return variant(case.scene, select_model(case.scene, True), RTOL, True, trajectory=True)
     return fast_kernel(case.scene)
 
 
@@ -148,7 +148,7 @@ def _blocks(cases: Sequence[Case]) -> list[list[int]]:
     """Cases that share structure and laws go to one worker, which builds and compiles for them once."""
     alike: dict[Any, list[int]] = {}
     for k, case in enumerate(cases):
-        alike.setdefault(choose(case.scene, bool(case.scene.angle)), []).append(k)
+        alike.setdefault(select_model(case.scene, bool(case.scene.angle)), []).append(k)
     return [group[k : k + _BLOCK] for group in alike.values() for k in range(0, len(group), _BLOCK)]
 
 

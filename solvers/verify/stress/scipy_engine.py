@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from ...engines.casadi.integrators import Stop, tolerance
-from ...engines.casadi.locate import EVENT_OF, Locate, Path, Step
+from ...engines.casadi.integrators import EventHit, tolerance
+from ...engines.casadi.locate import EVENT_OF, EventLocator, EventSequence, PhaseRun
 from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
 
@@ -46,7 +46,7 @@ class _Table:
         return value
 
 
-class Flight(Locate):
+class Flight(EventLocator):
     """A collision by one of scipy's methods; rules, phases and proofs are those of our own engines.
 
     Arguments:
@@ -60,7 +60,7 @@ class Flight(Locate):
         self.options: dict[str, Any] = {"method": method, "rtol": max(told.relative, _TIGHTEST), "atol": told.absolute}
 
     def _fly(self) -> bool:
-        """As `Locate._fly`, with one long call where that goes by stretches."""
+        """As `EventLocator._fly`, with one long call where that goes by stretches."""
         found, flown = equations(self._flow(), self.watch), 0.0
         for span in _SPANS:
             level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
@@ -72,12 +72,12 @@ class Flight(Locate):
             if stop.event is not None and stop.event != "certified":
                 return self._act(EVENT_OF[stop.event], flown)
             if self._proved():
-                self._stop(Step(self.phase, flown, None, ()))
+                self._stop(PhaseRun(self.phase, flown, None, ()))
                 self.path.certified = self.proof.theorem
                 return True
         raise self._error(f"no event within {flown:.3g} x0/v0", "try a smaller rtol")
 
-    def _solved(self, found: Equations, span: float, level: float) -> Stop:
+    def _solved(self, found: Equations, span: float, level: float) -> EventHit:
         """Integrate to the first event, or to the end of the span."""
         parameters = np.append(self.p, [self.phase.motion, level])
         table = _Table(Bound(found.table, parameters))
@@ -91,8 +91,8 @@ class Flight(Locate):
             return grazed
         for name, times, states in zip(found.events, solution.t_events, solution.y_events):
             if len(times):
-                return Stop(name, float(times[-1]), states[-1].copy(), False)
-        return Stop(None, float(solution.t[-1]), solution.y[:, -1].copy(), False)
+                return EventHit(name, float(times[-1]), states[-1].copy(), False)
+        return EventHit(None, float(solution.t[-1]), solution.y[:, -1].copy(), False)
 
     def _integrated(self, rates: Bound, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
         from scipy.integrate import solve_ivp
@@ -105,7 +105,7 @@ class Flight(Locate):
             raise self._error(f"{self.method} failed ({solution.message})", "")
         return solution
 
-    def _grazed(self, found: Equations, solution: Any, rates: Bound, table: Bound) -> Stop | None:
+    def _grazed(self, found: Equations, solution: Any, rates: Bound, table: Bound) -> EventHit | None:
         """The first crossing that a step has hidden: below zero and back between its ends.
 
         Values and slopes at the ends say by a cubic where that may be; there the step is flown again and looked at.
@@ -123,7 +123,7 @@ class Flight(Locate):
             below = [t for t in trials if table(0.0, dense(t))[index] < 0]
             if below:
                 time = _bisected(lambda t: bool(table(0.0, dense(t))[index] < 0), times[k], below[0])  # noqa: B023 # used at once
-                return Stop(found.events[index], time, dense(time), True)
+                return EventHit(found.events[index], time, dense(time), True)
         return None
 
 
@@ -146,6 +146,6 @@ def _bisected(below: Callable[[float], bool], before: float, after: float) -> fl
     return after
 
 
-def fly(model: Model, groups: dict[str, float], rtol: float, method: str) -> Path:
+def fly(model: Model, groups: dict[str, float], rtol: float, method: str) -> EventSequence:
     """The flight of a collision by a scipy method. ComputationError if it does not come to an end."""
     return Flight(model, groups, rtol, method).run()

@@ -12,8 +12,8 @@ from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.engines.casadi.integrators import tolerance
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.formatting.markdown import ms, table
-from wetdoublet.solvers.model.dimensionless import numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.derivatives import evaluate
 from wetdoublet.solvers.sensitivity.parameters import known
@@ -137,8 +137,8 @@ def _collided(scene: Scene, engine: str) -> None:
 @lru_cache(maxsize=32)
 def _known(scene: Scene) -> tuple[Course, np.ndarray, np.ndarray, dict[str, float]]:
     """Course, durations and groups of a collision, located once."""
-    n = numbers(scene, *scene.need_impact())
-    path = locate(load(choose(scene, n.oblique)), n.groups, RTOL)
+    n = nondimensionalise(scene, *scene.need_impact())
+    path = locate(load(select_model(scene, n.oblique)), n.groups, RTOL)
     course = course_of(path, path.model.choice)
     return course, path.p, np.array([step.duration for step in path.steps]), n.groups
 

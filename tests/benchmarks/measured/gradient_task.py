@@ -10,10 +10,10 @@ from functools import cached_property
 import numpy as np
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.many.collide_many import collide_many
-from wetdoublet.solvers.model.dimensionless import Numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, references, way
+from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, parameter_map, references
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
 from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
@@ -54,18 +54,18 @@ class Gradients:
         return kind_of(self.scene, _HOLD)
 
     @cached_property
-    def numbers(self) -> list[Numbers]:
+    def numbers(self) -> list[DimensionlessGroups]:
         """The collisions without dimensions."""
         return [dimensionless(self.scene, each) for each in self.impacts]
 
     @cached_property
     def groups(self) -> tuple[str, ...]:
         """The groups of the structure."""
-        return tuple(load(choose(self.scene, True)).groups)
+        return tuple(load(select_model(self.scene, True)).groups)
 
     def _ways(self) -> list[tuple[np.ndarray, np.ndarray]]:
         """Of each collision, derivatives of groups and scales, and dp/dtheta."""
-        via = way(self.kind, self.names, self.groups)
+        via = parameter_map(self.kind, self.names, self.groups)
         found = []
         for each in self.numbers:
             slopes, units = via.slopes(references(self.scene, self.kind, each.speed, each.angle))

@@ -15,7 +15,7 @@ from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.formatting.markdown import table, us
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
-from wetdoublet.solvers.sensitivity.by_kernel import along
+from wetdoublet.solvers.sensitivity.by_kernel import gradients_by_kernel
 from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
 
 from .gradient_task import COUNT, Gradients
@@ -96,7 +96,7 @@ def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
     impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
 
     def run() -> np.ndarray:
-        found = along(impacts, asked.kind, asked.names, ("restitution",), rtol, backward=True)
+        found = gradients_by_kernel(impacts, asked.kind, asked.names, ("restitution",), rtol, backward=True)
         assert found is not None  # there is a compiler
         rows: np.ndarray = found.first[0]
         return rows

@@ -15,7 +15,7 @@ from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.formatting.markdown import ms, table
 from wetdoublet.solvers.host import compiled
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
 
@@ -140,7 +140,7 @@ def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
 def _inside(clock: _Clock, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
     """As `_in_bulk`, of the integrators in C alone."""
-    flights = [(load(choose(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
+    flights = [(load(select_model(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
     best = math.inf
     for _ in range(2):  # the first builds
         clock.spent = 0.0

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
 from wetdoublet.solvers.verify.stress.scipy_engine import fly
@@ -23,7 +23,7 @@ class Reference:
     """The answer for an impact.
 
     Arguments:
-        decided: the outcome is clear at first touch; there is nothing to integrate.
+        decided: the outcome is clear at initial contact; there is nothing to integrate.
         difference: largest difference in e_n between this value and the two others: the estimate of its error.
         computed: e_n by each of the three.
         problem: why it cannot serve; empty if it can.
@@ -54,7 +54,7 @@ def reference(scene: Scene, impact: Impact) -> Reference:
     The others, Rosenbrock and CVODES at tolerances as tight as they take, say how far it can be trusted.
     """
     n = dimensionless(scene, impact)
-    model = load(choose(scene, n.oblique))
+    model = load(select_model(scene, n.oblique))
     path = locate(model, n.groups, RTOL)
     found = {"rosenbrock": answer(path)}
     if path.time > 0:

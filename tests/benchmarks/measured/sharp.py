@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.formatting.markdown import table
-from wetdoublet.solvers.model.dimensionless import Numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from .gradient_task import Gradients
@@ -55,14 +55,14 @@ class _Flight:
         return reverses if event in CRITERIA else edge if event == "film_edge" else ends
 
 
-def long_double(scene: Scene, numbers: Sequence[Numbers], rtol: float) -> np.ndarray:
+def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float) -> np.ndarray:
     """e_n of collisions that separate, by heyoka's Taylor integrator in 80-bit numbers; NaN where one does not."""
     import heyoka
 
-    choice = choose(scene, True)
+    choice = select_model(scene, True)
     groups = [each.groups for each in numbers]
     equations = system(choice, groups, None)
-    flights = [Locate(load(choice), each, 1e-13) for each in groups]
+    flights = [EventLocator(load(choice), each, 1e-13) for each in groups]
     flight = _Flight(dry=np.longdouble(groups[0]["dry_restitution"]), film=len(equations.varying))
     begun = starts(flights, numbers, equations.varying)
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative

@@ -111,7 +111,7 @@ static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 
 #if HELD
 /* What attracts holds for good by more than the error of the margins of derive/equations/certificates/attraction.py; a NaN proves nothing. They take
- * the solids for the nearest it gets: first touch may lie inside them, and there nothing is proved. */
+ * the solids for the nearest it gets: initial contact may lie inside them, and there nothing is proved. */
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;

@@ -15,12 +15,12 @@
 
 typedef struct {
     vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
-    vec far_gap, far_height;   /* heights count the work against attractions from first touch; -infinity where there is none */
+    vec far_gap, far_height;   /* heights count the work against attractions from initial contact; -infinity where there is none */
 #if SURFACE_ARM
     vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
 #endif
-    vec largest;               /* energy at first touch */
-    vec touch;                 /* capillary work at first touch */
+    vec largest;               /* energy at initial contact */
+    vec touch;                 /* capillary work at initial contact */
 } barrier;
 
 static const double NODES[6] = {
@@ -164,7 +164,7 @@ static inline vec height_ahead(const vec *y, const barrier *b)
 }
 #endif
 
-/* The work done against attractions since first touch. */
+/* The work done against attractions since initial contact. */
 static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 {
 #if CAPILLARY_STATE

@@ -1,4 +1,4 @@
-/* The energy ledger of a flight, in m v0^2: energies from the states at first touch and at the end, losses and works as
+/* The energy ledger of a flight, in m v0^2: energies from the states at initial contact and at the end, losses and works as
  * integrals along the flight, and what reversals took. Nothing is made to close: what is left over is the flight's error.
  */
 #pragma once

@@ -1,4 +1,4 @@
-/* Collisions on their way: quantities in, constants and proofs at first touch, lanes filled and emptied, answers out. */
+/* Collisions on their way: quantities in, constants and proofs at initial contact, lanes filled and emptied, answers out. */
 #pragma once
 
 #include "certificates.h"
@@ -9,7 +9,7 @@
 #include "tape.h"
 #include "tolerance.h"
 
-/* Constants, barrier and start of the next collisions; those proved sticks at first touch never take a lane. */
+/* Constants, barrier and start of the next collisions; those proved sticks at initial contact never take a lane. */
 static void fill_queue(queue *q)
 {
     fixed f;

@@ -14,7 +14,7 @@ static void separated(queue *q, flights *l, fixed *f, int lane)
     finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);
 }
 
-/* The phase that opens from here; from first touch, beyond the film at once. */
+/* The phase that opens from here; from initial contact, beyond the film at once. */
 static void opens(flights *l, const fixed *f, int lane)
 {
     l->closing[lane] = 0;

@@ -73,7 +73,7 @@ The cores were shared: read the ratios."""
 WORK = """\
 A point is one engine at one tolerance (1e-5 to 1e-13 in steps of 100; taylor and heyoka 1e-6 to 1e-13 at every half
 decade, and run more often): mean CPU time of a collision that is not decided
-at first touch, against the largest absolute error in e_n among those that separate. Everything runs on one core.
+at initial contact, against the largest absolute error in e_n among those that separate. Everything runs on one core.
 
 * **The same for all**: equations from the emitted modules, stop rule, stick certificate with its margin.
 * **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the impact is checked, the path located
@@ -84,7 +84,7 @@ at first touch, against the largest absolute error in e_n among those that separ
   counted.
 * **heyoka**: `taylor_adaptive_batch` with terminal events whose callbacks reverse, and refill a lane from the queue;
   8 lanes of AVX-512, groups that do not vary written in as numbers, not in compact mode (which is 1.5 times slower).
-  Never looser than 1e-6 either: looser, the energy misses the level that proves a stick. Deciding at first touch and
+  Never looser than 1e-6 either: else the energy misses the level that proves a stick. Deciding at initial contact and
   that level are computed beforehand, for nothing. Its events are isolated on the step's polynomial, so that it misses
   no graze.
 * **CVODE of scikit-sundae** has rates, Jacobian and events as machine code by numba; **scipy's** methods call CasADi

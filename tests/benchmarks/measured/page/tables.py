@@ -39,7 +39,7 @@ def _shown(value: Any) -> str:
 def sample(task: Record) -> str:
     """The collisions and how well they are known."""
     known = task["collisions"]
-    free = f"{task['drawn']}; {known['decided_at_first_touch']} are proved sticks at first touch and do not count."
+    free = f"{task['drawn']}; {known['decided_at_first_touch']} are proved sticks at initial contact and do not count."
     lines = [f"{free} Of the other {known['counted']}, {known['separate']} separate."]
     if known["separate"]:
         against = ", ".join(f"{value:.0e} from {name}" for name, value in known["differences"].items())
@@ -78,7 +78,7 @@ def equal_error(task: Record) -> str:
         for engine, row in best.items()
     ]
     title = (
-        "CPU us a collision that is not decided at first touch (times the fastest): cheapest setting with all outcomes "
+        "CPU us a collision not decided at initial contact (times the fastest): cheapest setting with all outcomes "
         "right and the largest error in e_n at most"
     )
     return f"{title}\n\n{table(['engine', *(f'{bound:.0e}' for bound in BOUNDS)], rows)}"

@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
 
@@ -30,8 +30,8 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
     jax.config.update("jax_enable_x64", True)
     numbers = [dimensionless(scene, impact) for impact in impacts]
-    choice = choose(scene, numbers[0].oblique)
-    flights = [Locate(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers]
+    choice = select_model(scene, numbers[0].oblique)
+    flights = [EventLocator(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers]
     if any(flight.watch.tangential_edge or flight.model.choice != choice for flight in flights):
         raise ComputationError("the tangential edge lies within reach, or head-on is mixed with oblique")
     names = tuple(flights[0].model.groups)

@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 
 import numpy as np
-from wetdoublet.solvers.engines.casadi.locate import Locate
-from wetdoublet.solvers.model.dimensionless import Numbers
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..gradient_task import Gradients
@@ -30,7 +30,9 @@ def of_task(asked: Gradients, copies: int, rtol: float) -> Callable[[], np.ndarr
     return prepare(asked.scene, asked.numbers * copies, np.tile(asked.slopes, (copies, 1, 1)), rtol)
 
 
-def prepare(scene: Scene, numbers: Sequence[Numbers], slopes: np.ndarray, rtol: float) -> Callable[[], np.ndarray]:
+def prepare(
+    scene: Scene, numbers: Sequence[DimensionlessGroups], slopes: np.ndarray, rtol: float
+) -> Callable[[], np.ndarray]:
     """A call that returns derivatives of e_n in theta, (collisions, parameters); NaN where nothing separates.
 
     Arguments:
@@ -41,9 +43,9 @@ def prepare(scene: Scene, numbers: Sequence[Numbers], slopes: np.ndarray, rtol: 
     import jax.numpy as jnp
 
     jax.config.update("jax_enable_x64", True)
-    choice = choose(scene, True)
+    choice = select_model(scene, True)
     names = tuple(load(choice).groups)
-    begun = starts([Locate(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers], numbers, names)
+    begun = starts([EventLocator(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers], numbers, names)
     parameters = np.array([each.parameters for each in begun])
     reversed_ = np.array([each.reversed for each in begun])
     structure, laws = translated(choice, lambda word: getattr(jnp, word))

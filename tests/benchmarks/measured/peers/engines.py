@@ -13,7 +13,7 @@ from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
 from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
-from wetdoublet.solvers.model.model import choose, load
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
@@ -105,7 +105,7 @@ def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
 
 def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """The Taylor kernel without what `collide_many` adds: checks, what the kernel hands over, labels."""
-    from wetdoublet.solvers.engines.taylor.call import Impacts, answers
+    from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
 
     stokes, angle = _columns(impacts)
     given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
@@ -117,7 +117,7 @@ def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
             for status, outcome, e_n in rows
         ]
 
-    return Bulk(lambda: answers(given, rtol), read)
+    return Bulk(lambda: run_kernel(given, rtol), read)
 
 
 def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
@@ -146,7 +146,7 @@ def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
 
     def one(k: int) -> Answer:
         n = dimensionless(scene, impacts[k])
-        return answer(flown(load(choose(scene, n.oblique)), n.groups, rtol))
+        return answer(flown(load(select_model(scene, n.oblique)), n.groups, rtol))
 
     return one
 
@@ -156,6 +156,6 @@ def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
 
     def one(k: int) -> Answer:
         n = dimensionless(scene, impacts[k])
-        return answer(fly(load(choose(scene, n.oblique)), n.groups, rtol, method))
+        return answer(fly(load(select_model(scene, n.oblique)), n.groups, rtol, method))
 
     return one

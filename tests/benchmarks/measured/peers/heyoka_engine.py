@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.certificates.choice import energy_proof
-from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.dimensionless import Numbers
-from wetdoublet.solvers.model.model import Choice, choose, load
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.model import ModelKey, load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
@@ -65,7 +65,7 @@ class System:
     varying: tuple[str, ...]
 
 
-def system(choice: Choice, groups: Sequence[Mapping[str, float]], proved: str | None, inside: bool = False) -> System:
+def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str | None, inside: bool = False) -> System:
     """The equations of these collisions; what is the same for all of them is written in.
 
     Arguments:
@@ -121,7 +121,7 @@ class Start:
     state: np.ndarray
     parameters: np.ndarray
     reversed: bool
-    flight: Locate
+    flight: EventLocator
 
 
 @dataclass
@@ -219,23 +219,28 @@ class Batch:
 
 
 def prepare(
-    scene: Scene, numbers: Sequence[Numbers], rtol: float, size: int = BATCH, inside: bool = False, **options: Any
+    scene: Scene,
+    numbers: Sequence[DimensionlessGroups],
+    rtol: float,
+    size: int = BATCH,
+    inside: bool = False,
+    **options: Any,
 ) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
 
     Arguments:
-        inside: watch for barriers inside the film, which are not ahead at first touch; only beside a separatrix a stick
+        inside: watch for barriers inside the film, not ahead at initial contact; only beside a separatrix a stick
             is not proved without.
 
     ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
     """
     import heyoka
 
-    choice = choose(scene, numbers[0].oblique)
-    if any(choose(scene, each.oblique) != choice for each in numbers):
+    choice = select_model(scene, numbers[0].oblique)
+    if any(select_model(scene, each.oblique) != choice for each in numbers):
         raise ComputationError("head-on and oblique collisions are different structures")
     model = load(choice)
-    flights = [Locate(model, each.groups, min(rtol, 1e-6)) for each in numbers]
+    flights = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
     if any(flight.watch.tangential_edge for flight in flights):
         raise ComputationError("the tangential edge lies within reach")
     proved = flights[0].proof.watches
@@ -275,8 +280,10 @@ def _below(start: Start) -> float:
     return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
 
 
-def starts(flights: Sequence[Locate], numbers: Sequence[Numbers], varying: Sequence[str]) -> list[Start]:
-    """State and parameters at first touch; a criterion that is met there reverses there.
+def starts(
+    flights: Sequence[EventLocator], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
+) -> list[Start]:
+    """State and parameters at initial contact; a criterion that is met there reverses there.
 
     Parameters are the groups named, then film, active and level.
     """

@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.engines.casadi.locate import Locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.dimensionless import Numbers
-from wetdoublet.solvers.model.model import Choice, choose, load
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.model import ModelKey, load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from .heyoka_engine import BATCH, Batch, Lane, Start, as_expression, elementary
@@ -42,7 +42,7 @@ class Variational:
         smooth: groups that the rates depend on: the first columns. Two more follow, for the criterion and for the dry
             restitution.
         jumps: by criterion, the state and its columns behind the reversal as a compiled function of those before it.
-        begin: the state and its columns at first touch; with `reversed_`, behind a reversal there.
+        begin: the state and its columns at initial contact; with `reversed_`, behind a reversal there.
         end: e_n's derivatives in the columns and in the rupture gap, of the state and its columns at the rupture.
     """
 
@@ -59,7 +59,7 @@ class Variational:
         return len(self.smooth) + 2
 
 
-def variational(choice: Choice, criteria: Sequence[str]) -> Variational:
+def variational(choice: ModelKey, criteria: Sequence[str]) -> Variational:
     """The equations of a structure with all its groups as parameters.
 
     Arguments:
@@ -141,7 +141,7 @@ class _Jump:
         return self._compiled([*after.values(), *rows])
 
     def start(self, reversed_: bool) -> Any:
-        """First touch, whose time is given."""
+        """Initial contact, whose time is given."""
         first = self.structure.start(self.y, self.groups, self.laws)
         if reversed_:
             first = self.structure.reversal(first, self.groups, self.laws)
@@ -238,7 +238,7 @@ class Gradients(Batch):
 
 def prepare(
     scene: Scene,
-    numbers: Sequence[Numbers],
+    numbers: Sequence[DimensionlessGroups],
     slopes: np.ndarray,
     rtol: float,
     size: int = BATCH,
@@ -253,11 +253,11 @@ def prepare(
     """
     import heyoka
 
-    choice = choose(scene, numbers[0].oblique)
-    if any(choose(scene, each.oblique) != choice for each in numbers):
+    choice = select_model(scene, numbers[0].oblique)
+    if any(select_model(scene, each.oblique) != choice for each in numbers):
         raise ComputationError("head-on and oblique collisions are different structures")
     model = load(choice)
-    flights = [Locate(model, each.groups, min(rtol, 1e-6)) for each in numbers]
+    flights = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
     if any(flight.watch.tangential_edge for flight in flights):
         raise ComputationError("the tangential edge lies within reach")
     criteria = [name for name in CRITERIA if name != "elastic" or numbers[0].groups["elastic_gap"] != 0.0]
@@ -283,8 +283,8 @@ def prepare(
     return batch
 
 
-def _begin(equations: Variational, flight: Locate, numbers: Numbers) -> Start:
-    """At first touch; a criterion that is met there reverses there, at a moment that nothing moves."""
+def _begin(equations: Variational, flight: EventLocator, numbers: DimensionlessGroups) -> Start:
+    """At initial contact; a criterion that is met there reverses there, at a moment that nothing moves."""
     values = flight.model.values("events", flight.y, flight.p)
     reversed_ = min(values[name] for name in CRITERIA) <= 0
     film = 0.0 if reversed_ else 1.0

@@ -13,8 +13,8 @@ from typing import Any
 import casadi
 import numpy as np
 from casadi import Function
-from wetdoublet.solvers.engines.casadi.integrators import Stop
-from wetdoublet.solvers.engines.casadi.locate import Path
+from wetdoublet.solvers.engines.casadi.integrators import EventHit
+from wetdoublet.solvers.engines.casadi.locate import EventSequence
 from wetdoublet.solvers.model.model import Model
 from wetdoublet.solvers.verify.stress.numpy_equations import Equations
 from wetdoublet.solvers.verify.stress.scipy_engine import Flight
@@ -82,7 +82,7 @@ class Sundae(Flight):
     def __init__(self, model: Model, groups: dict[str, float], rtol: float) -> None:
         super().__init__(model, groups, rtol, "CVODE")
 
-    def _solved(self, found: Equations, span: float, level: float) -> Stop:
+    def _solved(self, found: Equations, span: float, level: float) -> EventHit:
         """Integrate to the first event, or to the end of the span."""
         from sksundae.cvode import CVODE
 
@@ -109,8 +109,8 @@ class Sundae(Flight):
             raise self._error(f"CVODE failed ({solution.message})", "")
         met = _met(solution, count)
         if met is None:
-            return Stop(None, float(solution.t[-1]), np.array(solution.y[-1]), False)
-        return Stop(found.events[met], float(solution.t[-1]), np.array(solution.y[-1]), False)
+            return EventHit(None, float(solution.t[-1]), np.array(solution.y[-1]), False)
+        return EventHit(found.events[met], float(solution.t[-1]), np.array(solution.y[-1]), False)
 
 
 def _met(solution: Any, count: int) -> int | None:
@@ -121,6 +121,6 @@ def _met(solution: Any, count: int) -> int | None:
     return next((k for k in range(count) if hit[k]), None)
 
 
-def fly(model: Model, groups: dict[str, float], rtol: float) -> Path:
+def fly(model: Model, groups: dict[str, float], rtol: float) -> EventSequence:
     """The flight of a collision. ComputationError if it does not come to an end."""
     return Sundae(model, groups, rtol).run()

@@ -7,13 +7,13 @@ from importlib.util import find_spec, module_from_spec
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from wetdoublet.solvers.model.model import Choice
+from wetdoublet.solvers.model.model import ModelKey
 
 _GENERATED = "wetdoublet.generated"
 _FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")
 
 
-def translated(choice: Choice, function: Callable[[str], Callable[..., Any]]) -> tuple[ModuleType, Any]:
+def translated(choice: ModelKey, function: Callable[[str], Callable[..., Any]]) -> tuple[ModuleType, Any]:
     """The structure module of a choice, and its laws as attributes by slot.
 
     Arguments:
