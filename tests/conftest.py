@@ -13,13 +13,6 @@ from hypothesis import HealthCheck, settings
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("unhurried")
 
-
-def pytest_configure(config: pytest.Config) -> None:
-    """Where several processes share the tests, those that share what is dear to make (`xdist_group`) stay together."""
-    if getattr(config.option, "dist", "no") == "load":
-        config.option.dist = "loadgroup"
-
-
 DATA = Path(__file__).parent / "data"
 COLLISIONS: list[dict[str, Any]] = json.loads((DATA / "collisions.json").read_text())
 

@@ -27,6 +27,8 @@ from wetdoublet.derive.vocabulary import quantities as q
 
 from .test_mutants import Healthy, Mutate, altered_force, caught
 
+pytestmark = pytest.mark.slow
+
 
 def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
     """The margins with a recoil at a share of its speed."""

@@ -164,13 +164,16 @@ def libraries() -> list[str]:
 
 def _inside(what: list[Any]) -> None:
     os.environ.pop("LD_PRELOAD", None)  # the compiler is faster without
+    missing: list[str] = []
     for name, *arguments in what:
         if name == "reference":
             for case in REFERENCE:
                 if arguments[0] in (None, case["name"]):
                     fly_reference(case)
         elif not fly(*arguments):
-            print("no kernel:", *arguments)  # noqa: T201
+            missing.append(" ".join(map(str, arguments)))
+    if missing:
+        sys.exit(f"no kernel: {'; '.join(missing)}")
     print("done")  # noqa: T201
 
 

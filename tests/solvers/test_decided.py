@@ -23,6 +23,8 @@ from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.settings import STEPS
 
+pytestmark = pytest.mark.slow
+
 WEAK = {
     "particles": {
         "radius": 9.06e-05, "mass": 8.02e-09, "roughness": 1.94e-08, "dry_restitution": 0.987,

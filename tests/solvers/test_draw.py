@@ -14,7 +14,7 @@ from wetdoublet.solvers.collision.plot.figure import draw
 from wetdoublet.solvers.collision.plot.frames import frames, orientation
 from wetdoublet.solvers.collision.plot.strip import wetted_radius
 
-pytestmark = pytest.mark.xdist_group("draw")
+pytestmark = pytest.mark.slow
 
 IMPACTS = {
     "escapes": ("granulation", {}),

@@ -19,7 +19,7 @@ from wetdoublet.solvers.paper.parts import Comparison, number
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
 from wetdoublet.solvers.paper.variants import BRIDGED, variant
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("paper")]
+pytestmark = pytest.mark.slow
 
 COARSE = Detail(step=30.0, rounds=0, curve=12, critical=(CURVES[3],))
 FACTORS = {  # an independent prototype's: midgap, surface

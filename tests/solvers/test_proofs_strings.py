@@ -21,7 +21,7 @@ from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model, load, select_model
 from wetdoublet.solvers.verify.audit import WithoutProof
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proofs_strings")]
+pytestmark = pytest.mark.slow
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ from wetdoublet.solvers.sensitivity.problem import Problem
 
 from .sensitive import CASES, DRY, GRANULATION, PENDULUM, differences, varied
 
+pytestmark = pytest.mark.slow
+
 GLASS = CASES[0].scene
 WRT = ("liquid.glass_transition_pressure", "bridge.volume", "liquid.film_thickness", "impact.angle")
 

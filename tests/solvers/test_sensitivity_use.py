@@ -25,6 +25,8 @@ from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 
 from .sensitive import CASES, GRANULATION, varied
 
+pytestmark = pytest.mark.slow
+
 GLASS = CASES[0].scene
 WRT = ("liquid.viscosity", "impact.angle", "bridge.volume")
 

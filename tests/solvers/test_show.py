@@ -7,8 +7,6 @@ from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
 
-pytestmark = pytest.mark.xdist_group("show")
-
 SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: flies to its cut-off
 IMPACTS = {
     "escapes": ("granulation", {}),

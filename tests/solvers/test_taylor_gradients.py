@@ -28,7 +28,7 @@ from wetdoublet.solvers.sensitivity.gradients_many import STICK
 from .sensitive import CASES
 from .test_sensitivity import REFERENCE, compared
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 NAMES = [case.name for case in CASES]
 OF = ("restitution", "rotation", "contact_time", "smallest_gap")
 SEPARATRIX = 0.049117734419372415  # St of granulation at 45 deg, by bisection at rtol 1e-13

@@ -18,7 +18,7 @@ from wetdoublet.solvers.verify.sample import Extent, flights
 from .command import run
 from .yielding import LAW
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("user_model")]
+pytestmark = pytest.mark.slow
 
 
 def with_model(mine: Path, **entries: str) -> Scene:

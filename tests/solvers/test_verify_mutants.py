@@ -26,7 +26,7 @@ from wetdoublet.solvers.verify import (
 )
 from wetdoublet.solvers.verify.report import Finding
 
-pytestmark = pytest.mark.xdist_group("verify_mutants")
+pytestmark = pytest.mark.slow
 
 SCENE = Scene.load("granulation")
 BAD = {"stokes": 0.12, "angle": math.radians(60)}  # one impact of the sample; it separates
