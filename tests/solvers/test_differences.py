@@ -23,7 +23,8 @@ from wetdoublet.solvers.model.model import load, select_model
 from .command import run
 
 GENERATED = Path(differences.__file__).parents[2] / "generated"
-MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in ("__init__.py", "assemble.py"))
+RULES = ("__init__.py", "assemble.py", "automaton.py")  # no equations
+MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in RULES)
 
 
 def edited(path: str, before: str, after: str):

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 from casadi import SX, integrator, vertcat
+from wetdoublet.generated.automaton import OPENING
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.model.phases import OPENING, expressions
+from wetdoublet.solvers.model.phases import expressions
 from wetdoublet.solvers.verify import (
     audit,
     backward,
