@@ -37,14 +37,16 @@ def by_casadi(
     trajectory: bool,
     find: Find = locate,
     told: Told = tolerance,
+    fly: Callable[..., Flown] = fly,
 ) -> Collision:
     """By CVODES or Rosenbrock: what `collide` does with one of them.
 
     Arguments:
         find: what locates the flight; it is the same for both engines.
         told: what an engine's integrators are told at a tolerance.
+        fly: what flies the located phases.
     """
-    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told)
+    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, fly)
     return _result(scene, n, *found, trajectory)
 
 
@@ -57,6 +59,7 @@ def _compute(
     trajectory: bool,
     find: Find,
     told: Told,
+    fly: Callable[..., Flown] = fly,
 ) -> tuple[EventSequence, Flown, Flow, str, float]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
 

@@ -10,7 +10,7 @@ import sys
 import time
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from wetdoublet.solvers.collision import by_casadi
 from wetdoublet.solvers.collision.by_casadi import _compute
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence, locate
-from wetdoublet.solvers.engines.casadi.replay import Flown
+from wetdoublet.solvers.engines.casadi.replay import Flown, fly
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model
 
@@ -116,31 +116,32 @@ def test_absurd_impacts(stokes: float) -> None:
         collide("granulation", stokes=stokes, angle=0.5)
 
 
-def test_an_open_ledger_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_open_ledger_is_an_error() -> None:
     """A ledger's term off by a hundredth of the energy: the flight is refused, the residual is in the message."""
-    extra = Flown.extra
 
-    def falsified(flown: Flown, name: str) -> float:
-        return extra(flown, name) + (0.01 if name == "normal_lubrication" else 0.0)
+    class Falsified(Flown):
+        """A flight whose film has taken more than it did."""
 
-    before = collide("granulation", stokes=0.03, angle="65 deg")
-    monkeypatch.setattr(Flown, "extra", falsified)
+        def extra(self, name: str) -> float:
+            return super().extra(name) + (0.01 if name == "normal_lubrication" else 0.0)
+
+    def falsified(*given: Any) -> Flown:
+        flown = fly(*given)
+        return Falsified(**{each.name: getattr(flown, each.name) for each in fields(flown)})
+
+    scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
+    n = nondimensionalise(scene, *scene.need_impact())
     with pytest.raises(ComputationError, match="energy ledger is open by"):
-        collide("granulation", stokes=0.03, angle="65 deg")
-    lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
-    assert lean.restitution == pytest.approx(before.restitution, rel=1e-7)
+        by_casadi.by_casadi(scene, n, 1e-9, "cvodes", True, False, fly=falsified)
+    lean = by_casadi.by_casadi(scene, n, 1e-9, "cvodes", False, False, fly=falsified)
+    assert lean.restitution == pytest.approx(collide(scene).restitution, rel=1e-7)
 
 
-def test_nothing_extra_is_integrated(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_extra_is_integrated() -> None:
     """Without the ledger only the rotation rides along and no spin is kept; a trajectory only where asked for."""
-    flows: list[Any] = []
-
-    def watched(*args: Any) -> Any:
-        found = _compute(*args)
-        flows.append(found[2])
-        return found
-
-    monkeypatch.setattr(by_casadi, "_compute", watched)
+    scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
+    n = nondimensionalise(scene, *scene.need_impact())
+    flows = [_compute(scene, n, 1e-9, "cvodes", ledger, False, locate)[2] for ledger in (False, True)]
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")
     assert (flows[0].extras, tuple(flows[0].model.state)) == (("rotation",), ("gap", "opening", "orbit"))

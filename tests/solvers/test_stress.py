@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
-from wetdoublet.solvers.collision import by_casadi as simulate
+from wetdoublet.solvers.collision.by_casadi import by_casadi
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped
@@ -21,7 +21,6 @@ from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
 from wetdoublet.solvers.verify.stress.answers import answer
-from wetdoublet.solvers.verify.stress.flights import Flights
 from wetdoublet.solvers.verify.stress.judge import judge
 from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.scipy_engine import fly
@@ -105,15 +104,15 @@ def _case(scene: Scene, stokes: float) -> Case:
     return Case("one", scene.with_impact(stokes=stokes))
 
 
-def test_a_wrong_certificate_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_certificate_is_caught() -> None:
     """A stick that is said to be proved is flown on without its proof, and found to separate."""
     scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
-    monkeypatch.setattr(checking, "fast", lambda *_: Found("stick", 0.0, certified=True))
-    kinds = {issue.kind for issue in judge(Case("one", scene)).issues if not issue.explained}
+    engines = checking.runs() | {FAST: lambda *_: Found("stick", 0.0, certified=True)}
+    kinds = {issue.kind for issue in judge(Case("one", scene), engines).issues if not issue.explained}
     assert kinds == {"certificate", "outcome"}
 
 
-def test_failures_are_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failures_are_told_apart() -> None:
     """Chatter has a physical reason, a defect has none, and what a peer cannot do is no failure of ours."""
     scene = Scene.load("granulation")
 
@@ -123,13 +122,12 @@ def test_failures_are_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
 
         return run
 
-    monkeypatch.setattr(checking, "fast", failing("20 phases: this is chatter without end"))
-    (chatter,) = judge(Case("one", scene)).issues
+    engines = checking.runs() | {FAST: failing("20 phases: this is chatter without end")}
+    (chatter,) = judge(Case("one", scene), engines).issues
     assert chatter.kind == "failure"
     assert chatter.explained
-    monkeypatch.setattr(checking, "fast", failing("gave up"))
-    monkeypatch.setattr(checking, "by_scipy", failing("no idea"))
-    kinds = [(issue.kind, issue.explained) for issue in judge(Case("one", scene)).issues]
+    engines |= {FAST: failing("gave up"), checking.PEER: failing("no idea")}
+    kinds = [(issue.kind, issue.explained) for issue in judge(Case("one", scene), engines).issues]
     assert kinds == [("failure", ""), ("peer", "")]
 
 
@@ -229,18 +227,18 @@ def test_half_a_turn_is_not_lost_beside_a_minimum() -> None:
     assert [event.kind for event in found.events][-2:] == ["rests", "half turn"]
 
 
-def test_a_flight_is_located_once_for_both_engines(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_flight_is_located_once_for_both_engines() -> None:
     """What the second engine is spared it is charged with, and its answer is that of `collide`."""
-    flights = Flights()
-    monkeypatch.setattr(checking, "_FLIGHTS", flights)
+    flights = checking._FLIGHTS
+    flights.forget()
     scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
     checking.chained(scene, RTOL, "rosenbrock")
-    assert flights.spared == 0.0
-    assert checking.chained(scene, RTOL).cpu == flights.spared > 0.0
+    before = flights.spared
+    assert checking.chained(scene, RTOL).cpu == flights.spared - before > 0.0
     assert checking.chained(scene, RTOL).restitution == collide(scene, rtol=RTOL).restitution
 
 
-def test_no_tolerance_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_tolerance_is_tried_twice() -> None:
     """Where an engine never meets its events: a hundred times tighter down to 1e-13, then the located flight itself."""
     asked: list[tuple[float, bool]] = []
 
@@ -251,10 +249,9 @@ def test_no_tolerance_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     def missed(path: Any, *_: Any) -> Any:
         raise Stopped("misses", path.steps[0], 0.0, path.y, missed=True)
 
-    monkeypatch.setattr(simulate, "fly", missed)
     scene = Scene.load("granulation")
     n = nondimensionalise(scene, *scene.need_impact())
-    found = simulate.by_casadi(scene, n, RTOL, "cvodes", False, False, find)
+    found = by_casadi(scene, n, RTOL, "cvodes", False, False, find, fly=missed)
     assert found.engine == "rosenbrock"
     assert asked == [(pytest.approx(10.0**-k), False) for k in (9, 11)] + [(1e-13, False), (1e-13, True)]
 
@@ -300,13 +297,10 @@ def test_an_interrupt_keeps_what_is_judged(
     assert 1 <= len(json.loads((tmp_path / "stress.json").read_text())["cases"]) <= 2
 
 
-def test_ranges_that_laws_leave_are_counted_once(
-    recwarn: pytest.WarningsRecorder, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_ranges_that_laws_leave_are_counted_once(recwarn: pytest.WarningsRecorder) -> None:
     """A case outside the range of its bridge law says so in its verdict, without the value, and warns of nothing."""
     scene = Scene.load("granulation").with_entries({"bridge.law": "willett-simple"}).with_impact(angle="60 deg")
-    monkeypatch.setattr(checking, "runs", lambda: {"rosenbrock": lambda s, r: checking.chained(s, r, "rosenbrock")})
-    verdict = judge(Case("one", scene))
+    verdict = judge(Case("one", scene), {"rosenbrock": lambda s, r: checking.chained(s, r, "rosenbrock")})
     assert verdict.remarks == ("bridge.volume above 0.001, outside the range of the law willett-simple",)
     assert not recwarn.list
 

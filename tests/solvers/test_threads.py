@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import subprocess
 import sys
@@ -97,10 +98,9 @@ def test_what_is_built_once_is_built_by_one_thread():
     assert heavy("bad") is heavy("bad")
 
 
-def test_a_thread_hears_only_itself(monkeypatch: pytest.MonkeyPatch):
+def test_a_thread_hears_only_itself():
     """While one thread listens, others print as ever; whoever stops first, `sys.stderr` is what it was."""
     shown = io.StringIO()
-    monkeypatch.setattr(sys, "stderr", shown)
     inside, leave, heard = threading.Event(), threading.Event(), []
 
     def other() -> None:
@@ -111,13 +111,14 @@ def test_a_thread_hears_only_itself(monkeypatch: pytest.MonkeyPatch):
             sys.stderr.write("again")
         heard.append(mine.getvalue())
 
-    thread = threading.Thread(target=other)
-    with listening() as mine:
-        thread.start()
-        inside.wait()
-        sys.stderr.write("own")
-    sys.stderr.write("shown")
-    leave.set()
-    thread.join()
+    with contextlib.redirect_stderr(shown):
+        thread = threading.Thread(target=other)
+        with listening() as mine:
+            thread.start()
+            inside.wait()
+            sys.stderr.write("own")
+        sys.stderr.write("shown")
+        leave.set()
+        thread.join()
+        assert sys.stderr is shown
     assert (mine.getvalue(), heard, shown.getvalue()) == ("own", ["other again"], "shown")
-    assert sys.stderr is shown

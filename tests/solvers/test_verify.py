@@ -28,7 +28,7 @@ from wetdoublet.solvers.verify.plot import draw_budget
 
 from .command import run
 
-pytestmark = [pytest.mark.slow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",

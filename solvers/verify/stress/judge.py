@@ -108,14 +108,18 @@ def runs() -> dict[str, Run]:
     return found
 
 
-def judge(case: Case) -> Verdict:
-    """Run every engine on a case and judge what comes out."""
+def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
+    """Run every engine on a case and judge what comes out.
+
+    Arguments:
+        engines: by name, the one under test first; `runs()` if None.
+    """
     from .lines import judge_lines
 
     _FLIGHTS.forget()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # counted, and said once for all cases
-        verdict = judge_lines(case) if case.angles else _judged(case, runs())
+        verdict = judge_lines(case) if case.angles else _judged(case, runs() if engines is None else engines)
     return replace(verdict, remarks=tuple(_PARTICULAR.sub(" ", each).strip() for each in remarks(case.scene)))
 
 
