@@ -59,7 +59,7 @@ def _compute(
     trajectory: bool,
     find: Find,
     told: Told,
-    fly: Callable[..., Flown] = fly,
+    fly: Callable[..., Flown],
 ) -> tuple[EventSequence, Flown, Flow, str, float]:
     """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
 

@@ -141,7 +141,7 @@ def test_nothing_extra_is_integrated() -> None:
     """Without the ledger only the rotation rides along and no spin is kept; a trajectory only where asked for."""
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
     n = nondimensionalise(scene, *scene.need_impact())
-    flows = [_compute(scene, n, 1e-9, "cvodes", ledger, False, locate)[2] for ledger in (False, True)]
+    flows = [_compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance, fly)[2] for ledger in (False, True)]
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")
     assert (flows[0].extras, tuple(flows[0].model.state)) == (("rotation",), ("gap", "opening", "orbit"))
