@@ -12,33 +12,46 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..collision.collide import collide
-from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
 from .report import Finding, bounded
-from .sample import PLUGINS, RTOL, own_stokes, place
+from .sample import PLUGINS, RTOL, Collide, own_stokes, place
 
+Integrators = Callable[[Flow, str, Tolerance], Callable[[np.ndarray, np.ndarray, float], np.ndarray]]
 _BOUND = 1000 * RTOL  # global error of either engine, as between the engines
 _ANGLE = math.radians(50)  # of the closed forms that turn, if the scene's own impact is head-on
 _INSTANTS = np.array([0.03, 0.1, 0.3, 1.0])
 _SMALLEST, _BOUNCES = 0.02, 4  # e_n of a bounce that is compared; how many
 
 
-def closed_forms(group: str, scene: Scene, head_on: bool = False) -> Iterator[Finding]:
-    """Every closed form that the scene has. `head_on`: only those without rotation."""
-    checks: list[Callable[[Scene, str], tuple[float, str]]] = [film_alone]
+def closed_forms(
+    group: str, scene: Scene, head_on: bool = False, plain: Integrators = plain, collide: Collide = collide
+) -> Iterator[Finding]:
+    """Every closed form that the scene has.
+
+    Arguments:
+        head_on: only those without rotation.
+        plain: what gives the integrator of a flow.
+        collide: what flies a bounce.
+    """
+
+    def alone(scene: Scene, engine: str, plain: Integrators) -> tuple[float, str]:
+        return film_alone(scene, engine, plain, collide)
+
+    checks: list[tuple[str, Callable[[Scene, str, Integrators], tuple[float, str]]]] = [("film_alone", alone)]
     if not head_on:
-        checks += [straight_line, spin_relaxes]
-        checks += [swinging] if scene.pendulum is not None else []
-    for check in checks:
-        name, statement = _TOLD[check.__name__]
+        checks += [("straight_line", straight_line), ("spin_relaxes", spin_relaxes)]
+        checks += [("swinging", swinging)] if scene.pendulum is not None else []
+    for key, check in checks:
+        name, statement = _TOLD[key]
         worst = (-1.0, "")
         for engine in PLUGINS:
             try:
-                figure, where = check(scene, engine)
+                figure, where = check(scene, engine, plain)
             except (ComputationError, IntegrationFailed) as failure:
                 figure, where = math.inf, f"{engine}: {failure}"
             worst = max(worst, (figure if math.isfinite(figure) else math.inf, where))
@@ -76,10 +89,10 @@ def _bare(scene: Scene) -> Scene:
     return Scene.from_dict(tables)
 
 
-def film_alone(scene: Scene, engine: str) -> tuple[float, str]:
+def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: Collide = collide) -> tuple[float, str]:
     """Largest error of u(s) on the way in, of e_n and of the gap at reversal; and where."""
     bare = _bare(scene)
-    worst = max(_approach(bare, factor * own_stokes(bare), engine) for factor in (0.3, 1.0, 4.0))
+    worst = max(_approach(bare, factor * own_stokes(bare), engine, plain) for factor in (0.3, 1.0, 4.0))
     bounced = 0
     for stokes in _stokes_range(bare):
         n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
@@ -97,13 +110,13 @@ def film_alone(scene: Scene, engine: str) -> tuple[float, str]:
     return worst
 
 
-def _approach(bare: Scene, stokes: float, engine: str) -> tuple[float, str]:
+def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tuple[float, str]:
     """Error of -u/v0 against the closed form on the way in, at several instants."""
     n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
     flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
     contact, errors = max(n.groups["elastic_gap"], n.groups["rough_gap"]), [0.0]
     for time in _INSTANTS.tolist():
-        gap, opening = _flown(flow, engine, n, start, time)
+        gap, opening = _flown(plain, flow, engine, n, start, time)
         if gap > contact:  # no flight goes further
             errors.append(abs(-opening - (1 - film_loss(gap) / stokes)))
     return max(errors), place(stokes, 0.0, engine, "approach")
@@ -147,7 +160,7 @@ def _oblique(scene: Scene) -> DimensionlessGroups:
     return nondimensionalise(scene, scene.speed_of(own_stokes(scene)), scene.angle or _ANGLE)
 
 
-def straight_line(scene: Scene, engine: str) -> tuple[float, str]:
+def straight_line(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
     """Error of r and beta of free spheres, over r0 and 1 rad, at several instants."""
     bare = _bare(scene)
     n = _oblique(bare)
@@ -159,7 +172,7 @@ def straight_line(scene: Scene, engine: str) -> tuple[float, str]:
     worst = (-1.0, "")
     longest = 5 * distance / math.hypot(1.0, sideways)
     for time in (longest * _INSTANTS).tolist():
-        y = _flown(flow, engine, n, start, time)
+        y = _flown(plain, flow, engine, n, start, time)
         ahead, aside = distance + time, sideways * time
         errors = (
             abs((y[0] + 4 / aspect) / math.hypot(ahead, aside) - 1),
@@ -169,7 +182,7 @@ def straight_line(scene: Scene, engine: str) -> tuple[float, str]:
     return worst
 
 
-def spin_relaxes(scene: Scene, engine: str) -> tuple[float, str]:
+def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
     """Error of the slip, and of its end as one rigid body, with the gap held at some depths of the film."""
     bare = _bare(scene).with_entries({"model.arm": "midgap"})
     n = _oblique(bare)
@@ -186,7 +199,7 @@ def spin_relaxes(scene: Scene, engine: str) -> tuple[float, str]:
         decay = 8 * math.pi * mu * a**2 * math.log(reach / x) / m * (1 / r + 5 * r / (32 * a**2))
         start = np.array([gap, 0.0, (4 + n.groups["aspect"] * gap) ** 2, 0.0])
         for time in (3.0 / decay / n.time * np.array([0.1, 1.0, 10.0])).tolist():
-            y = _flown(flow, engine, n, start, time)
+            y = _flown(plain, flow, engine, n, start, time)
             rate = y[2] / (r / a) ** 2
             slip = math.exp(-decay * time * n.time)
             rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # omega0 = 1: what L leaves of it
@@ -196,7 +209,7 @@ def spin_relaxes(scene: Scene, engine: str) -> tuple[float, str]:
     return worst
 
 
-def swinging(scene: Scene, engine: str) -> tuple[float, str]:
+def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
     """Error of r and beta of dry spheres on strings, small angles, over r0 and 1 rad, up to a third of a swing."""
     assert scene.pendulum is not None
     tables = {name: value for name, value in scene.to_dict().items() if name != "bridge"}
@@ -212,7 +225,7 @@ def swinging(scene: Scene, engine: str) -> tuple[float, str]:
         phase = part * min(2.0, 2 * a * swing / math.hypot(n.speed, sideways))  # radians; stays in front of the pivots
         across = 4 * a + n.length * math.cos(phase) + n.speed / swing * math.sin(phase)
         aside = sideways / swing * math.sin(phase)
-        y = _flown(flow, engine, n, start, phase / swing / n.time)
+        y = _flown(plain, flow, engine, n, start, phase / swing / n.time)
         r = 4 * a + y[0] * n.length
         names = list(flow.model.state)
         error = max(abs(r / math.hypot(across, aside) - 1), abs(y[names.index("rotation")] - math.atan2(aside, across)))
@@ -220,6 +233,8 @@ def swinging(scene: Scene, engine: str) -> tuple[float, str]:
     return worst
 
 
-def _flown(flow: Flow, engine: str, n: DimensionlessGroups, start: np.ndarray, time: float) -> np.ndarray:
+def _flown(
+    plain: Integrators, flow: Flow, engine: str, n: DimensionlessGroups, start: np.ndarray, time: float
+) -> np.ndarray:
     p = flow.model.group_values(n.groups)
     return plain(flow, engine, tolerance(RTOL, engine, n.groups))(start, p, time)
