@@ -95,7 +95,7 @@ def _stuck(collision: Outcome) -> str:
     last, scene = _last(collision), collision.scene
     if last in CUT_OFFS:
         return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
-    when = "" if collision.until else " at initial contact"
+    when = "" if collision.until else " at contact"
     if not collision.certified and len(collision.events) > _MANY and last == KINDS[EventKind.FELL_BACK]:
         return "decided, not proved: rebound after rebound, none higher than the one before"
     if not collision.certified:

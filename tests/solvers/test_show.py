@@ -51,13 +51,13 @@ def test_fits_a_terminal(collisions, name):
     [
         ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no criterion met"),
         ("bounces", "bounce", "reversed by the glass criterion"),
-        ("sticks at touch", "stick", "proved at initial contact: energy below the barrier"),
+        ("sticks at touch", "stick", "proved at contact: energy below the barrier"),
         ("sticks later", "stick", "proved: energy below the barrier (certificate)"),
         ("half turn", "stick", "cut off after 767.4 ms: half a turn"),
         ("rotation reverses", "stick", "cut off after 450.7 ms: the strings turn the rotation back"),
         ("tethered", "stick", "proved: the strings hold it for good"),
         ("reversed, sticks", "stick", "the glass criterion had reversed it on the way"),
-        ("film alone", "stick", "proved at initial contact: the film stops it"),
+        ("film alone", "stick", "proved at contact: the film stops it"),
     ],
 )
 def test_outcome_has_its_reason(collisions, name, outcome, why):

@@ -132,7 +132,7 @@ def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.Monkey
     impossible = run_recorded(_one("granulation", 0.02, 1.3), True, 1e-9, ledger=True, budget=5)
     assert impossible is not None
     assert impossible.answers["status"].tolist() == [2]
-    monkeypatch.setattr("wetdoublet.solvers.collision.by_kernel.recorded", lambda *given: impossible)
+    monkeypatch.setattr("wetdoublet.solvers.collision.by_kernel.run_recorded", lambda *given: impossible)
     found = collide("granulation", stokes=0.02, angle=1.3, engine="taylor")
     assert found.engine == "rosenbrock"
     assert found.energy is not None
@@ -168,7 +168,10 @@ def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     for _ in range(2):
         library.kernel.cache_clear()
         collide_many(scene, stokes=0.5, angle=0.0, engine="taylor")
-        kept.append([(path.name, path.stat().st_mtime_ns) for path in tmp_path.iterdir()])
+        made = [
+            path for path in tmp_path.iterdir() if not path.name.startswith("compiler-")
+        ]  # tried by whoever is first
+        kept.append([(path.name, path.stat().st_mtime_ns) for path in made])
     library.kernel.cache_clear()
     assert kept[0] == kept[1]
     assert [(name.partition("-")[0], Path(name).suffix) for name, _ in kept[0]] == [("taylor", ".so")]

@@ -137,7 +137,7 @@ def test_the_slope_of_known_errors() -> None:
     assert order.fit(tolerances, falling) == (pytest.approx(1.0, abs=1e-12), pytest.approx(0.1))
     assert order.fit(tolerances, [1e-6] * len(falling))[0] == pytest.approx(0.0, abs=1e-12)
     assert order.fit(tolerances, [*falling[:3], 100 * falling[2], *falling[4:]])[1] == pytest.approx(100.0)
-    assert math.isnan(order.fit([math.inf] * len(falling))[0])
+    assert math.isnan(order.fit(tolerances, [math.inf] * len(falling))[0])
 
 
 def report() -> Report:
