@@ -43,7 +43,7 @@ def place_names(
     places = axes.transData.inverted().transform(pixels.reshape(-1, 2))
     labels = outcome(places[:, 0], places[:, 1]).reshape(rows, columns)
     labels = _without_marks(axes, labels, pixels)
-    renderer = canvas.get_renderer()  # type: ignore[no-untyped-call]
+    renderer = canvas.get_renderer()  # type: ignore[no-untyped-call]  # matplotlib's
     for label, region in _regions(labels):
         for name in _NAMES[label]:
             text = axes.text(

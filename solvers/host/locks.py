@@ -19,7 +19,7 @@ from pathlib import Path
 try:
     import fcntl
 except ImportError:  # not POSIX
-    fcntl = None  # type: ignore[assignment]
+    fcntl = None  # type: ignore[assignment]  # tested before each use
 
 TEMPORARY = "wetdoublet-cache-"  # prefix in temporary folders
 _TRIES = 5

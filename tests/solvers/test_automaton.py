@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import CLOSING, CRITERIA, EVENTS, KINDS, OUTCOMES, Status
-from wetdoublet.solvers import Scene
+from wetdoublet.solvers import CheckFailed, Scene
 from wetdoublet.solvers.certificates import proof_for
-from wetdoublet.solvers.engines.casadi.locate import locate
+from wetdoublet.solvers.engines.casadi.locate import EventLocator, locate
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
 from wetdoublet.solvers.engines.taylor.includes import RUNTIME
 from wetdoublet.solvers.engines.taylor.record import Recorded, run_recorded
@@ -56,6 +56,18 @@ def test_the_kernel_looks_for_every_event() -> None:
         assert f"splat_mask(AT_{event.name.upper()})" in looked
     for word in CRITERIA:
         assert f"KIND_{word.upper()}" in met
+
+
+def test_the_reference_knows_every_action() -> None:
+    """Each action of the table has its effect in the CasADi engine; a rebound is decided apart."""
+    scene = GRANULATION.with_impact(stokes=0.03, angle=1.0)
+    groups = nondimensionalise(scene, *scene.need_impact()).groups
+    finder = EventLocator(load(select_model(scene, True)), groups, 1e-9)
+    known = [finder._done(action, finder.phase) for event in EVENTS for action in event.actions if action != "reverse"]
+    assert len(known) > 8
+    assert all(isinstance(phase, Phase) for phase in known)
+    with pytest.raises(CheckFailed, match="unknown action"):
+        finder._done("explode", finder.phase)
 
 
 @pytest.mark.parametrize("name", SCENES)

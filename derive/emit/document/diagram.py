@@ -9,6 +9,8 @@ from ...equations.automaton import CLOSING, OPENING, Event
 
 _WIDTH, _HEIGHT = 980, 600
 _BOX = 150, 52
+_CLEAR = 2  # between a box and an arrow
+_HALO = ' stroke="white" stroke-width="4"'  # of a label: the same text, wider and white, behind it
 Mode = tuple[tuple[str, int], ...]
 
 
@@ -63,7 +65,7 @@ def _arrows() -> dict[tuple[Mode | str, Mode | str], list[str]]:
             if target != source:
                 found.setdefault((source, target), []).extend(_words(event, source))
     (rest,) = (rule for rule in automaton.RULES if rule.name == "rest")
-    found[_mode(1, CLOSING), _mode(1, OPENING, 1)] = [f"a criterion, {rest.words[0]}", "beyond the film too"]
+    found[_mode(1, CLOSING), _mode(1, OPENING, 1)] = [f"a criterion, {rest.words[0]} (beyond the film too)"]
     return found
 
 
@@ -136,7 +138,8 @@ def _arrow(source: Mode | str, target: Mode | str, words: str) -> list[str]:
     along, aside = ((x1 - x0) / length, (y1 - y0) / length), 9.0
     shift = -along[1] * aside, along[0] * aside
     x0, y0, x1, y1 = (round(v) for v in (x0 + shift[0], y0 + shift[1], x1 + shift[0], y1 + shift[1]))
-    start, end = _clip(x0, y0, along), _clip(x1, y1, (-along[0], -along[1]))
+    start = _clip((x0, y0), _PLACES[source], along)
+    end = _clip((x1, y1), _PLACES[target], (-along[0], -along[1]))
     middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
     steep = abs(along[1]) > 0.8
     anchor = "middle" if not steep else "start" if along[1] < 0 else "end"
@@ -149,16 +152,18 @@ def _arrow(source: Mode | str, target: Mode | str, words: str) -> list[str]:
             f'<path d="M{start[0]:.0f},{start[1]:.0f} L{end[0]:.0f},{end[1]:.0f}" stroke="#333" fill="none"'
             ' marker-end="url(#tip)"/>'
         ),
-        (
-            f'<text x="{place[0]:.0f}" y="{place[1]:.0f}" text-anchor="{anchor}" font-size="12"'
-            f' stroke="white" stroke-width="4" paint-order="stroke">{escape(words)}</text>'
+        *(
+            f'<text x="{place[0]:.0f}" y="{place[1]:.0f}" text-anchor="{anchor}" font-size="12"{halo}>'
+            f"{escape(words)}</text>"
+            for halo in (_HALO, "")
         ),
     ]
 
 
-def _clip(x: float, y: float, along: tuple[float, float]) -> tuple[float, float]:
-    """Where a ray from a box leaves it."""
-    width, height = _BOX[0] / 2 - 8, _BOX[1] / 2
-    reach = min(width / abs(along[0]) if along[0] else 1e9, height / abs(along[1]) if along[1] else 1e9)
-    reach += 2
-    return x + along[0] * reach, y + along[1] * reach
+def _clip(point: tuple[float, float], centre: tuple[float, float], along: tuple[float, float]) -> tuple[float, float]:
+    """Where a ray from a point within a box leaves it."""
+    reach = _CLEAR + min(
+        (half - (at - middle) * (1 if way > 0 else -1)) / abs(way) if way else 1e9
+        for half, at, middle, way in zip((_BOX[0] / 2, _BOX[1] / 2), point, centre, along, strict=True)
+    )
+    return point[0] + along[0] * reach, point[1] + along[1] * reach

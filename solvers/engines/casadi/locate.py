@@ -26,7 +26,7 @@ from ....generated.automaton import (
     EventKind,
 )
 from ...certificates import OrbitalProof, Proof, proof_for
-from ...errors import ComputationError
+from ...errors import CheckFailed, ComputationError
 from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
 from ...settings import CALL, STEPS
@@ -334,7 +334,7 @@ class EventLocator:
             case "cut off":
                 pass
             case _:
-                raise NotImplementedError(action)
+                raise CheckFailed(f"generated/automaton.py has an unknown action: {action}; run `wetdoublet generate`")
         return phase
 
     def _put(self, position: int, value: float) -> None:
