@@ -58,13 +58,18 @@ def law_module(scene: System, slot: str, name: str) -> Any:
 
 def si_values(scene: System, speed: float | None, angle: float | None) -> dict[str, float]:
     """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
+    impact = {"speed": speed, "angle": angle}
+    return _without_impact(scene) | {name: value for name, value in impact.items() if value is not None}
+
+
+@lru_cache(maxsize=64)
+def _without_impact(scene: System) -> dict[str, float]:
     entries: dict[str, Any] = {
         name: value for name, value in scene.si if not (isinstance(value, str) or name.startswith("impact."))
     }
     if scene.pendulum is not None:
         entries["pendulum.gravity"] = scene.pendulum.gravity  # which has a default
-    impact = {"impact.speed": speed, "impact.angle": angle}
-    return quantities(entries | {name: value for name, value in impact.items() if value is not None}, scene.wall)
+    return quantities(entries, scene.wall)
 
 
 @lru_cache(maxsize=64)

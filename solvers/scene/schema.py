@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from numbers import Real
 
 from ..errors import InputError, did_you_mean
@@ -63,7 +64,7 @@ class Field:
     gives: str | None = None
     factor: float = 1.0
 
-    @property
+    @cached_property
     def quantity(self) -> str:
         """Name in the vocabulary of what the entry is; empty if it is no quantity by itself."""
         if self.choices or self.flag:

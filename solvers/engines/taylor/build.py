@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...scene.scene import Scene
 
 # No -ffast-math: NaN and infinity are compared with. Products may be fused with sums; sqrt sets no errno.
+# -w: the suite compiles every file with -Wall -Wextra -Werror; the warnings of a newer compiler are not the user's.
 FLAGS = (
     "-O2",
     "-funroll-loops",
