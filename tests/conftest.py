@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from .helpers.data import BOUNDARIES, COLLISIONS
+
 # no test depends on how fast the machine is
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("unhurried")
-
-DATA = Path(__file__).parent / "data"
-COLLISIONS: list[dict[str, Any]] = json.loads((DATA / "collisions.json").read_text())
 
 
 def _name(case: dict[str, Any]) -> str:
@@ -38,5 +35,4 @@ def separated_reference(request: pytest.FixtureRequest) -> dict[str, Any]:
 @pytest.fixture(scope="session")
 def reference_boundaries() -> dict[str, Any]:
     """Changes of outcome of the presets at four angles."""
-    boundaries: dict[str, Any] = json.loads((DATA / "boundaries.json").read_text())
-    return boundaries
+    return BOUNDARIES

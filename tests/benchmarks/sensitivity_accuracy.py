@@ -10,7 +10,7 @@ from pathlib import Path
 
 from wetdoublet.solvers import ComputationError, sensitivities
 
-from ..solvers.sensitive import CASES, apart
+from ..helpers.sensitive import CASES, apart
 
 HERE = Path(__file__).parents[1]
 OF = "restitution"

@@ -1,4 +1,4 @@
-"""Elasticities of the twelve collisions of `tests/solvers/sensitive.py` by extrapolated differences, as a data file.
+"""Elasticities of the twelve collisions of `tests/helpers/sensitive.py` by extrapolated differences, as a data file.
 
 python -m tests.benchmarks.sensitivity_reference > tests/data/sensitivities.json     (some three minutes)
 
@@ -14,7 +14,7 @@ import sys
 
 from wetdoublet.solvers import collide
 
-from ..solvers.sensitive import CASES, differences
+from ..helpers.sensitive import CASES, differences
 
 OF = ("restitution", "rotation", "contact_time", "smallest_gap", "final_spin", "final_rotation_rate")
 

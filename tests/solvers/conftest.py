@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from .command import run
-from .yielding import LAW
+from ..helpers.command import run
+from ..helpers.yielding import LAW
 
 
 @pytest.fixture(scope="session")

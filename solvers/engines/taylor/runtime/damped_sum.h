@@ -7,7 +7,7 @@
  * until the creeping itself limits it, or that z. It costs three orders of accuracy, which the step allows for. The idea is
  * that of Chebyshev methods (Abdulle, SIAM J. Sci. Comput. 23, 2041 (2002)), applied to a series.
  *
- * tests/solvers/test_taylor_damping.py holds the table to what it is said to do; tests/benchmarks/damping.py makes it.
+ * tests/solvers/engines/taylor/test_damped_sum.py holds the table to what it is said to do; tests/benchmarks/damping.py makes it.
  */
 #pragma once
 

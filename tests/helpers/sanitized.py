@@ -1,0 +1,207 @@
+"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and processes in which it flies.
+
+    python tests/helpers/sanitized.py [COUNT]
+
+flies the reference collisions and COUNT (1000) random ones through every kind of kernel of every family, some twenty
+minutes of compiling on two cores; the suite has a sample (test_sanitized.py). Kernels are compiled with
+WETDOUBLET_CFLAGS into a folder of their own and loaded into processes that have the sanitizers' library from the start.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from wetdoublet.generated.automaton import Purpose
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.record import run_recorded
+from wetdoublet.solvers.engines.taylor.tangent import run_tangent
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.host.cores import usable_cores
+from wetdoublet.solvers.scene.groups import si_values
+
+# Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
+FLAGS = (
+    "-O1 -fno-expensive-optimizations -fno-tree-pre -fno-gcse --param=asan-instrumentation-with-call-threshold=0 "
+    "-fsanitize=address,undefined -fno-sanitize=null,object-size -fno-sanitize-recover=all"
+)
+RTOL = 1e-7
+BUDGET = 3000  # steps: what creeps for longer shows nothing new
+REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
+WALL, PAIR = {"partner.wall": True}, {"partner.radius": "0.25 mm", "partner.mass": "60 ug"}
+PULL = {"attraction.hamaker": 1e-19}
+# Scenes by name: a preset and what is changed. Each is flown obliquely and head-on.
+FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
+    "granulation": ("granulation", {}),
+    "pendulum": ("pendulum", {}),
+    "film alone": ("granulation-dry-bridge", {}),
+    "surface arm": ("granulation", {"model.arm": "surface"}),
+    "film tangential": ("granulation", {"model.tangential": "film"}),
+    "small angle": ("pendulum", {"pendulum.law": "small-angle"}),
+    "corrected glass": ("pendulum", {"model.glass": "film-corrected"}),
+    "own rupture": ("granulation", {"bridge.law": "willett", "bridge.rupture": "own"}),
+    **{f"film {film}": ("granulation", {"model.film": film}) for film in ("infinite", "cavitating", "constant-volume")},
+    "wall": ("granulation-dry-bridge", WALL),
+    "wall with bridge": ("granulation", WALL),
+    "pair": ("granulation-dry-bridge", PAIR),
+    "pair with bridge": ("granulation", PAIR),
+    "attraction": ("granulation-dry-bridge", PULL),
+    "attraction and bridge": ("granulation", PULL),
+    "wall that attracts": ("granulation-dry-bridge", WALL | PULL | {"model.film": "cavitating"}),
+    "strings and bridge": ("granulation", {"pendulum.length": "0.5 m"}),
+    **{
+        f"bridge {law}": ("granulation", {"bridge.law": law})
+        for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
+    },
+}
+Flown = Callable[[Impacts, bool], bool]  # False where there is no such kernel
+
+
+def _recorded(**options: Any) -> Flown:
+    return lambda impacts, oblique: run_recorded(impacts, oblique, RTOL, budget=BUDGET, **options) is not None
+
+
+def _carried(backward: bool) -> Flown:
+    def fly(impacts: Impacts, oblique: bool) -> bool:
+        return run_tangent(impacts, oblique, RTOL, False, budget=BUDGET, backward=backward) is not None
+
+    return fly
+
+
+KINDS: dict[str, Flown] = {
+    "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET) is not None,
+    "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
+    "ledger": _recorded(ledger=True, room=(4, 4)),
+    "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),
+    "trajectory": _recorded(trajectory=True, room=(4, 4)),
+    "steps not kept": _recorded(ledger=True, trajectory=True, keep=False, room=(1, 1)),
+    "approach": _recorded(trajectory=True, purpose=Purpose.APPROACH, keep=False, fold=False, peaks=True),
+    "escape": _recorded(trajectory=True, purpose=Purpose.ESCAPE),
+    "forwards": _carried(backward=False),
+    "backwards": _carried(backward=True),
+}
+LAWS_IN = ("plain", "ledger and trajectory", "forwards", "backwards")
+
+
+def scene_of(family: str) -> Scene:
+    preset, entries = FAMILIES[family]
+    return Scene.load(preset).with_entries(entries)
+
+
+def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impacts:
+    """Impacts whose every quantity is random about the scene's; one in fifty has a number that no scene may have."""
+    draw = np.random.default_rng(seed)
+    speed = scene.speed_of(1.0) * 10.0 ** draw.uniform(-3, 1.5, count)
+    angle = np.radians(draw.uniform(0.01, 89.99, count)) if oblique else np.zeros(count)
+    others = {
+        name: value * 10.0 ** draw.uniform(-1, 1, count)
+        for name, value in si_values(scene, None, None).items()
+        if name not in ("speed", "angle") and value
+    }
+    others["dry_restitution"] = draw.uniform(0, 1, count)
+    if "poisson_ratio" in others:
+        others["poisson_ratio"] = draw.uniform(0, 0.5, count)
+    columns = [speed, *others.values()]
+    for k in np.flatnonzero(draw.uniform(size=count) < 0.02):
+        columns[draw.integers(len(columns))][k] = draw.choice([0.0, -1.0, math.inf, math.nan, 1e308, 5e-324])
+    return Impacts(scene, speed, angle, others)
+
+
+def fly(family: str, kind: str, oblique: bool, count: int) -> bool:
+    """Fly random collisions of a family; False if it has no such kernel."""
+    impacts = random_impacts(scene_of(family), count, oblique, seed=len(family) + 7 * len(kind))
+    return KINDS[kind](impacts, oblique)
+
+
+def fly_reference(case: dict[str, Any]) -> None:
+    """Fly a reference collision with its ledger and steps; AssertionError if it is not what it should be."""
+    scene = Scene.from_dict(case["scene"], from_file=True).with_impact(**case["impact"])
+    speed, angle = scene.need_impact()
+    impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
+    found = run_recorded(impacts, angle > 0, RTOL, ledger=True, trajectory=True)
+    assert found is not None
+    expected, answer = case["results"], found.answers[0]
+    assert ("stick", "stick-rotate-separate", "bounce")[answer["outcome"]] == expected["outcome"]
+    assert abs(answer["shown"][0] - expected["restitution"]) < 1e-4
+
+
+def process(what: list[Any], folder: Path) -> subprocess.CompletedProcess[str]:
+    """Have a fresh process do it, with the sanitizers and a cache in this folder."""
+    environment = os.environ | {
+        "LD_PRELOAD": " ".join(libraries()),
+        "ASAN_OPTIONS": "detect_leaks=0",
+        "UBSAN_OPTIONS": "print_stacktrace=1",
+        "WETDOUBLET_CFLAGS": FLAGS,
+        "WETDOUBLET_CACHE": str(folder),
+    }
+    command = [sys.executable, __file__, "--inside", json.dumps(what)]
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+
+
+def libraries() -> list[str]:
+    """The sanitizers' libraries; none where the compiler has not got them."""
+    found = compiler()
+    if found is None:
+        return []
+    names = ("libasan.so", "libubsan.so")
+    asked = [
+        subprocess.run([*found.command, f"-print-file-name={name}"], capture_output=True, text=True, check=False).stdout
+        for name in names
+    ]
+    paths = [Path(said.strip()) for said in asked]
+    return [str(path.resolve()) for path in paths] if all(path.is_absolute() for path in paths) else []
+
+
+def _inside(what: list[Any]) -> None:
+    os.environ.pop("LD_PRELOAD", None)  # the compiler is faster without
+    missing: list[str] = []
+    for name, *arguments in what:
+        if name == "reference":
+            for case in REFERENCE:
+                if arguments[0] in (None, case["name"]):
+                    fly_reference(case)
+        elif not fly(*arguments):
+            missing.append(" ".join(map(str, arguments)))
+    if missing:
+        sys.exit(f"no kernel: {'; '.join(missing)}")
+    print("done")  # noqa: T201
+
+
+def _everything(count: int) -> Iterator[list[Any]]:
+    yield [["reference", None]]
+    for family in FAMILIES:
+        for oblique in (True, False):
+            kinds = LAWS_IN if family.startswith("bridge ") else KINDS  # only the law is another
+            yield [["random", family, kind, oblique, count] for kind in kinds]
+
+
+def main() -> int:
+    """Fly everything; the number of processes in which something was found."""
+    if sys.argv[1:2] == ["--inside"]:
+        _inside(json.loads(sys.argv[2]))
+        return 0
+    if not libraries():
+        print("the compiler has no sanitizers")  # noqa: T201
+        return 1
+    jobs = list(_everything(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(usable_cores()) as pool:
+        failed = 0
+        for job, done in zip(jobs, pool.map(lambda job: process(job, Path(folder)), jobs), strict=True):
+            failed += done.returncode != 0
+            said = [line for line in done.stderr.splitlines() if "Python/" not in line][:12]
+            print(job[0][:2], job[0][3:4], *done.stdout.splitlines(), *said, sep="\n  ", flush=True)  # noqa: T201
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,250 @@
+"""The atlas of a scene: its curves against lines and collisions, its points against bisection, its derivatives."""
+
+from __future__ import annotations
+
+import json
+import math
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import (
+    Atlas,
+    InputError,
+    Scene,
+    atlas,
+    boundary,
+    boundary_sensitivities,
+    collide_many,
+)
+from wetdoublet.solvers.boundaries.line import approach
+from wetdoublet.solvers.boundaries.plot import draw
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
+
+from ...helpers.command import run
+
+pytestmark = pytest.mark.slow
+
+OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+SPANS = {"granulation": (0.005, 0.5), "pendulum": (0.01, 10.0), "granulation-dry-bridge": (0.05, 0.5)}
+
+
+@cache
+def whole(name: str) -> Atlas:
+    """The atlas of a preset over angles up to 80 deg, with few lines."""
+    low = "10 deg" if name == "granulation-dry-bridge" else "0 deg"  # nearly head-on these separate late
+    return atlas(name, span=(low, "80 deg"), stokes=SPANS[name], lines=5)
+
+
+def at_stokes(found: Atlas, before: str, after: str, x: float) -> list[float]:
+    """Where curves between two outcomes pass a value of x."""
+    return [
+        math.exp(float(np.interp(x, one.x, np.log(one.stokes))))
+        for one in found.curves
+        if (one.before, one.after) == (before, after) and one.x[0] <= x <= one.x[-1]
+    ]
+
+
+@pytest.mark.parametrize("name", list(SPANS))
+def test_every_random_collision_lies_in_its_region(name: str) -> None:
+    """Random points of the plane, none beside a curve: the region says what `collide_many` computes."""
+    found, random = whole(name), np.random.default_rng(11)
+    x = random.uniform(found.span[0] + 0.01, found.span[1], 1500)
+    stokes = np.exp(random.uniform(*np.log(found.window), 1500))
+    seen = collide_many(name, stokes=stokes, angle=x, of=("outcome",)).outcome.values
+    beside = np.array(
+        [
+            any(abs(math.log(own / st)) < 3e-3 for pair in pairs for own in at_stokes(found, *pair, at))
+            for at, st in zip(x, stokes, strict=True)
+            for pairs in [{(one.before, one.after) for one in found.curves}]
+        ]
+    )
+    assert (seen[~beside] == found.region(x, stokes)[~beside]).all()
+    assert np.count_nonzero(~beside) > 1400
+    assert not found.unsettled
+
+
+@pytest.mark.parametrize("name", list(SPANS))
+def test_curves_pass_through_the_changes_of_lines(name: str) -> None:
+    """Changes of lines that the atlas has not seen lie on curves between their outcomes; no other curve passes."""
+    found = whole(name)
+    lines = boundary(name, angle=np.radians([13.0, 37.0, 47.0, 71.0]), stokes=found.window)
+    for angle, line in zip(lines.angles, lines.changes, strict=True):
+        for one in line:
+            assert one.stokes == pytest.approx(at_stokes(found, one.before, one.after, angle)[0], rel=2e-3)
+        passing = sum(curve.x[0] <= angle <= curve.x[-1] for curve in found.curves)
+        assert passing == len(line)
+
+
+@pytest.mark.parametrize("name", list(SPANS))
+def test_no_curve_dangles(name: str) -> None:
+    """Every end of a curve is on the edge of the window, exactly, or at a point that has a name."""
+    found = whole(name)
+    places = {(one.x, one.stokes) for one in found.points}
+    for one in found.curves:
+        for x, stokes in ((one.x[0], one.stokes[0]), (one.x[-1], one.stokes[-1])):
+            assert x in found.span or stokes in found.window or (x, stokes) in places
+        assert (np.diff(one.x) > 0).all()
+
+
+@pytest.mark.parametrize(("name", "low", "high"), [("granulation", 23.0, 24.0), ("pendulum", 41.0, 42.0)])
+def test_where_stick_rotate_separate_begins(name: str, low: float, high: float) -> None:
+    """The triple point, where St* meets Ce*: sampled by outcomes, the strip is there above its angle and not below."""
+    found = whole(name)
+    (point,) = (one for one in found.points if one.kind == "triple point")
+    assert low < math.degrees(point.x) < high
+    assert [(one.x, one.stokes) for one in found.points if one.kind == "St* meets Ce*"] == [(point.x, point.stokes)]
+    near = point.stokes * np.exp(np.linspace(-4e-6, 4e-6, 801))
+    for side, there in ((-1e-6, False), (1e-6, True)):
+        seen = collide_many(name, stokes=near, angle=point.x + side, of=("outcome",)).outcome.values
+        assert bool((seen == 1).any()) is there
+        assert seen[0] == 0 and seen[-1] == 2
+
+
+def test_the_graze_and_the_rebound_that_just_escapes() -> None:
+    """Pendulum: the S/B boundary is a start from e_n = 0 up to some angle, and a jump beyond (20 and 32 deg)."""
+    found = whole("pendulum")
+    (point,) = (one for one in found.points if one.kind == "graze meets escape")
+    assert 20 < math.degrees(point.x) < 32
+    kinds = {one.kind: one for one in found.curves if (one.before, one.after) == ("stick", "bounce")}
+    assert set(kinds) == {"escape reversed", "graze"}
+    for kind, angle in (("escape reversed", 20.0), ("graze", 32.0)):
+        stokes = at_stokes(found, "stick", "bounce", math.radians(angle))[0]
+        line = boundary("pendulum", angle=math.radians(angle), stokes=(0.1, 10.0)).changes[0]
+        assert kinds[kind].x[0] <= math.radians(angle) <= kinds[kind].x[-1]
+        assert (line[0].kind, line[0].stokes) == (kind, pytest.approx(stokes, rel=1e-3))
+
+
+@pytest.mark.parametrize(("name", "angle"), [("granulation", 50.0), ("pendulum", 60.0)])
+def test_slopes_of_the_curves(name: str, angle: float) -> None:
+    """The slope of ln St* along each curve, against the implicit function theorem on CasADi's derivatives."""
+    found, at = whole(name), math.radians(angle)
+    (line,) = boundary_sensitivities(name, angle=at, stokes=found.window, wrt=["impact.angle"]).changes
+    assert len(line) == 2
+    for one in line:
+        assert not one.reason
+        exact = one.gradient["stokes"]["impact.angle"] / one.change.stokes
+        (curve,) = (
+            curve for curve in found.curves
+            if (curve.before, curve.after) == (one.change.before, one.change.after) and curve.x[0] <= at <= curve.x[-1]
+        )  # fmt: skip
+        x, y = np.array(curve.x), np.log(curve.stokes)
+        k = int(np.clip(np.searchsorted(x, at), 3, x.size - 3))
+        near = slice(k - 3, k + 3)
+        fit = np.polynomial.Polynomial.fit(x[near], y[near], 5)
+        assert float(fit(at)) == pytest.approx(math.log(one.change.stokes), abs=2e-7)
+        assert float(fit.deriv()(at)) == pytest.approx(exact, rel=1e-4)
+
+
+def test_a_plane_of_another_entry() -> None:
+    """Roughness across: where the graze passes from the glass criterion to roughness, the approach just meets both.
+
+    The approach without solids is Rosenbrock's; the triple point is where the strip of SRS ends, by outcomes.
+    """
+    scene = Scene.load("granulation")
+    found = atlas(scene, over="particles.roughness", span=("3 um", "5.5 um"), stokes=(0.02, 0.2), lines=2)
+    assert not found.unsettled
+    assert [one.kind for one in found.points] == ["criterion change", "triple point"]
+    criterion, triple = found.points
+    both = scene.with_entries({"particles.roughness": criterion.x})
+    n = nondimensionalise(both, both.speed_of(criterion.stokes), scene.angle or 0.0)
+    pressure, gap = approach(load(select_model(both, oblique=True)), n.groups, 1e-10)
+    assert pressure == pytest.approx(n.groups["glass_number"], rel=1e-6)
+    assert gap == pytest.approx(n.groups["rough_gap"], rel=1e-6)
+    near = triple.stokes * np.exp(np.linspace(-4e-5, 4e-5, 801))
+    for side, there in ((1e-5, False), (-1e-5, True)):
+        roughness = np.full(near.size, triple.x * (1 + side))
+        vary = {"particles.roughness": roughness}
+        seen = collide_many(scene, stokes=near, angle=scene.angle, vary=vary, of=("outcome",)).outcome.values
+        assert bool((seen == 1).any()) is there
+
+
+# ---- the interface
+
+
+def test_json_of_a_plane(tmp_path: Path) -> None:
+    """`boundary --angle LO:HI --json --plot`: curves, points and resolution; x in rad, within the span."""
+    picture = tmp_path / "atlas.png"
+    options = ("--angle", "20:30", "--stokes", "0.05:0.3", "--json", "--plot", str(picture))
+    told = run("boundary", "granulation-dry-bridge", *options)
+    assert told.exit_code == 0, told.output
+    found = json.loads(told.stdout)
+    assert set(found) == {"curves", "points", "resolution"}
+    (one,) = found["curves"]
+    assert set(one) == {"from", "to", "kind", "x", "stokes"}
+    assert (one["from"], one["to"]) == OUTCOMES[1:]
+    assert [one["x"][0], one["x"][-1]] == pytest.approx(np.radians([20, 30]).tolist(), rel=1e-15)
+    assert len(one["x"]) == len(one["stokes"])
+    assert picture.stat().st_size > 10_000
+    points = whole("granulation").to_dict()["points"]
+    assert {tuple(point) for point in points} == {("kind", "x", "stokes")}
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (["--angle", "60:10"], "--angle"),
+        (["--angle", "10:95"], "--angle"),
+        (["--angle", "10:60", "--wrt", "all"], "--wrt"),
+        (["--over", "liquid.viscosity"], "--over"),
+        (["--over", "liquid.viscosity=1:2"], "--over liquid.viscosity"),
+        (["--over", "liquid.viscosity=1 Pa s:2 Pa s", "--angle", "10:20"], "--angle"),
+        (["--over", "impact.angle=10 deg:20 deg"], "--over"),
+        (["--over", "bridge.law=1:2"], "--over"),
+        (["--over", "pendulum.length=1 m:2 m"], "over"),
+        (["--over", "liquid.film_thickness=5 um:9 mm"], "bridge.volume"),
+        (["--over", "liquid.viscosity=1 Pa s:2 Pa s", "--set", "liquid.viscosity=1 Pa s"], "--over"),
+    ],
+)
+def test_a_plane_that_cannot_be(options: list[str], named: str) -> None:
+    """One line that names the option, and exit status 2."""
+    told = run("boundary", "granulation", *options)
+    assert told.exit_code == 2
+    assert told.stderr.startswith(named)
+    assert told.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "options", [{"span": (0.5, 0.2)}, {"span": (0.1, 0.2, 0.3)}, {"span": (0.1, 0.5), "stokes": (1, 0.1)},
+                {"span": (0.1, 0.5), "lines": 1}, {"over": "no.entry", "span": (0.1, 0.5)}]
+)  # fmt: skip
+def test_bad_arguments(options: dict[str, Any]) -> None:
+    """What cannot be is an InputError before anything is computed."""
+    with pytest.raises(InputError):
+        atlas("granulation", **options)
+
+
+def test_the_picture_names_its_regions() -> None:
+    """Each outcome's name once, inside its region; as many curves as the atlas has."""
+    found = whole("pendulum")
+    assert found.scene is not None
+    figure = draw(found.scene, found)
+    (axes,) = figure.axes
+    places = {text.get_text().replace("\n", ""): text.get_position() for text in axes.texts}
+    assert set(places) == set(OUTCOMES)
+    figure.draw_without_rendering()
+    for name, (across, up) in places.items():
+        degrees, stokes = axes.transData.inverted().transform(axes.transAxes.transform((across, up)))
+        assert OUTCOMES[int(found.region(math.radians(degrees), stokes))] == name
+    drawn = [line for line in axes.get_lines() if line.get_linestyle() == "-"]
+    assert len(drawn) == len(found.curves)
+
+
+def test_datasets() -> None:
+    """Lines and curves as labelled, padded arrays; the regions' outcomes are flags."""
+    found = whole("granulation")
+    data = found.to_dataset()
+    assert data.sizes["line"] == 5
+    assert data["stokes"].sel(line=4).values == pytest.approx([one.stokes for one in found.changes[4]])
+    assert data["x"].attrs["units"] == "rad"
+    for k, one in enumerate(found.curves):
+        assert np.isfinite(data["curve_x"][k]).sum() == len(one.x)
+        assert OUTCOMES[int(data["curve_before"][k])] == one.before
+    assert data["point_kind"].values.tolist() == [one.kind for one in found.points]
+    lines = boundary("granulation", angle=[0.3, 0.9], stokes=(0.01, 0.5)).to_dataset()
+    assert lines["stokes"].dims == ("line", "change")
+    assert lines["before"].values.tolist() == [[0, -1], [0, 1]]
+    assert lines["angle"].attrs["units"] == "rad"

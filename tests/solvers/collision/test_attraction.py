@@ -1,0 +1,126 @@
+"""Van der Waals attraction: its closed-form work, where it enters, and the generalised centrifugal number."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+from wetdoublet.solvers import Scene, boundary, collide
+from wetdoublet.solvers.commands.cli import main
+
+from ...helpers.newton import Bodies, flown
+
+A_H = 2e-12  # J, far above any real one, so that it shows in granulation
+X0 = 8e-6
+
+
+def scene_of(bridge, **changes):
+    """Granulation with van der Waals attraction, contact at 50 nm only, with or without the constant bridge."""
+    preset = Scene.load("granulation")
+    given = {name: value for name, value in preset.given if "young" not in name and "poiss" not in name}
+    if not bridge:
+        given = {name: value for name, value in given.items() if not name.startswith("bridge")}
+    entries = {
+        "attraction.hamaker": A_H,
+        "particles.roughness": "50 nm",
+        "liquid.glass_transition_pressure": "1e6 GPa",
+        **({"bridge.law": "constant", "bridge.volume": 0.05} if bridge else {}),
+    }
+    return Scene("", tuple({**given, **entries, **changes}.items()))
+
+
+@pytest.mark.parametrize("bridge", [True, False])
+@pytest.mark.parametrize(("stokes", "angle"), [(0.12, 75.0), (12.0, 0.0)])
+def test_the_work_is_the_potentials(bridge, stokes, angle):
+    """The ledger's `attraction` is W(x_f) - W(x0) with W = -A a/(6 x), on any path, reversals included."""
+    scene = scene_of(bridge)
+    one = collide(scene, stokes=stokes, angle=math.radians(angle), rtol=1e-11)
+    assert one.outcome != "stick"
+    expected = A_H * scene.reduced_radius / 6 * (1 / X0 - 1 / scene.rupture_gap)
+    # the integral runs down to the smallest gap and back: its error is relative to the work there
+    size = A_H * scene.reduced_radius / (6 * one.smallest_gap)
+    assert one.energy.attraction == pytest.approx(expected, abs=1e-7 * size)
+    assert abs(one.energy.residual) < 1e-8 * one.energy.initial
+
+
+@pytest.mark.parametrize("bridge", [True, False])
+def test_oblique_is_newtons(bridge):
+    """The doublet flies as two bodies do in the laboratory that attract each other with A a/(6 x^2)."""
+    scene = scene_of(bridge)
+    one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
+    bodies = Bodies(
+        (1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025 if bridge else 0.0, 0.05, hamaker=A_H
+    )
+    end = flown(bodies, one.speed, one.angle, longest=10 * one.contact_time)
+    assert end.separated and one.outcome == "stick-rotate-separate"
+    assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
+    without = collide(scene.with_entries({"attraction.hamaker": 0.0}), stokes=0.12, angle="75 deg", rtol=1e-11)
+    assert abs(without.restitution / one.restitution - 1) > 1e-5  # it does act
+
+
+def test_nothing_changes_without_it():
+    """A Hamaker constant of zero is no attraction; and without the table no key of a result speaks of it."""
+    scene = Scene.load("granulation")
+    plain = collide(scene, rtol=1e-11).to_dict()
+    zero = collide(scene.with_entries({"attraction.hamaker": 0.0}), rtol=1e-11).to_dict()
+    assert zero["restitution"] == pytest.approx(plain["restitution"], rel=1e-9)
+    assert "generalised_centrifugal" not in plain and "attraction" not in plain["energy"]
+    assert zero["energy"]["attraction"] == 0.0
+
+
+def test_the_generalised_number():
+    """Ce_F = m omega0^2 a/F(x0): Ce/(4 pi cos phi) for the constant bridge, 6 m omega0^2 x0^2/A for van der Waals."""
+    one = collide(scene_of(True, **{"attraction.hamaker": 0.0}), stokes=0.1, angle="60 deg", ledger=False)
+    assert one.generalised_centrifugal == pytest.approx(one.centrifugal / (4 * math.pi), rel=1e-12)
+    dry = scene_of(False)
+    one = collide(dry, stokes=0.1, angle="60 deg", ledger=False)
+    omega0 = one.speed * math.tan(one.angle) / (4 * dry.reduced_radius)
+    expected = dry.reduced_mass * omega0**2 * 6 * X0**2 / A_H
+    assert one.generalised_centrifugal == pytest.approx(expected, rel=1e-12)
+    assert collide("pendulum", ledger=False).generalised_centrifugal is None
+    assert collide("granulation", angle=0.0, ledger=False).generalised_centrifugal == 0.0
+
+
+def test_van_der_waals_alone_can_hold():
+    """With a film and van der Waals only, an oblique doublet sticks or escapes, on either side of a traced boundary."""
+    scene = scene_of(False, **{"attraction.hamaker": 2e-10, "particles.roughness": "0.5 um"})
+    angle = math.radians(60)
+    first = boundary(scene, angle=angle, stokes=(0.01, 1.0), rtol=1e-9).changes[0][0]
+    assert first.before == "stick"
+    below, above = (collide(scene, stokes=first.stokes * f, angle=angle) for f in (1 - 1e-5, 1 + 1e-5))
+    assert (below.outcome, above.outcome) == (first.before, first.after)
+    assert below.certified
+    bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, hamaker=2e-10)
+    end = flown(bodies, above.speed, angle, longest=2 * above.contact_time, rtol=1e-11)
+    assert first.after == "stick-rotate-separate" and end.separated
+    assert end.time == pytest.approx(above.contact_time, rel=1e-2)  # so near the boundary
+
+
+def test_json_has_its_keys(capsys):
+    """With the table, `energy.attraction` and `generalised_centrifugal` are in the JSON object."""
+    with pytest.raises(SystemExit):
+        main(["collide", "granulation", "--json", "--set", "attraction.hamaker=1e-19 J"])
+    said = json.loads(capsys.readouterr().out)
+    assert said["energy"]["attraction"] > 0 and said["generalised_centrifugal"] > 0
+
+
+@pytest.mark.parametrize("film", ["finite", "cavitating"])
+@pytest.mark.parametrize("hamaker", [1e-20, 2e-10])
+def test_head_on_with_a_film_is_proved(film, hamaker):
+    """However weak or strong the attraction, what the film stops sticks, proved; with a film alone just so.
+
+    Without attraction e_n starts where St = Lf(x_b/x0) (1 + 1/e_dry), or Lf alone if it cavitates: an attraction can
+    only raise that, and the stick below is certified.
+    """
+    scene = scene_of(False, **{"attraction.hamaker": hamaker, "model.film": film, "particles.dry_restitution": 0.9})
+    s = 50e-9 / X0
+    level = math.log(1 / s) - 1.5 + 2 * s - s**2 / 2
+    one = collide(scene, stokes=0.9 * level, angle=0.0)
+    assert (one.outcome, one.certified) == ("stick", True)
+    threshold = level * (1 + (0 if film == "cavitating" else 1 / 0.9))
+    beyond = collide(scene, stokes=1.2 * threshold, angle=0.0)
+    if hamaker < 1e-15:
+        assert beyond.outcome == "bounce"
+    wall = scene.with_entries({"partner.wall": True})
+    assert collide(wall, stokes=0.9 * level, angle="50 deg").certified

@@ -1,0 +1,347 @@
+"""The command line: bad input is one line and exit 2, options are judged first, standard output stays clean."""
+
+import json
+import os
+import subprocess
+import sys
+import warnings
+from types import ModuleType, SimpleNamespace
+
+import pytest
+from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
+from wetdoublet.solvers.scene.ranges import parse_range
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.settings import check_engine, check_rtol
+
+from ...helpers.command import run
+
+
+@pytest.fixture
+def module(monkeypatch):
+    """Put a stand-in in place of a module that a command imports when it runs."""
+
+    def put(name, **content):
+        stand_in = ModuleType(name)
+        vars(stand_in).update(content)
+        parent, _, child = name.rpartition(".")
+        monkeypatch.setitem(sys.modules, name, stand_in)
+        if parent in sys.modules:
+            monkeypatch.setattr(sys.modules[parent], child, stand_in, raising=False)
+
+    return put
+
+
+@pytest.fixture
+def collision(module):
+    """Let `collide` be a stand-in that remembers what it was asked."""
+    asked = {}
+
+    def collide(scene, **options):
+        asked.update(options, scene=scene)
+        return asked.get("result") or SimpleNamespace(
+            to_dict=lambda: {"outcome": "stick"}, plot=asked.setdefault("plots", []).append
+        )
+
+    module("wetdoublet.solvers.collision.collide", collide=collide)
+    return asked
+
+
+BAD = [
+    ("collide granulation --stokes -1", "--stokes", '"-1"', "> 0"),
+    ("collide granulation --stokes nan", "--stokes", '"nan"', "> 0"),
+    ("collide granulation --stokes 0.1:1:5", "--stokes", '"0.1:1:5"', "a Stokes number"),
+    ("collide granulation --stokes 1 --speed 1m/s", "--speed", '"1m/s"', "only one of --stokes, --speed"),
+    ("collide granulation --speed 1", "--speed", "no unit", "with its unit"),
+    ("collide granulation --speed 1Pa", "--speed", "pressure, not a speed", "with its unit"),
+    ("collide granulation --angle 60", "--angle", '"60" has no unit', "< 90 deg"),
+    ("collide granulation --angle 90deg", "--angle", '"90deg"', "< 90 deg"),
+    ("collide granulation --angle -5deg", "--angle", '"-5deg"', ">= 0 deg"),
+    ("collide granulation --rtol 1e-2", "--rtol", '"1e-2"', "1e-13 to 1e-3"),
+    ("collide granulation --rtol 1e-14", "--rtol", '"1e-14"', "1e-13 to 1e-3"),
+    ("collide granulation --engine foo", "--engine", '"foo"', "cvodes, rosenbrock"),
+    ("collide granulation --engine cvode", "--engine", "did you mean cvodes?", "cvodes, rosenbrock"),
+    ("collide granulation --plot a.gif", "--plot", '"a.gif"', ".png"),
+    ("collide granulation --plot no/such/a.png", "--plot", "does not exist", "in a folder that exists"),
+    ("collide granulation -o no/such/a", "-o", "does not exist", "in a folder that exists"),
+    ("verify granulation -o ./x.pdf", "-o", "has an unsupported suffix", "ending in .md"),
+    ("collide granulation -o .", "-o", "is a folder", "a file name"),
+    (
+        "collide granulation --set liquid.viscosty=3",
+        "liquid.viscosty",
+        "did you mean liquid.viscosity?",
+        "liquid.viscosity",
+    ),
+    ("collide granulation --set viscosity=3Pas", "viscosity", "did you mean liquid.viscosity?", "liquid"),
+    ("collide granulation --set liquid.viscosity", "--set", '"liquid.viscosity"', "NAME=VALUE"),
+    ("collide granulation --set liquid.viscosity=3", "liquid.viscosity", "no unit", "with its unit"),
+    (
+        "collide granulation --set liquid.glass_transition_pressure=0Pa",
+        "liquid.glass_transition_pressure",
+        '"0Pa"',
+        "> 0",
+    ),
+    ("collide granulation --set particles.roughness=9um", "particles.roughness", '"9um"', "film_thickness"),
+    ("collide granulation --set bridge.volume=1e-6", "bridge.volume", "1e-06", "above 0.000512"),
+    (
+        "collide granulation --set particles.radius=99um",
+        "particles.radius",
+        "particles.reduced_radius",
+        "set particles.reduced_radius here, or edit the scene file",
+    ),
+    ("collide granulation --set impact.speed=1m/s", "impact.speed", "impact.stokes = 0.03", "--speed or --stokes"),
+    ("collide granulation --set bridge.law=foo", "bridge.law", '"foo"', "mikami"),
+    ("collide granulation --set impact.stokes=1 --stokes 2", "--stokes", '"2"', "only one"),
+    ("collide pendulum --set pendulum.length=1cm", "pendulum.length", '"1cm"', "4a + x_f/2"),
+    ("collide pendulum --set bridge.volume=1", "bridge.surface_tension", "bridge.contact_angle", "with its unit"),
+    ("collide pendulm", "scene", "did you mean pendulum?", "granulation, pendulum"),
+    ("collide", "SCENE", "missing", "granulation, pendulum"),
+    ("collide --engine foo", "--engine", '"foo"', "cvodes, rosenbrock"),
+    ("collide granulation --stoks 1", "--stoks", "did you mean --stokes?", "--speed"),
+    ("collide granulation --stokes", "--stokes", "its value is missing", "--stokes S"),
+    ("collide granulation --json=3", "--json", "is given a value", "--json alone"),
+    ("collide granulation --out x", "--out", "did you mean -o?", "--plot, -o"),
+    ("generate -o x", "-o", "did you mean --out?", "--check"),
+    ("collide granulation -o ./x.png --plot x.png", "-o", '"x.png" is given to --plot as well', "two different files"),
+    ("collide granulation --plot /proc/p.png", "--plot", '"/proc/p.png" cannot be written', "a folder that exists"),
+    ("collide granulation --set liquid=3", "liquid", '"3" is given to a table', "liquid.viscosity, "),
+    ("collide granulation --set liquid.film_thickness=2lbf", "liquid.film_thickness", "is a force, not a len", "such"),
+    ("generate --out /proc/x", "--out", "/proc cannot be written to", "a folder"),
+    ("generate --out pyproject.toml", "--out", '"pyproject.toml" is a file', "a folder"),
+    ("scenes --set liquid.viscosity=3Pa*s", "--set", "needs a SCENE", "a SCENE with --set"),
+    ("collide granulation pendulum", "collide", "pendulum", "SCENE"),
+    ("colide granulation", "COMMAND", "did you mean collide?", "scenes, collide"),
+    ("--foo", "--foo", "no such option", "--version"),
+    ("", "COMMAND", "issing", "scenes, collide"),
+    ("scenes granulaton", "scene", "did you mean granulation?", "granulation, pendulum"),
+    ("verify nowhere.toml", "scene", '"nowhere.toml"', "a scene file"),
+    ("verify --plot where.png", "--plot", '"where.png" needs a SCENE', "a SCENE with --plot"),
+    ("verify --stokes 1", "--stokes", '"1" needs a SCENE', "a SCENE with --stokes"),
+    ("generate --out /dev/null/x", "--out", "/dev/null", "a folder"),
+    ("verify --stress -1", "--stress", '"-1" is out of range', "1 to 10000000"),
+    ("map granulation --stokes 0.1:0.2:1000000000", "--stokes", "has too many values", "N at most 10000000"),
+    ("sensitivity granulation --uncertainty liquid.viscosity=5", "--uncertainty of liquid.viscosity", "no unit", "5 %"),
+    ("scenes granulation-dry", "scene", "did you mean granulation-dry-bridge?", "granulation, pendulum"),
+    ("export granulation --to foo", "--to", '"foo"', "c, latex"),
+    (
+        "collide granulation --set particles.reduced_radius=1e-200m",
+        "particles.reduced_radius",
+        "too small",
+        "film_thic",
+    ),
+    ("generate --check --out x", "--out", '"x"', "--check alone"),
+]
+
+
+@pytest.mark.parametrize(("line", "field", "says", "accepted"), BAD, ids=[bad[0] for bad in BAD])
+def test_bad_input(line, field, says, accepted):
+    """Bad input exits 2 with one line that names field, value and what is accepted, and prints nothing else."""
+    result = run(*line.split())
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert len(result.stderr.splitlines()) == 1
+    assert result.stderr.startswith(field + ": ")
+    before, _, after = result.stderr.partition("; accepted: ")
+    assert says in before and accepted in after
+
+
+def test_only_near_names_are_suggested():
+    """A name that is like none gets no suggestion, and an empty scene is no folder."""
+    for option in ("--foo", "--pdf", "--x"):
+        assert "did you mean" not in run("collide", "granulation", option).stderr
+    result = run("collide", "")
+    assert result.stderr.startswith('scene: "" is an empty name; accepted: a scene file')
+
+
+def test_options_come_before_what_is_missing(tmp_path):
+    """A bad option is reported before a scene without an impact, a broken scene and a missing one."""
+    file = tmp_path / "scene.toml"
+    file.write_text(Scene.load("granulation").to_toml().partition("[impact]")[0])
+    assert run("collide", str(file)).stderr.startswith("impact.stokes: missing; accepted: stokes = 0.03")
+    for scene in (str(file), "nowhere.toml"):
+        assert run("collide", scene, "--rtol", "1").stderr.startswith("--rtol: ")
+    file.write_text("[liquid\n")
+    assert run("collide", str(file)).stderr.startswith(f"{file}, line 1: ")
+    assert run("collide", str(file), "--angle", "95 deg").stderr.startswith("--angle: ")
+
+
+def test_collide_passes_on_what_was_asked(collision, tmp_path):
+    """Options reach the solver, JSON is one object on standard output, pictures and files are written where asked."""
+    picture, file = tmp_path / "a.png", tmp_path / "a.txt"
+    line = [
+        "collide",
+        "granulation",
+        "--speed",
+        "54 cm/s",
+        "--angle",
+        "75 deg",
+        "--rtol",
+        "1e-7",
+        "--engine",
+        "rosenbrock",
+    ]
+    result = run(*line, "--set", "liquid.viscosity=3 Pa s", "--json")
+    assert (result.exit_code, result.stderr, json.loads(result.stdout)) == (0, "", {"outcome": "stick"})
+    assert (collision["rtol"], collision["engine"], collision["trajectory"]) == (1e-7, "rosenbrock", False)
+    assert collision["scene"].speed == 0.54 and collision["scene"].liquid.viscosity == 3.0
+    result = run("collide", "pendulum", "--plot", str(picture), "-o", str(file))
+    assert (result.exit_code, result.output, collision["plots"]) == (0, "", [picture])
+    assert file.read_text().startswith("namespace(")
+
+
+def test_failures(collision, monkeypatch):
+    """A computation that fails exits 1, an interrupt 130, a defect 1, NaN never reaches JSON: one line each."""
+
+    def fail(error):
+        def to_dict():
+            raise error
+
+        collision["result"] = SimpleNamespace(to_dict=to_dict)
+        return run("collide", "granulation", "--json")
+
+    stopped = ComputationError("step too small", "contact", 1e-3, {"x": 1e-6}, "try --engine rosenbrock")
+    for error, status, says in (
+        (stopped, 1, "step too small in phase contact at t = 0.001 s; state x = 1e-06; try --engine rosenbrock"),
+        (CheckFailed("broken\nlaw"), 1, "broken law"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (ZeroDivisionError("oops\nthere"), 1, "internal error: ZeroDivisionError: oops there"),
+        (OSError(28, "No space left on device", "a.txt"), 1, "a.txt: No space left on device"),
+    ):
+        result = fail(error)
+        assert (result.exit_code, result.stdout, len(result.stderr.splitlines())) == (status, "", 1)
+        assert result.stderr.startswith(says)
+    collision["result"] = SimpleNamespace(to_dict=lambda: {"restitution": float("nan")})
+    result = run("collide", "granulation", "--json")
+    assert (result.exit_code, result.stdout) == (1, "")
+    result = run("collide", "granulation", "--json", "--debug")
+    assert "Traceback" in result.stderr and result.stdout == ""
+
+
+def test_scenes():
+    """`scenes` lists the presets; `scenes NAME` prints one that loads as itself, changed if asked."""
+    lines = run("scenes").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == ["granulation", "pendulum", "granulation-dry-bridge"]
+    assert all(len(line.split()) > 5 and len(line) < 100 for line in lines)
+    assert Scene.from_toml(run("scenes", "pendulum").stdout) == Scene.load("pendulum")
+    changed = run("scenes", "granulation", "--set", "liquid.viscosity=3 Pa s", "--angle", "10 deg").stdout
+    assert Scene.from_toml(changed).liquid.viscosity == 3.0
+    changed = run("scenes", "granulation", "--angle", "20deg", "--speed", "1 m/s").stdout
+    assert changed.endswith('[impact]\nspeed = "1 m/s"\nangle = "20deg"\n')
+
+
+def test_generate_and_verify(module, tmp_path):
+    """`generate` lists what it wrote, `--check` what differs; `verify` prints its report; both exit 1 on a failure."""
+    differences = ["--- generated/a.py", "extra: generated/b.py"]
+    module("wetdoublet.derive.emit.write", emitted=lambda: {"a.py": "A = 1\n"}, check=lambda: differences)
+    out = tmp_path / "new" / "folder"
+    result = run("generate", "--out", str(out))
+    assert (result.exit_code, result.stdout.split()) == (0, [str(out / "a.py")]) and out.is_dir()
+    result = run("generate", "--check")
+    assert (result.exit_code, result.stdout.splitlines()) == (1, differences) and len(result.stderr.splitlines()) == 1
+    assert "`wetdoublet generate` would mend" in result.stderr and "generated/b.py: to be rem" in result.stderr
+    differences[:] = [f"extra: {name}.py" for name in "abcdefg"]
+    result = run("generate", "--check")
+    assert result.exit_code == 1 and "would mend" not in result.stderr
+    assert "/e.py and 2 more: to be removed" in result.stderr
+    differences.clear()
+    result = run("generate", "--check")
+    assert (result.exit_code, result.output) == (0, "")
+
+    class Report:
+        ok = False
+        budget = None
+        failed = (SimpleNamespace(line="angular momentum (granulation): 1e-3, bound 1e-9, at St 1"),)
+
+        def __str__(self):
+            return "L is not conserved"
+
+        def to_markdown(self):
+            return "# L"
+
+    module("wetdoublet.solvers.verify", verify=lambda scene, progress: Report(), Finding=object, Report=Report)
+    result = run("verify", "-o", str(tmp_path / "report.md"))
+    assert (result.exit_code, result.stdout) == (1, "L is not conserved\n") and len(result.stderr.splitlines()) == 1
+    assert "angular momentum (granulation): 1e-3, bound 1e-9, at St 1" in result.stderr
+    assert (tmp_path / "report.md").read_text() == "# L\n"
+
+
+def test_version_and_module():
+    """`--version` answers, and `python -m wetdoublet.solvers` is the same command."""
+    done = subprocess.run(
+        [sys.executable, "-m", "wetdoublet.solvers", "scenes"], check=False, capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "") and "granulation" in done.stdout
+    assert run("--version").stdout.startswith("wetdoublet ")
+
+
+def test_a_reader_that_leaves():
+    """A broken pipe is quiet."""
+    code = "import os; os.close(0); from wetdoublet.solvers.commands.cli import main; main(['scenes', 'granulation'])"
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run([sys.executable, "-c", code], check=False, stdout=write, stderr=subprocess.PIPE, text=True)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_closed_streams():
+    """A closed standard output or error is quiet, and the status is the same."""
+    for line, status in (("scenes >&-", 0), ("scenes >&- 2>&-", 0), ("collide granulation --stokes x >&- 2>&-", 2)):
+        command = f"{sys.executable} -m wetdoublet.solvers {line}"
+        done = subprocess.run(["sh", "-c", command], check=False, stderr=subprocess.PIPE, text=True)
+        assert (done.returncode, done.stderr) == (status, "")
+
+
+def test_a_home_that_cannot_be_written(tmp_path):
+    """Matplotlib then works from a temporary folder, and standard error stays clean."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}
+    line = ["-m", "wetdoublet.solvers", "collide", "granulation", "--plot", str(tmp_path / "a.png")]
+    done = subprocess.run(
+        [sys.executable, *line], check=False, capture_output=True, text=True, env=kept | {"HOME": "/proc/none"}
+    )
+    assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "a.png").is_file()
+
+
+@pytest.mark.parametrize(
+    "text", ["1", "1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
+)
+def test_bad_ranges(text):
+    """A range that is none, runs backwards or has the wrong count names its option."""
+    with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
+        parse_range(text, "--stokes", lambda end: float(end or "0"))
+
+
+def test_ranges():
+    """Both ends are included exactly; log is even in the logarithm; one value is a range too."""
+    assert parse_range("0:60:4", "--angle", float) == [0, 20, 40, 60]
+    assert parse_range("log:0.01:100:5", "--stokes", float) == pytest.approx([0.01, 0.1, 1, 10, 100])
+    assert parse_range("log:0.1:0.7:3", "--stokes", float)[::2] == [0.1, 0.7]
+    assert parse_range("5:5:1", "--angle", float) == [5]
+
+
+def test_a_warning_is_said_once(module):
+    """However many collisions a warning is of, it is one line; another one is another line."""
+
+    def collide(scene, **options):
+        for text in ("a law is stretched", "a law is stretched", "another one"):
+            warnings.warn(text, ModelWarning, stacklevel=2)
+        return SimpleNamespace(to_dict=dict)
+
+    module("wetdoublet.solvers.collision.collide", collide=collide)
+    for _ in range(2):  # each command anew
+        said = run("collide", "granulation", "--json").stderr
+        assert said == "warning: a law is stretched\nwarning: another one\n"
+
+
+def test_settings_from_python():
+    """Tolerance and engine are judged the same from Python, by their argument's name."""
+    assert (check_rtol(1e-13), check_rtol("1e-3"), check_engine(None), check_engine("cvodes")) == (
+        1e-13,
+        1e-3,
+        None,
+        "cvodes",
+    )
+    for wrong in (0, 1e-14, True, "x", None, float("nan")):
+        with pytest.raises(InputError, match="^rtol: "):
+            check_rtol(wrong)
+    with pytest.raises(InputError, match="^engine: 3 is not known"):
+        check_engine(3)

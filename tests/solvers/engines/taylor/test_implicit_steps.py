@@ -1,0 +1,96 @@
+"""Flights that creep for long (runtime/implicit.h): beside a saddle, and in a film that opens slowly."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide_many
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.host.compiler import compiler
+
+from ....helpers.data import BOUNDARIES
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+
+def flown(scene: Scene, stokes: list[float], angle: float, rtol: float) -> np.ndarray:
+    """Answers of the kernel."""
+    speed = scene.speed_of(1.0) * np.array(stokes)
+    found = engine.run_kernel(engine.Impacts(scene, speed, np.full(len(stokes), angle), {}), rtol)
+    assert found is not None
+    return found
+
+
+def escape() -> tuple[Scene, float, float]:
+    """Scene, angle and Stokes number of a boundary between sticking and rotating apart, from the reference."""
+    case = BOUNDARIES["granulation"]
+    for degrees, changes in zip(case["angles_deg"], case["changes"], strict=True):
+        for change in changes:
+            if (change["from"], change["to"]) == ("stick", "stick-rotate-separate"):
+                return Scene.from_dict(case["scene"]), math.radians(degrees), float(change["stokes"])
+    raise AssertionError("no such boundary among the references")
+
+
+def test_every_decade_nearer_the_saddle_costs_the_same_time():
+    """Beside a saddle the unstable mode grows as exp(lambda t) from the distance: contact times of successive decades
+    differ by ln(10)/lambda, and restitution tends to that of the unstable manifold, as the distance to zero.
+    """
+    scene, angle, boundary = escape()
+    distances = [1e-4, 1e-5, 1e-6, 1e-7]
+    found = flown(scene, [boundary * (1 + side * d) for side in (1, -1) for d in distances], angle, 1e-12)
+    away, held = found[:4], found[4:]
+    assert away["outcome"].tolist() == [1] * 4
+    assert held["outcome"].tolist() == [0] * 4
+    assert held["certified"].all()
+    unequal = np.abs(np.diff(np.diff(away["time"])))
+    # what is not linear beside the saddle goes with the distance: a tenth a decade, the boundary's own 1e-11 beside it
+    assert unequal[1] < 0.2 * unequal[0]
+    assert unequal[1] < 2e-3 * np.diff(away["time"])[-1]
+    apart = np.abs(np.diff(away["shown"][:, 0]))
+    np.testing.assert_allclose(apart[1:] / apart[:-1], 0.1, rtol=0.02)
+    assert away["steps"].max() < 3000  # a Taylor step held to the fast modes: 1e4 and more
+
+
+def test_beside_the_saddle_as_rosenbrock():
+    """At relative distances of 1e-6 and 1e-8 outcome and restitution are Rosenbrock's, on both sides."""
+    scene, angle, boundary = escape()
+    stokes = [boundary * (1 + side * d) for d in (1e-6, 1e-8) for side in (-1, 1)]
+    found = flown(scene, stokes, angle, 1e-10)
+    exact = collide_many(scene, stokes=stokes, angle=angle, rtol=1e-10, engine="rosenbrock")
+    assert found["outcome"].tolist() == exact.outcome.values.tolist()
+    np.testing.assert_allclose(found["shown"][:, 0] * (found["outcome"] > 0), exact.restitution, atol=1e-8)
+
+
+def test_creeping_in_a_film_as_rosenbrock():
+    """Without a bridge a slow oblique impact is opened by rotation alone, through the whole film, as Rosenbrock has it:
+    outcome, restitution, contact time.
+    """
+    changes: dict[str, Any] = Scene.load("granulation").to_dict()
+    del changes["bridge"]
+    scene = Scene.from_dict(changes)
+    stokes = [0.004, 0.01, 0.03]
+    found = flown(scene, stokes, math.radians(70), 1e-9)
+    wanted = ("outcome", "contact_time")
+    exact = collide_many(scene, stokes=stokes, angle=math.radians(70), rtol=1e-11, engine="rosenbrock", of=wanted)
+    assert found["outcome"].tolist() == exact.outcome.values.tolist()
+    separated = found["outcome"] > 0
+    assert separated.any()
+    np.testing.assert_allclose(found["shown"][separated, 0], exact.restitution[separated], rtol=1e-6)
+    speed = scene.speed_of(1.0) * np.array(stokes)
+    seconds = found["time"] * scene.liquid.film_thickness / speed
+    np.testing.assert_allclose(seconds[separated], exact.contact_time[separated], rtol=1e-6)
+
+
+def test_flights_that_crawl_to_no_avail_keep_to_their_budget():
+    """At 1e-9 rad without a bridge rounding decides when the doublet parts: handed over once the budget is spent, but
+    for what one stay in implicit.h may take beyond it (its 4000 tries, and the flight to there).
+    """
+    scene = Scene.load("granulation-dry-bridge")
+    impact = engine.Impacts(scene, scene.speed_of(np.array([1e-3])), np.array([1e-9]), {})
+    found = engine.run_kernel(impact, 1e-7, budget=1500)
+    assert found is not None
+    assert found["status"].tolist() == [2]
+    assert found["steps"][0] < 1500 + 4100

@@ -1,0 +1,231 @@
+"""What the kernel's variants write beside answers: the energy ledger, and the steps' own series as a trajectory."""
+
+from __future__ import annotations
+
+import subprocess
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Collision, Scene, collide
+from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor import headers, layout, record
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.model import select_model
+
+from ....helpers.data import COLLISIONS as REFERENCE
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+RTOL = 1e-9
+# Every variant is compiled once for all tests here.
+FLIGHTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "separates": ("granulation", {"stokes": 0.02, "angle": "75 deg"}),
+    "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),
+    "on strings": ("pendulum", {"stokes": 1.3, "angle": "45 deg"}),
+    "film alone": ("granulation-dry-bridge", {"stokes": 0.2, "angle": 0.0}),
+}
+
+CASES = [
+    case
+    for case in REFERENCE
+    if case["name"] in ("granulation", "pendulum")
+    and case["impact"]["angle"] != "0.0 deg"
+    and case["results"]["outcome"] != "stick"
+]
+
+
+@cache
+def by_kernel(name: str) -> Collision:
+    scene, impact = FLIGHTS[name]
+    return collide(scene, engine="taylor", trajectory=True, rtol=RTOL, **impact)
+
+
+@cache
+def by_rosenbrock(name: str) -> Collision:
+    scene, impact = FLIGHTS[name]
+    return collide(scene, engine="rosenbrock", trajectory=True, rtol=1e-11, **impact)
+
+
+@pytest.mark.parametrize("name", FLIGHTS)
+def test_the_ledger_is_that_of_rosenbrock(name: str):
+    """Each term is the one of an independent integration, to the tolerance of every step that it was summed over."""
+    mine, other = by_kernel(name), by_rosenbrock(name)
+    assert mine.engine == "taylor"
+    assert mine.energy is not None
+    assert other.energy is not None
+    bound = mine.steps * RTOL * other.energy.initial
+    for term, value in other.energy.to_dict().items():
+        assert getattr(mine.energy, term) == pytest.approx(value, rel=0, abs=bound), term
+
+
+@pytest.mark.parametrize("name", FLIGHTS)
+def test_the_residual_is_an_error(name: str):
+    """Energies of states and integrals of losses differ by the tolerance of the steps, and not by nothing: no term of
+    the ledger is made of the others.
+    """
+    found = by_kernel(name)
+    assert found.energy is not None
+    assert 0 < abs(found.energy.residual) < found.steps * RTOL * found.energy.initial
+
+
+def test_angular_momentum_is_seen_to_be_kept():
+    """The spin is a state of its own: L is kept by the torques that balance, to rounding; strings take from it."""
+    drift = by_kernel("separates").angular_momentum_drift
+    assert drift is not None
+    assert drift < 1e-14 * by_kernel("separates").steps
+    assert by_kernel("on strings").angular_momentum_drift is None
+    assert by_kernel("film alone").angular_momentum_drift == 0.0
+
+
+def test_the_surface_arm_drifts():
+    """The arm that does not conserve L is seen to drift, by as much as in the reference."""
+    scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
+    mine, other = (
+        collide(scene, stokes=0.045, angle="55 deg", engine=engine, rtol=rtol, trajectory=True)
+        for engine, rtol in (("taylor", RTOL), ("rosenbrock", 1e-11))
+    )
+    assert other.angular_momentum_drift is not None
+    assert other.angular_momentum_drift > 1e-3
+    assert mine.angular_momentum_drift == pytest.approx(other.angular_momentum_drift, rel=mine.steps * RTOL)
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case['name']} {case['impact']}")
+def test_reference_energies(case: dict[str, Any]):
+    """Energies of the independent 80-bit reference, for the scenes whose kernels are compiled here."""
+    expected = case["results"]
+    found = collide(Scene.from_dict(case["scene"]), **case["impact"], engine="taylor", trajectory=True, rtol=RTOL)
+    assert found.engine == "taylor"
+    assert found.energy is not None
+    bound = found.steps * RTOL * expected["energy"]["initial"]
+    for term, value in found.energy.to_dict().items():
+        assert value == pytest.approx(expected["energy"][term], rel=1e-14, abs=bound), term
+
+
+@pytest.mark.parametrize("name", FLIGHTS)
+def test_the_trajectory_is_that_of_rosenbrock(name: str):
+    """At 65 times in each phase, which no step of the kernel ends at, all is as by an independent integration."""
+    mine, other = by_kernel(name).trajectory, by_rosenbrock(name).trajectory
+    assert mine is not None
+    assert other is not None
+    assert list(mine.data_vars) == list(other.data_vars)
+    assert mine.phase.values.tolist() == other.phase.values.tolist()
+    for variable in (*other.data_vars, "time"):
+        expected = other[variable].values
+        bound = by_kernel(name).steps * RTOL * np.max(np.abs(expected))
+        np.testing.assert_allclose(mine[variable], expected, rtol=0, atol=bound, err_msg=variable)
+        assert mine[variable].attrs == other[variable].attrs
+
+
+def test_the_approach_is_the_films_momentum_integral():
+    """Head-on, film alone: -u/v0 = 1 - Lf(s)/St at every gap s of the approach, Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2."""
+    scene = Scene.load("granulation-dry-bridge").with_entries({"liquid.glass_transition_pressure": "1e6 GPa"})
+    found = collide(scene, stokes=2.5, angle=0.0, engine="taylor", trajectory=True, rtol=RTOL)
+    assert found.reversal == "elastic"
+    assert found.trajectory is not None
+    approach = found.trajectory.isel(time=found.trajectory.phase.values == "closing inside the film")
+    s = approach.gap.values / scene.liquid.film_thickness
+    expected = 1 - (np.log(1 / s) - 1.5 + 2 * s - s**2 / 2) / found.stokes
+    assert np.min(s) < 0.2
+    np.testing.assert_allclose(
+        -approach.opening_velocity.values / found.speed, expected, rtol=0, atol=found.steps * RTOL
+    )
+
+
+def test_a_trajectory_is_continuous():
+    """Where one step's series ends the next one's begins: both give the state between them, to rounding."""
+    scene = Scene.load("granulation")
+    impact = record.Impacts(scene, np.array([scene.speed_of(0.02)]), np.array([np.radians(75)]), {})
+    told = record.run_recorded(impact, True, RTOL, ledger=True, trajectory=True)
+    assert told is not None
+    assert told.steps is not None
+    rows = told.steps.rows
+    assert rows["time"][-1] + rows["length"][-1] == told.answers["time"][0]
+    ends = (rows["series"] * rows["length"][:, None, None] ** np.arange(rows["series"].shape[2])).sum(axis=2)
+    np.testing.assert_allclose(ends[:-1], rows["series"][1:, :, 0], rtol=1e-14, atol=1e-15)
+
+
+def test_decided_at_first_touch():
+    """A stick that is proved at initial contact takes no step: its trajectory is that one state, as Rosenbrock's is."""
+    impact: dict[str, Any] = {"stokes": 0.001, "angle": "75 deg"}
+    mine, other = (
+        collide("granulation", engine=engine, trajectory=True, **impact) for engine in ("taylor", "rosenbrock")
+    )
+    assert (mine.engine, mine.outcome, mine.until) == ("taylor", "stick", 0.0)
+    assert mine.trajectory is not None
+    assert other.trajectory is not None
+    assert mine.trajectory.phase.values.tolist() == ["initial contact"]
+    for name, values in other.trajectory.items():
+        np.testing.assert_allclose(mine.trajectory[name], values, rtol=1e-14, atol=0, err_msg=str(name))
+
+
+def flown(room: tuple[int, int], keep: bool = True) -> record.Recorded:
+    """Chatter on a rough pendulum, and a short flight beside it, with this room for events and steps at first."""
+    scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
+    speeds = np.array([scene.speed_of(0.06760659), scene.speed_of(3.0)])
+    found = record.run_recorded(
+        record.Impacts(scene, speeds, np.full(2, 0.7759), {}), True, RTOL, trajectory=True, keep=keep, room=room
+    )
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("room", [(1, 256), (64, 3), (1, 3), (0, 0)])
+def test_too_little_room_is_asked_for_again(room: tuple[int, int]):
+    """A log of one event, rows for three steps, or no room at all give what ample room gives."""
+    found, ample = flown(room), flown((1000, 5000))
+    np.testing.assert_array_equal(found.answers, ample.answers)
+    for mine, whole, count in zip(found.events, ample.events, found.answers["events"], strict=True):
+        np.testing.assert_array_equal(mine[:count], whole[:count])
+    assert found.steps is not None
+    assert ample.steps is not None
+    np.testing.assert_array_equal(found.steps.rows, ample.steps.rows)
+
+
+def test_steps_that_are_not_kept_are_not_written():
+    """A kernel that could write its steps flies without a place for them, also where the log was too small at first."""
+    found = flown((1, 256), keep=False)
+    assert found.steps is None
+    assert found.answers["events"].max() > 64
+    np.testing.assert_array_equal(found.answers["outcome"], flown((1000, 5000)).answers["outcome"])
+
+
+@pytest.mark.parametrize("short", ["answers", "books", "quantities", "peaks"])
+def test_a_buffer_that_is_too_small_is_refused(short: str):
+    """The kernel is given the size of every buffer, and writes nothing where one does not hold what it would write."""
+    scene = Scene.load("granulation")
+    kernel = library.kernel(engine.variant(scene, select_model(scene, True, full=True), RTOL, True, True, True))
+    assert kernel is not None
+    impacts = record.Impacts(scene, np.full(9, scene.speed_of(0.02)), np.full(9, 1.3), {})
+    answers = np.zeros(9, layout.ANSWER)
+    task = engine.task(kernel, impacts, RTOL, 1000, answers)
+    task.buffer("books", np.zeros(9, layout.LEDGER))
+    small = {
+        "answers": answers[:8],
+        "books": np.zeros(8, layout.LEDGER),
+        "quantities": np.zeros(3, layout.BUFFER),
+        "peaks": np.zeros(8),
+    }
+    task.buffer(short, small[short])
+    with pytest.raises(MemoryError, match=f"{short}: too small"):
+        task.run()
+    assert (answers == np.zeros(9, layout.ANSWER)).all()
+
+
+@pytest.mark.parametrize("reduced", [True, False])
+def test_who_does_not_ask_does_not_pay(reduced: bool):
+    """What a compiler sees of the plain kernel has no field, constant or function of the variants."""
+    scene = Scene.load("granulation" if reduced else "pendulum")
+    variant = library.Variant(select_model(scene, True), 10)
+    paths = headers.headers(variant.choice)
+    found = compiler()
+    assert paths is not None
+    assert found is not None
+    command = [*found.command, "-E", "-P", "-x", "c", "-"]
+    seen = subprocess.run(
+        command, input=library.source(variant, paths), capture_output=True, text=True, check=True
+    ).stdout
+    assert "static void fly(" in seen
+    for name in ("loss", "ledger", "book_", "booked", "step_row", "keep_steps", "energies"):
+        assert name not in seen, name

@@ -1,0 +1,31 @@
+"""The kernel writes and reads nothing that is not its own, and does nothing that C leaves undefined.
+
+A sample that compiles quickly; `python tests/helpers/sanitized.py` flies everything.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ....helpers import sanitized
+
+pytestmark = pytest.mark.slow
+
+SAMPLE: list[list[Any]] = [
+    ["reference", "granulation-dry-bridge"],
+    ["random", "film alone", "ledger and trajectory", True, 1000],
+    ["random", "film alone", "steps not kept", True, 1000],
+    ["random", "granulation", "forwards", False, 1000],
+    ["random", "granulation", "backwards", False, 1000],
+]
+
+
+@pytest.mark.skipif(not sanitized.libraries(), reason="the C compiler has no sanitizers")
+def test_sanitizers_find_nothing(tmp_path: Path):
+    """Reference collisions and a thousand random ones, some with numbers that no scene has, under both sanitizers."""
+    done = sanitized.process(SAMPLE, tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "done\n"

@@ -1,0 +1,307 @@
+"""The cache: damaged entries, full and foreign folders, several processes, what a kill leaves."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers import collide_many
+from wetdoublet.solvers.engines.taylor.build import kernel
+from wetdoublet.solvers.host import emitted
+from wetdoublet.solvers.host import user_cache as cache
+from wetdoublet.solvers.host.compiler import compiler, library
+
+from ...helpers.disks import fill, small_disk
+
+WHOLE = bytes(range(256)) * 300
+posix = pytest.mark.skipif(os.name != "posix", reason="permissions, signals and locks of POSIX")
+compiling = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+
+@pytest.fixture
+def shelf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A cache of the test's own, which nothing has been put into."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
+    monkeypatch.delenv("WETDOUBLET_PRIVATE_CACHE", raising=False)
+    return tmp_path / "cache"
+
+
+def only(folder: Path) -> Path:
+    """The one file in a folder."""
+    (found,) = folder.iterdir()
+    return found
+
+
+def unexpected() -> bytes:
+    """What gives an entry that ought to be there."""
+    raise AssertionError("it was made again")
+
+
+def in_process(text: str, **settings: str) -> subprocess.CompletedProcess[str]:
+    """A program in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-c", text], capture_output=True, text=True, timeout=60, check=False, env=os.environ | settings
+    )
+
+
+def truncated(path: Path) -> None:
+    """Half of it is left."""
+    os.truncate(path, path.stat().st_size // 2)
+
+
+def emptied(path: Path) -> None:
+    """Nothing is left in it."""
+    os.truncate(path, 0)
+
+
+def flipped(path: Path) -> None:
+    """One bit is another."""
+    content = bytearray(path.read_bytes())
+    content[len(content) // 3] ^= 4
+    path.write_bytes(content)
+
+
+def garbage(path: Path) -> None:
+    """Something else is in its place."""
+    path.write_bytes(b"\x80\x04garbage" * 999)
+
+
+def linked(path: Path) -> None:
+    """A link to something of the same content is in its place."""
+    aside = path.parent.with_name("aside")
+    path.rename(aside)
+    path.symlink_to(aside)
+
+
+def opened(path: Path) -> None:
+    """Others can write to it."""
+    path.chmod(0o666)
+
+
+DAMAGES = [truncated, emptied, flipped, garbage, pytest.param(linked, marks=posix), pytest.param(opened, marks=posix)]
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_entry_is_made_again(damage: Callable[[Path], None], shelf: Path, capfd: pytest.CaptureFixture[str]):
+    """Whatever has happened to its file, an entry is what was made, its file too afterwards, and one line says so."""
+    assert cache.kept("one.bin", lambda: WHOLE) == WHOLE == cache.kept("one.bin", unexpected)
+    path = only(shelf)
+    damage(path)
+    assert cache.kept("one.bin", lambda: WHOLE) == WHOLE == cache.kept("one.bin", unexpected)
+    assert (only(shelf), path.read_bytes(), path.is_symlink()) == (path, WHOLE, False)
+    assert capfd.readouterr().err == f"{path} was damaged: it is made again\n"
+
+
+@compiling
+def test_a_damaged_kernel_is_compiled_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+):
+    """The kernel's library cut short: no crash, the same numbers, one line."""
+
+    def found() -> float:
+        kernel.cache_clear()
+        data = collide_many("granulation-dry-bridge", stokes=0.5, angle=0.0, engine="taylor")
+        assert data.attrs["engine"] == "taylor"
+        return float(data.restitution.values[0])
+
+    try:
+        before, whole = found(), cache.folder()
+        monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
+        for path in whole.glob("taylor-head_on-*.so"):
+            content = path.read_bytes()
+            (tmp_path / path.name).write_bytes(content[: len(content) // 2])
+        assert found() == before
+    finally:
+        kernel.cache_clear()
+    (said,) = capfd.readouterr().err.splitlines()
+    assert re.fullmatch(rf"{tmp_path}/taylor-head_on-\S+.so was damaged: it is made again", said)
+
+
+def test_a_damaged_derivation_is_derived_again(shelf: Path, capfd: pytest.CaptureFixture[str]):
+    """An emitted module in the cache that was edited is not run but derived again."""
+    text = "STATES = ('gap',)\n"
+    assert emitted.derived_once("one.py", lambda: text) == text
+    only(shelf).write_text("raise SystemExit('run')\n")
+    assert emitted.derived_once("one.py", lambda: text) == text
+    assert "was damaged: it is made again" in capfd.readouterr().err
+
+
+_CACHE = "from wetdoublet.solvers.host import user_cache as cache"
+_INCH = 'from wetdoublet.solvers.scene.units import quantity; print(quantity("1 inch", "m", "x", "a length"))'
+
+
+def test_a_damaged_unit_is_read_again(shelf: Path, tmp_path: Path):
+    """A unit that pint has judged is kept in our cache alone; in pieces it is judged again, and is not unknown."""
+    settings = {"XDG_CACHE_HOME": str(tmp_path / "home")}
+    first = in_process(_INCH, **settings)
+    for path in shelf.iterdir():
+        garbage(path)
+    again = in_process(_INCH, **settings, WETDOUBLET_HUSHED="1")  # a worker
+    assert (first.stdout, first.stderr, again.stdout) == ("0.0254\n", "", "0.0254\n")
+    assert {line.rpartition(" was ")[2] for line in again.stderr.splitlines()} == {"damaged: it is made again"}
+    assert not (tmp_path / "home").exists()  # pint's own cache, a pickle, is not used
+
+
+_RACE = """
+import os, sys, time
+from pathlib import Path
+from wetdoublet.solvers.host.user_cache import kept
+
+def made():
+    meeting = Path(sys.argv[1])
+    (meeting / str(os.getpid())).touch()
+    while len(list(meeting.iterdir())) < 2:
+        time.sleep(0.01)
+    return b"ONE = 1"
+
+print(kept("one.py", made))
+"""
+
+
+def test_two_processes_fill_the_cache_at_once(shelf: Path, tmp_path: Path):
+    """Two processes that make the same entry at the same time both get it, and leave one file, private, behind."""
+    meeting = tmp_path / "meeting"
+    meeting.mkdir()
+    command = [sys.executable, "-c", _RACE, str(meeting)]
+    running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    assert {process.communicate(timeout=60)[0] for process in running} == {"b'ONE = 1'\n"}
+    assert len(list(meeting.iterdir())) == 2  # both were inside
+    assert only(shelf).read_bytes() == b"ONE = 1"
+    assert [path.stat().st_mode & 0o777 for path in (shelf, only(shelf))] == [0o700, 0o600]
+
+
+@compiling
+def test_a_library_outlives_its_file(shelf: Path):
+    """What is loaded is a copy of what was verified: its file may be cut short, and another takes no other's name."""
+    large = "char pages[1 << 20] = {1}; int answer(void) { long sum = ADDED;"
+    large += " for (long k = 0; k < sizeof pages; k += 512) sum += pages[k]; return sum; }"
+    found = []
+    for added in (6, 41):
+        name, source = f"answer{added}.so", large.replace("ADDED", str(added))
+        content = cache.kept(name, lambda source=source: library(source, ("-shared", "-fPIC")))
+        found.append(cache.loaded(content, ctypes.CDLL))
+    for path in shelf.glob("*.so"):
+        os.truncate(path, 0)
+    assert [one.answer() for one in found] == [7, 42]
+
+
+@posix
+@pytest.mark.parametrize("mode", [0o777, 0o770])
+def test_a_folder_that_others_can_write_to_is_refused(mode: int, shelf: Path):
+    """Nothing is taken from it, nothing is put there, one line says so, and what serves in its place is removed."""
+    shelf.mkdir()
+    shelf.chmod(mode)
+    program = f'{_CACHE}; print(cache.kept("a.b", lambda: b"own"), cache.has("a."))'
+    done = in_process(program)
+    assert done.stdout == "b'own' True\n"
+    assert done.stderr.startswith(f"{shelf}: others can write to it; what is derived or compiled is kept in ")
+    assert len(done.stderr.splitlines()) == 1
+    assert not list(shelf.iterdir())
+    assert not Path(done.stderr.partition(" is kept in ")[2].removesuffix(" while this runs\n")).exists()
+
+
+_FULL = """
+import os, subprocess, sys
+from wetdoublet.solvers.host import user_cache as cache
+for name in ("a.b", "c.d"):
+    cache.kept(name, lambda: b"1" * 100_000)
+again = "from wetdoublet.solvers.host import user_cache as cache; print(len(cache.kept('a.b', lambda: b'made again')))"
+subprocess.run([sys.executable, "-c", again], check=True)
+with cache.room() as place:
+    (place / "object").write_bytes(bytes(1 << 20))
+print(os.environ["WETDOUBLET_PRIVATE_CACHE"], flush=True)
+if sys.argv[1:]:
+    os.kill(os.getpid(), 9)
+"""
+
+
+@posix
+def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Entries go to a private folder that workers share, one line says so; it ends with the process, or is swept."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    with small_disk(tmp_path / "disk", 1 << 18) as disk:
+        fill(disk)
+        monkeypatch.setenv("WETDOUBLET_CACHE", str(disk / "cache"))
+        for killed in (["killed"], []):
+            done = subprocess.run([sys.executable, "-c", _FULL, *killed], capture_output=True, text=True, check=False)
+            size, place = done.stdout.split()
+            assert (done.returncode, size) == (-signal.SIGKILL if killed else 0, "100000")
+            said = "No space left on device; what is derived or compiled is kept in"
+            assert done.stderr == f"{disk / 'cache'}: {said} {place} while this runs\n"
+            assert [path.name for path in temporary.iterdir()] == ([Path(place).name] if killed else [])
+
+
+def test_no_folder_at_all(tmp_path: Path):
+    """A cache whose place is a file: everything works, and one line names it."""
+    (tmp_path / "file").write_text("")
+    done = in_process(
+        "from wetdoublet.solvers.host import user_cache as cache; print(cache.kept('a.b', lambda: b'own'))",
+        WETDOUBLET_CACHE=str(tmp_path / "file" / "cache"),
+    )
+    assert done.stdout == "b'own'\n"
+    assert done.stderr.startswith(f"{tmp_path / 'file' / 'cache'}: Not a directory; ")
+
+
+_MAKING = """
+import time
+from wetdoublet.solvers.host import user_cache as cache
+from wetdoublet.solvers.host.locks import held_file
+with cache.room() as place, held_file(cache.folder(), ".making-"):
+    (place / "half.o").write_text("")
+    print("made", flush=True)
+    time.sleep(600)
+"""
+
+
+@posix
+def test_what_a_kill_leaves_is_swept(shelf: Path):
+    """Files and folders of a process that was killed are removed by the next that makes something, nobody else's."""
+    running = [
+        subprocess.Popen([sys.executable, "-c", _MAKING], stdout=subprocess.PIPE, text=True, start_new_session=True)
+        for _ in range(2)
+    ]
+    try:
+        for process in running:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "made\n"
+        assert len(list(shelf.iterdir())) == 4
+        running[0].kill()
+        running[0].wait()
+        assert in_process(f"{_CACHE}; cache.kept('a.b', bytes)").returncode == 0
+        assert sorted(path.is_dir() for path in shelf.glob(".making-*")) == [False, True]
+        assert len(list(shelf.glob(".making-*/half.o"))) == 1
+    finally:
+        for process in running:
+            process.kill()
+            process.communicate()
+
+
+_SWEEPING = """
+import sys
+from pathlib import Path
+from wetdoublet.solvers.host.locks import held_file, held_folder, sweep
+
+place = Path(sys.argv[1])
+for _ in range(100):
+    with held_folder(place, ".making-") as folder, held_file(place, ".making-") as (_, file):
+        (folder / "object").touch()
+        sweep(place, ".making-")
+        assert (folder / "object").exists() and file.exists()
+"""
+
+
+@posix
+def test_what_is_alive_is_not_swept(tmp_path: Path):
+    """Two processes that make and sweep without end, each while the other is at it, never take what is in use."""
+    running = [subprocess.Popen([sys.executable, "-c", _SWEEPING, str(tmp_path)]) for _ in range(2)]
+    assert [process.wait(60) for process in running] == [0, 0]
+    assert not list(tmp_path.iterdir())

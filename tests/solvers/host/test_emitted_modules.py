@@ -1,0 +1,110 @@
+"""Emitted modules: verified before they run, refused if tampered with or stale, derived once and kept."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide
+from wetdoublet.solvers.errors import CheckFailed
+from wetdoublet.solvers.host import emitted
+
+from ...helpers.command import run
+from ...helpers.yielding import LAW
+
+
+def copied(mine: Path, tmp_path: Path) -> Path:
+    """A copy of the model file and its package that a test may spoil."""
+    import shutil
+
+    shutil.copy(mine.with_suffix(".py"), tmp_path / "mine.py")
+    return Path(shutil.copytree(mine, tmp_path / "mine"))
+
+
+@pytest.mark.parametrize("name", ["laws/bridge_yielding.py", "oblique_bridge_reduced.py", "scaling.py"])
+def test_tampered_code_is_not_run(mine: Path, tmp_path: Path, name: str):
+    """A file that is not what was emitted is refused before any of it runs, with what to run instead."""
+    folder = copied(mine, tmp_path)
+    (folder / name).write_text(f"raise SystemExit('run')\n{(folder / name).read_text()}")
+    with pytest.raises(
+        InputError, match=f"{name}: is not what was emitted; .*run `wetdoublet generate .*mine.py --out"
+    ):
+        Scene.load("granulation", model=folder)
+
+
+def test_stale_models_are_refused(mine: Path, tmp_path: Path):
+    """A model whose file has changed since, or that another library's equations made, says what to run."""
+    folder = copied(mine, tmp_path)
+    (tmp_path / "mine.py").write_text(LAW + "\n# changed\n")
+    with pytest.raises(InputError, match="is stale: .*mine.py has changed since"):
+        Scene.load("granulation", model=folder)
+    (tmp_path / "mine.py").unlink()  # the package lives without it
+    assert Scene.load("granulation", model=folder).bridge.law == "yielding"
+    manifest = json.loads((folder / "manifest.json").read_text())
+    (folder / "manifest.json").write_text(json.dumps(manifest | {"library": "0" * 64}))
+    with pytest.raises(InputError, match="other equations of the library"):
+        Scene.load("granulation", model=folder)
+
+
+def test_generate_check_and_clean_up(mine: Path, tmp_path: Path):
+    """--check names what differs; emitting again mends it, removes what is no longer emitted, and leaves the rest."""
+    folder = copied(mine, tmp_path)
+    arguments = ("generate", str(tmp_path / "mine.py"), "--out", str(folder))
+    assert run(*arguments, "--check").exit_code == 0
+    (folder / "oblique_bridge.py").write_text("")
+    (folder / "notes.txt").write_text("mine")
+    done = run(*arguments, "--check")
+    assert done.exit_code == 1
+    assert "differs: oblique_bridge.py" in done.output
+    (tmp_path / "mine.py").write_text('from wetdoublet.derive.user import *\nlaw("bridge", "one", force=1 + 0*h)\n')
+    assert run(*arguments).exit_code == 0
+    assert {path.name for path in folder.rglob("*.*")} == {"bridge_one.py", "manifest.json", "model.py", "notes.txt"}
+
+
+def test_failing_checks_emit_nothing(tmp_path: Path):
+    """A law that is not homogeneous is named, exit 1, and leaves no folder."""
+    (tmp_path / "bad.py").write_text('from wetdoublet.derive.user import *\nlaw("bridge", "bad", force=mu*a)\n')
+    done = run("generate", str(tmp_path / "bad.py"), "--out", str(tmp_path / "out"))
+    assert done.exit_code == 1
+    assert "fails dimensions" in done.output
+    assert not (tmp_path / "out").exists()
+
+
+_COLLIDE = """
+import sys
+from wetdoublet.solvers import Scene, collide
+one = collide(Scene.load("granulation", model=sys.argv[1]), engine="rosenbrock", ledger=False)
+print(repr(one.restitution), "sympy" in sys.modules)
+"""
+
+
+def test_a_model_file_is_derived_once(mine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """A model file in place of a folder is derived on first use; another process then computes without sympy."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
+    file = mine.with_suffix(".py")
+    first = collide(Scene.load("granulation", model=file), engine="rosenbrock", ledger=False)
+    command = [sys.executable, "-c", _COLLIDE, str(file)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=900)
+    assert done.stdout.split() == [repr(first.restitution), "False"]
+
+
+def test_what_is_not_committed_is_derived_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """A structure that is not among the committed ones is derived to the same bytes, and the second time read."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
+    monkeypatch.setattr(emitted, "committed", lambda path: False)
+    expected = (Path(emitted.__file__).parents[2] / "generated" / "head_on.py").read_text()
+    assert emitted.text("head_on") == expected
+    monkeypatch.setattr(emitted, "_derived_structure", lambda name: pytest.fail("derived twice"))
+    assert emitted.text("head_on") == expected
+    assert emitted.executed("head_on", expected.encode()).STATES == ("gap", "opening")
+
+
+def test_an_edited_library_module_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """An emitted file of the library that was edited is refused, and the remedy named."""
+    (tmp_path / "head_on.py").write_text("STATES = ()\n")
+    monkeypatch.setattr(emitted, "_FOLDER", tmp_path)
+    with pytest.raises(CheckFailed, match="is not what was emitted .* run `wetdoublet generate`"):
+        emitted._verified.__wrapped__("head_on.py")

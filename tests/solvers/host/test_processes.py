@@ -1,0 +1,149 @@
+"""Processes: whatever ends the main one, no worker and no temporary folder outlives it for long."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ...helpers.command import PATIENCE, finished, run
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="what a session's processes are is read from /proc")
+
+# more than any machine finishes while it is waited for
+LARGE = ["map", "granulation", "--stokes", "log:0.005:0.5:400", "--angle", "1:85:400", "--engine", "cvodes"]
+KEEPING = """
+import time
+from wetdoublet.solvers.host.locks import TEMPORARY, held_folder, temporary
+with held_folder(temporary()[0], TEMPORARY) as folder:
+    (folder / "something").touch()
+    print(folder, flush=True)
+    time.sleep(100000)
+"""
+
+
+def until(condition):
+    """Wait until it holds, however long that takes on this machine."""
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def members(session):
+    """The processes of a session that have not ended."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, _, its = stat.read_text().rpartition(")")[2].split()[:4]
+        except (OSError, ValueError):  # it has ended meanwhile
+            continue
+        if int(its) == session and state != "Z":
+            found.append(int(stat.parent.name))
+    return found
+
+
+def begun(*line, **settings):
+    """The command in a session of its own, with the interpreter's own answer to Ctrl-C."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "wetdoublet.solvers", *map(str, line)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env=os.environ | settings,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+
+
+@pytest.fixture
+def temporary(tmp_path):
+    """The temporary folder of the processes that a test starts."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    return folder
+
+
+def test_a_map_that_is_ended(tmp_path, temporary):
+    """Ctrl-C, a kill and SIGTERM: all workers end too, nothing is left, and what was finished is computed only once."""
+    file, partial = tmp_path / "map.nc", tmp_path / "map.nc.partial"
+    kept = 0
+    for number, status in ((signal.SIGINT, 130), (signal.SIGKILL, -9), (signal.SIGTERM, 143)):
+        said = ended_by(number, status, file, more_than=kept)
+        done = finished(partial)
+        kept = sum(map(np.size, done))
+        assert np.unique(np.concatenate(done)).size == kept < 160000
+        if number != signal.SIGKILL:
+            says = f"interrupted: {kept} of 160000 collisions are kept in {partial}; the same command computes the rest"
+            assert said == says + "\n"
+            assert not list(temporary.iterdir())  # after a kill it is the next run that sweeps
+    assert not file.exists()
+
+
+def ended_by(number, status, file, more_than):
+    """What a map says on standard error that is ended when more collisions are done; no process of it is left."""
+    partial = file.with_name(file.name + ".partial")
+    process = begun(*LARGE, "-o", file, TMPDIR=str(file.with_name("temporary")))
+    until(lambda: sum(map(np.size, finished(partial))) > more_than or process.poll() is not None)
+    second = run(*LARGE, "-o", file)
+    assert (second.exit_code, second.stdout) == (2, "")
+    assert second.stderr.startswith("-o: ")
+    assert "is being written by another run" in second.stderr
+    if number == signal.SIGINT:  # as a terminal does: to the workers too
+        os.killpg(process.pid, number)
+    else:
+        process.send_signal(number)
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out) == (status, ""), err
+    until(lambda: not members(process.pid))
+    return err
+
+
+def test_folders_of_a_killed_process_are_swept(temporary):
+    """The next command removes what a kill has left, and nothing that is in use or somebody else's."""
+    settings = os.environ | {"TMPDIR": str(temporary)}
+    processes = [
+        subprocess.Popen([sys.executable, "-c", KEEPING], stdout=subprocess.PIPE, text=True, env=settings)
+        for _ in range(2)
+    ]
+    used, left = (Path(process.stdout.readline().strip()) for process in processes)
+    others = temporary / "wetdoublet"
+    others.mkdir()
+    link = temporary / "wetdoublet-cache-link"
+    link.symlink_to(others)
+    try:
+        processes[1].kill()
+        processes[1].wait()
+        assert (left / "something").is_file()
+        subprocess.run([sys.executable, "-m", "wetdoublet.solvers", "scenes"], check=True, env=settings, stdout=-3)
+        assert set(temporary.iterdir()) == {used, others, link}
+        assert (used / "something").is_file()
+    finally:
+        for process in processes:
+            process.kill()
+            process.communicate()
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
+def test_sigterm_while_a_kernel_is_compiled(tmp_path, temporary):
+    """The compiler is stopped, its folder removed, and the exit status is 143."""
+    compiler, marker = tmp_path / "slow-cc", tmp_path / "begun"
+    compiler.write_text(
+        f'#!/bin/sh\ncase "$*" in *-O*) echo $$ > {marker}; exec sleep 100000;; *) exec cc "$@";; esac\n'
+    )
+    compiler.chmod(0o755)
+    cache = tmp_path / "cache"
+    settings = {"TMPDIR": str(temporary), "CC": str(compiler), "WETDOUBLET_CACHE": str(cache)}
+    process = begun("collide", "granulation", "--engine", "taylor", **settings)
+    until(lambda: (marker.exists() and marker.read_text()) or process.poll() is not None)
+    assert any(path.is_dir() for path in cache.iterdir())
+    process.send_signal(signal.SIGTERM)
+    assert process.communicate(timeout=PATIENCE) == ("", "terminated\n")
+    assert process.returncode == 143
+    until(lambda: not members(process.pid))
+    assert not any(path.is_dir() for path in (*cache.iterdir(), *temporary.iterdir()))

@@ -1,0 +1,250 @@
+"""Regime maps: the grid and its file, failures, progress, the character map and the picture."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+from wetdoublet.solvers import Scene, collide_many, regime_map
+from wetdoublet.solvers.errors import ComputationError, InputError
+from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.plot_map import draw_map
+from wetdoublet.solvers.many.regime_map import write
+from wetdoublet.solvers.many.text_map import failures, table
+
+from ...helpers.command import run
+
+STOKES, ANGLE = np.geomspace(0.02, 0.3, 4), np.radians([10.0, 60.0, 80.0])
+SMALL = ["--stokes", "log:0.01:0.3:5", "--angle", "10:80:4"]
+
+
+@pytest.fixture(scope="module")
+def data():
+    """A map whose viscosity varies as well."""
+    return regime_map("granulation", stokes=STOKES, angle=ANGLE, vary={"liquid.viscosity": [1.0, 2.0]})
+
+
+@pytest.fixture
+def unlucky(monkeypatch):
+    """Let the collisions of one Stokes number, 0.1, fail."""
+    real = many.locate
+
+    def locate(model, groups, *rest):
+        if abs(groups["stokes"] - 0.1) < 1e-12:
+            raise ComputationError("no luck", advice="none")
+        return real(model, groups, *rest)
+
+    monkeypatch.setattr(many, "locate", locate)
+
+
+def test_the_grid(data):
+    """Dimensions are angle, Stokes number and what varies; every cell is the collision of its coordinates."""
+    assert dict(data.sizes) == {"angle": 3, "stokes": 4, "liquid.viscosity": 2}
+    for i, j, k in np.ndindex(3, 4, 2):
+        cell = data.isel({"angle": i, "stokes": j, "liquid.viscosity": k})
+        one = collide_many(
+            "granulation",
+            stokes=STOKES[j],
+            angle=ANGLE[i],
+            vary={"liquid.viscosity": [1.0, 2.0][k]},
+            of=tuple(many.QUANTITIES),
+        )
+        for name in ("outcome", "certified", "reason", *many.QUANTITIES):
+            np.testing.assert_array_equal(cell[name].values, one[name].values[0])
+    sticks = data.outcome == 0
+    assert bool((data.restitution.where(sticks, 0.0) == 0).all())
+    assert np.isnan(data.contact_time.values[sticks.values]).all()
+
+
+def test_the_grid_by_the_kernel(data):
+    """The kernel's answers lie in the cells of their coordinates, in whatever order it was asked for them."""
+    fast = regime_map("granulation", stokes=STOKES, angle=ANGLE, vary={"liquid.viscosity": [1.0, 2.0]}, engine="taylor")
+    np.testing.assert_array_equal(fast.outcome, data.outcome)
+    np.testing.assert_allclose(fast.restitution, data.restitution, rtol=1e-7)
+    assert len(np.unique(data.outcome)) > 1
+
+
+def test_coordinates(data):
+    """Axes carry units; speed goes with the Stokes number, and Ce = m omega0^2/sigma is there with a bridge only."""
+    assert data.angle.attrs["units"] == "rad"
+    assert data.stokes.attrs["units"] == "1"
+    assert data["liquid.viscosity"].attrs["units"] == "Pa s"
+    assert data.speed.attrs["units"] == "m/s"
+    scene = Scene.load("granulation").with_entries({"liquid.viscosity": 1.0})
+    speed = scene.speed_of(STOKES[3])
+    assert float(data.speed[3, 0]) == pytest.approx(speed, rel=1e-14)
+    a, m = scene.particles.reduced_radius, scene.particles.reduced_mass
+    expected = m * (speed * np.tan(ANGLE[1]) / (4 * a)) ** 2 / scene.bridge.surface_tension
+    assert float(data.centrifugal[1, 3, 0]) == pytest.approx(expected, rel=1e-12)
+    plain = regime_map("granulation-dry-bridge", speed=[0.5, 1.0], angle=1.0)
+    assert dict(plain.sizes) == {"angle": 1, "speed": 2}
+    assert "centrifugal" not in plain.coords
+    assert plain.stokes.dims == ("speed",)
+
+
+def test_file_round_trip(data, tmp_path):
+    """A NetCDF4 file reads back as it was, with CF flags, and with the whole scene to compute it again."""
+    path = tmp_path / "a map.nc"
+    write(data, path)
+    assert [each.name for each in tmp_path.iterdir()] == ["a map.nc"]
+    with xr.open_dataset(path) as back:
+        xr.testing.assert_identical(back.load(), data)
+        assert back.outcome.dtype == np.int8
+        assert back.outcome.attrs["flag_values"].tolist() == [-1, 0, 1, 2]
+        assert back.outcome.attrs["flag_meanings"].split() == ["failed", "stick", "stick_rotate_separate", "bounce"]
+        assert Scene.from_toml(back.attrs["scene"]) == Scene.load("granulation")
+        assert (back.attrs["rtol"], back.attrs["engine"]) == (1e-9, "rosenbrock")
+        assert back.attrs["version"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [
+        ({"stokes": [0.1, 0.1]}, "impact.stokes"),
+        ({"stokes": np.linspace(0.1, 0.2, 4000), "angle": np.linspace(0, 1, 5000)}, "impact.angle"),
+        ({"vary": {"model.arm": "surface"}}, "vary"),
+        ({"of": ["e_n"]}, "of"),
+    ],
+)
+def test_bad_input_in_python(arguments, field):
+    """An axis with a value twice, too many collisions, a choice that varies, an unknown quantity are refused."""
+    with pytest.raises(InputError) as caught:
+        regime_map("granulation", **arguments)
+    assert caught.value.field == field
+
+
+BAD = [
+    ("--angle 0:80:3", "--stokes: missing"),
+    ("--stokes 0.1:0.2:3", "--angle: missing"),
+    ("--stokes 0.1 --angle 0:80:3", '--stokes: "0.1" is not a range'),
+    ("--stokes 2:1:3 --angle 0:80:3", '--stokes: "2:1:3" is not a range'),
+    ("--stokes 0.1:0.2:3 --angle 0:95:3", '--angle: "95 deg" is out of range'),
+    ("--stokes 0.1:0.2:3 --angle 0deg:80deg:3", '--angle: "0deg" is not a number'),
+    ("--speed 0.1:0.2:3 --angle 0:80:3", '--speed: "0.1" has no unit'),
+    ("--stokes 0.1:0.2:3 --speed 1m/s:2m/s:3", "--speed: "),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity", "--vary: "),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity=1:2:3", '--vary liquid.viscosity: "1" has no unit'),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosty=1:2:3", "liquid.viscosty: "),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary impact.angle=1:2:3", '--vary: "impact.angle"'),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary pendulum.length=1m:2m:3", '--vary: "pendulum.length"'),
+    (
+        "--set bridge.volume=0.2 --stokes 0.1:0.2:3 --angle 0:80:3 --vary bridge.volume=0.1:0.2:2",
+        '--vary: "bridge.volume"',
+    ),
+    ("--set impact.stokes=1 --stokes 0.1:0.2:3 --angle 0:80:3", '--set: "impact.stokes"'),
+    ("--stokes 1:2:9000000 --angle 0:80:9000000", '--angle: "0:80:9000000" makes 9000000 x 9000000 collisions'),
+    (
+        "--stokes 1:2:90 --angle 0:80:90 --vary bridge.volume=0.1:0.2:9000",
+        '--vary bridge.volume: "bridge.volume=0.1:0.2:9000" makes 90 x 90 x 9000',
+    ),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 -o map.txt", '-o: "map.txt" has an unsupported suffix'),
+]
+
+
+@pytest.mark.parametrize(("line", "says"), BAD, ids=[bad[0] for bad in BAD])
+def test_bad_input_on_the_command_line(line, says):
+    """Bad input exits 2 with one line, before anything is computed."""
+    result = run("map", "granulation", *line.split())
+    assert (result.exit_code, result.stdout, len(result.stderr.splitlines())) == (2, "", 1)
+    assert result.stderr.startswith(says)
+    assert "; accepted: " in result.stderr
+
+
+def test_failures_are_marked_counted_and_told(unlucky, tmp_path):
+    """A point that fails is -1 with its reason, the rest go on, one line says how many and why, and the exit is 0."""
+    file = tmp_path / "map.nc"
+    result = run("map", "granulation", "--stokes", "0.1:0.3:2", "--angle", "10:80:3", "-o", file)
+    assert (result.exit_code, result.stdout) == (0, "")
+    assert result.stderr == "3 of 6 collisions failed: 3 x no luck; none\n"
+    with xr.open_dataset(file) as back:
+        assert back.outcome.values.tolist() == [[-1, 2]] * 3
+        assert set(back.reason.values[:, 0]) == {"no luck; none"}
+        assert set(back.reason.values[:, 1]) == {""}
+
+
+def test_reasons_that_differ_in_numbers_only_are_told_once(data):
+    """Reasons are grouped by their words, the most frequent first."""
+    marked = data.isel({"liquid.viscosity": 0}).copy(deep=True)
+    marked.outcome[0, :3] = -1
+    marked["reason"] = marked.reason.astype("U40")
+    marked.reason[0, :3] = ["slow at t = 1e-05 s", "lost at x = 3", "slow at t = 2.5 s"]
+    assert failures(marked) == "3 of 12 collisions failed: 2 x slow at t = 1e-05 s | 1 x lost at x = 3"
+
+
+def test_character_map(unlucky):
+    """Without -o and --plot a legible map of S, R, B and ! is printed, not wider than 88 columns."""
+    result = run("map", "granulation", "--stokes", "0.1:0.3:2", "--angle", "10:80:3")
+    assert result.exit_code == 0
+    assert "     0.3  BBB" in result.stdout.splitlines()
+    assert "     0.1  !!!" in result.stdout.splitlines()
+    assert result.stdout.splitlines()[-1].split() == ["deg", "10"]
+
+
+def test_large_character_maps_are_subsampled():
+    """What does not fit is left out, evenly and with a note that says so."""
+    sizes = {"angle": 300, "stokes": 100, "liquid.viscosity": 9}
+    axes = {name: np.linspace(0.1, 1.2, size) for name, size in sizes.items()}
+    data = xr.Dataset({"outcome": (tuple(sizes), np.zeros(tuple(sizes.values()), dtype=np.int8))}, axes)
+    data.attrs["scene"] = Scene.load("granulation").to_toml()
+    lines = table(data).splitlines()
+    assert max(map(len, lines)) <= 88
+    assert len(lines) < 160
+    assert lines[-2] == "shown: 32 of 100 rows, 78 of 300 columns, 4 of 9 maps"
+
+
+def test_progress():
+    """Progress is told from what is done already to the whole; in a pipe nothing of it is shown."""
+    seen = []
+    regime_map("granulation", stokes=STOKES, angle=ANGLE, progress=lambda *counts: seen.append(counts))
+    assert (seen[0], seen[-1]) == ((0, 12), (12, 12))
+    assert run("map", "granulation", *SMALL).stderr == ""
+
+
+def test_progress_bar_on_a_terminal(tmp_path):
+    """On a terminal a bar is drawn on standard error, and standard output stays clean."""
+    pty = pytest.importorskip("pty")
+    ours, theirs = pty.openpty()
+    start = [sys.executable, "-m", "wetdoublet.solvers", "map", "granulation", *SMALL, "-o", str(tmp_path / "a.nc")]
+    with subprocess.Popen(start, stdout=subprocess.PIPE, stderr=theirs) as process:
+        os.close(theirs)
+        shown = b""
+        try:
+            while part := os.read(ours, 4096):
+                shown += part
+        except OSError:  # how Linux says that the other end is closed
+            pass
+        assert process.stdout.read() == b""
+    os.close(ours)
+    assert process.returncode == 0
+    assert b"/20" in shown
+    assert b"collisions" in shown
+
+
+def test_pictures(data, unlucky, tmp_path):
+    """Every kind of map is drawn with nothing clipped: two panels, small multiples, one row, one cell, failures."""
+    scene = Scene.load("pendulum").with_entries({"name": "cost $5 " * 20, "model.glass": "film-corrected"})
+    angles = np.radians([10.0, 40.0, 70.0])
+    maps = {
+        "varied": data,
+        "plain": data.isel({"liquid.viscosity": 1}),
+        "pendulum": regime_map(scene, speed=[0.2, 0.5, 1.0], angle=angles),
+        "failed": regime_map("granulation", stokes=[0.1], angle=angles),
+        "cell": regime_map("granulation", stokes=0.2, angle=0.0),
+    }
+    for name, each in maps.items():
+        figure = draw_map(each)
+        figure.draw_without_rendering()
+        box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
+        assert min(box.x0, box.y0) >= 0, name
+        assert box.x1 <= width and box.y1 <= height, name
+        words = " ".join(text.get_text() for axes in figure.axes for text in (axes.xaxis.label, axes.yaxis.label))
+        assert "(deg)" in words, name
+        assert (
+            "failed" in str([t.get_text() for a in figure.axes if a.get_legend() for t in a.get_legend().texts])
+        ) == (name == "failed")
+    picture = tmp_path / "map.png"
+    result = run("map", "granulation", *SMALL, "--plot", picture)
+    assert (result.exit_code, result.output) == (0, "")
+    assert picture.read_bytes().startswith(b"\x89PNG")

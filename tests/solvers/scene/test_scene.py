@@ -1,0 +1,186 @@
+"""Scenes: presets, entries, both ways of the impact, and the way to a file and back."""
+
+import copy
+import math
+import pickle
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from wetdoublet.solvers import collide
+from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
+
+from ...helpers.data import COLLISIONS as REFERENCE
+from ...helpers.entries import BASE, BRIDGE, refused, tables
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_preset_round_trips(name):
+    """A preset written as TOML is the same scene again, comments on assumed values and spelling of units included."""
+    scene = Scene.load(name)
+    again = Scene.from_toml(scene.to_toml())
+    assert again == scene and again.given == scene.given and again.assumed == scene.assumed
+    assert Scene.from_dict(scene.to_dict(), from_file=True) == scene
+    assert scene.name == name
+    assert Scene.load(scene) is scene
+
+
+def test_presets_are_the_papers():
+    """Presets hold the printed values, an impact, and say what is assumed."""
+    granulation, pendulum, dry = (Scene.load(name) for name in PRESETS)
+    assert (granulation.stokes, granulation.angle) == (0.03, pytest.approx(math.radians(60)))
+    assert (pendulum.stokes, pendulum.angle) == (1.3, pytest.approx(math.radians(45)))
+    assert pendulum.bridge is None and pendulum.pendulum is not None and pendulum.pendulum.length == 0.5
+    assert [len(scene.assumed) for scene in (granulation, pendulum, dry)] == [2, 3, 2]
+    assert "pendulum.length = 0.5 m (assumed" in pendulum.assumed[2]
+    without = {name: value for name, value in granulation.entries.items() if not name.startswith("bridge.")}
+    assert dry.entries == without
+
+
+@pytest.mark.parametrize("case", REFERENCE, ids=lambda case: case["name"])
+def test_reference_speeds_and_lengths(case):
+    """Speed, rupture gap and elastic length are those of the independent reference."""
+    scene = Scene.from_dict(case["scene"], from_file=True).with_impact(**case["impact"])
+    assert scene.speed == pytest.approx(case["speed"], rel=1e-14)
+    assert scene.rupture_gap == pytest.approx(case["rupture_gap"], rel=1e-14)
+    assert scene.elastic_length(scene.speed) == pytest.approx(case["elastic_length"], rel=1e-14)
+    assert scene.with_impact(speed=scene.speed).stokes == pytest.approx(case["impact"]["stokes"], rel=1e-14)
+
+
+def test_a_preset_does_not_wait_for_pint():
+    """Reading a preset imports what its emitted formulas need (casadi), not pint, sympy, click or xarray."""
+    code = (
+        "import sys; from wetdoublet.solvers import Scene; Scene.load('granulation').with_impact(angle='75 deg');"
+        "print(sorted({'pint', 'sympy', 'click', 'xarray', 'matplotlib'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_spheres_from_radius_mass_or_density():
+    """A = R/2, m = M/2, M = 4/3 pi R^3 rho; the entries keep what was given."""
+    rest = {name: value for name, value in BASE.items() if "reduced" not in name}
+    sphere = Scene.from_dict(tables({"particles.radius": "100 um", "particles.density": "2500 kg/m^3", **rest}))
+    assert sphere.particles.reduced_radius == 50e-6
+    assert sphere.particles.reduced_mass == pytest.approx(2 / 3 * math.pi * 1e-12 * 2500)
+    assert list(sphere.entries)[:2] == ["particles.radius", "particles.density"]
+    assert sphere.entries["particles.radius"] == 100e-6
+    heavy = Scene.from_dict(tables({"particles.radius": "100 um", "particles.mass": "1.04e-5 g", **rest}))
+    assert heavy.particles.reduced_mass == pytest.approx(5.2e-9)
+
+
+def test_defaults():
+    """What may be left out takes the documented value, and is no entry."""
+    scene = Scene.from_dict(tables({**BASE, **BRIDGE, "pendulum.length": "0.5 m"}))
+    assert scene.pendulum.gravity == 9.81 and scene.pendulum.law == "exact" and scene.bridge.law == "mikami"
+    assert (scene.model.arm, scene.model.tangential, scene.model.glass) == ("midgap", "immersed", "literal")
+    assert scene.elastic_length(1.0) is None and scene.speed is None
+    assert "pendulum.gravity" not in scene.entries
+    with pytest.raises(InputError, match="impact.stokes: missing; accepted: .*--stokes"):
+        scene.need_impact()
+    with pytest.raises(InputError, match="impact.angle: missing; accepted: .*--angle"):
+        scene.with_impact(stokes=1).need_impact()
+
+
+def test_python_numbers_are_si():
+    """A plain number from Python is SI; from a file it lacks its unit."""
+    assert Scene.from_dict(tables({**BASE, "liquid.viscosity": 2})).liquid.viscosity == 2.0
+    assert "has no unit" in str(refused({**BASE, "liquid.viscosity": 2}))
+    assert Scene.from_dict(tables({**BASE, "particles.dry_restitution": "0.9"})).particles.dry_restitution == 0.9
+    assert "is text" in str(refused({**BASE, "particles.dry_restitution": "0.9"}))
+
+
+def test_with_entries_and_impact_leave_the_original_alone():
+    """Changes make a new scene, validated; an assumed value that is changed is no longer assumed."""
+    scene = Scene.load("granulation")
+    changed = scene.with_entries(
+        {"liquid.viscosity": "3 Pa s", "particles.youngs_modulus": 6e10, "bridge.volume": "0.2"}
+    )
+    assert (changed.liquid.viscosity, changed.bridge.volume) == (3.0, 0.2)
+    assert len(changed.assumed) == 1 and 'viscosity = "3 Pa s"' in changed.to_toml()
+    assert 'youngs_modulus = "60000000000.0 Pa"' in changed.to_toml() and "volume = 0.2" in changed.to_toml()
+    assert scene.liquid.viscosity == 2.0
+    hit = scene.with_impact(speed="54 cm/s", angle="75 deg")
+    assert hit.entries["impact.speed"] == 0.54 and "impact.stokes" not in hit.entries
+    assert hit.stokes == pytest.approx(hit.stokes_of(0.54)) and hit.speed_of(hit.stokes) == pytest.approx(0.54)
+    assert scene.with_impact(angle=1.0).angle == 1.0 and scene.with_impact() is scene
+    with pytest.raises(InputError, match=r"impact.speed: 1.0 is given together with impact.stokes"):
+        scene.with_impact(stokes=1.0, speed=1.0)
+    with pytest.raises(InputError, match="bridge.surface_tension: missing .*bridge.contact_angle"):
+        Scene.load("pendulum").with_entries({"bridge.volume": 0.1})
+    with pytest.raises(InputError, match="particles.radius.*particles.reduced_radius"):
+        scene.with_entries({"particles.radius": "100 um"})
+
+
+def test_scenes_are_values():
+    """A scene pickles, copies and hashes, and is what it is."""
+    scene = Scene.load("pendulum")
+    assert pickle.loads(pickle.dumps(scene)) == scene == copy.deepcopy(scene)
+    assert hash(Scene.load("pendulum")) == hash(scene) != hash(Scene.load("granulation"))
+    with pytest.raises(AttributeError):
+        scene.name = "other"
+    with pytest.raises(InputError, match="liquid.viscosity"):
+        type(scene.liquid)(viscosity=-1.0, film_thickness=1e-6, glass_transition_pressure=1e6)
+
+
+positive = st.floats(1e-3, 1e3)
+lengths = positive.map(lambda v: f"{v!r} um") | positive.map(lambda v: f"{v!r} mm") | positive.map(lambda v: v * 1e-6)
+
+
+@st.composite
+def scenes(draw):
+    """Draw a valid scene, tables and spellings at will."""
+    film = draw(positive)
+    entries = {
+        "particles.reduced_radius": f"{film * draw(st.floats(1, 100))!r} um",
+        "particles.reduced_mass": draw(st.sampled_from(["3 mg", "1e-3 lb", 2.5e-6])),
+        "particles.roughness": f"{film * draw(st.floats(0, 0.9))!r} um",
+        "particles.dry_restitution": draw(st.floats(0, 1)),
+        "liquid.viscosity": draw(positive),
+        "liquid.film_thickness": f"{film!r} um",
+        "liquid.glass_transition_pressure": draw(positive.map(lambda v: f"{v!r} MPa")),
+    }
+    if draw(st.booleans()):
+        volume = {"bridge.volume": draw(st.floats(0.2, 5)), "bridge.law": draw(st.sampled_from(BRIDGE_LAWS))}
+        entries |= {"bridge.surface_tension": "20 mN/m", "bridge.contact_angle": draw(st.floats(0, 1.5)), **volume}
+    if draw(st.booleans()):
+        entries |= {"pendulum.length": "3 km", "pendulum.law": "small-angle"}
+    if draw(st.booleans()):
+        entries |= {"impact.stokes": draw(positive), "impact.angle": draw(st.floats(0, 1.57))}
+    name = draw(st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20))
+    return Scene(name, tuple(entries.items()))
+
+
+@given(scenes())
+def test_any_scene_round_trips(scene):
+    """Whatever is valid is the same scene, to the last bit, after a journey through TOML."""
+    assert Scene.from_toml(scene.to_toml()) == scene
+
+
+def test_equal_scenes_keep_the_text_they_were_given():
+    """Two scenes of the same SI numbers are equal, and each is still written in its own units."""
+    scene = Scene.load("granulation")
+    first, second = (scene.with_entries({"liquid.viscosity": text}) for text in ("2 Pa s", "2000 mPa s"))
+    assert first == second
+    assert 'viscosity = "2 Pa s"' in first.to_toml()
+    assert 'viscosity = "2000 mPa s"' in second.to_toml()
+
+
+def test_an_impact_replaced_keeps_text_and_order():
+    """An impact given as text stands in the file as it was given, stokes or speed before the angle."""
+    scene = Scene.load("granulation").with_impact(angle="20deg").with_impact(speed="1 m/s")
+    assert scene.to_toml().endswith('[impact]\nspeed = "1 m/s"\nangle = "20deg"\n')
+    assert [*scene.to_dict()] == [*Scene.load("granulation").to_dict()]
+    first = Scene.from_toml(scene.to_toml().partition("[impact]")[0]).with_impact(angle=1.0, stokes=0.1)
+    assert first.to_toml().endswith('[impact]\nstokes = 0.1\nangle = "1.0 rad"\n')
+
+
+def test_a_stokes_number_comes_back_as_it_was_given():
+    """The Stokes number of a result is the one asked for, to the bit, and not what is left of it after the speed."""
+    for stokes in (1.5, 0.005, 0.03, 1.3):
+        assert collide("pendulum", stokes=stokes, angle="10 deg", ledger=False, rtol=1e-6).stokes == stokes

@@ -1,0 +1,227 @@
+"""A user's model beside a scene: a small file through every command."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.derive.checks.user import model_checks
+from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
+from wetdoublet.solvers.verify.conserved import conserved
+from wetdoublet.solvers.verify.identities import of_the_model
+from wetdoublet.solvers.verify.sample import Extent, flights
+
+from ...helpers.command import run
+from ...helpers.yielding import LAW
+
+pytestmark = pytest.mark.slow
+
+
+def with_model(mine: Path, **entries: str) -> Scene:
+    """Granulation with the model."""
+    scene = Scene.load("granulation", model=mine)
+    return scene.with_entries({name.replace("__", "."): value for name, value in entries.items()})
+
+
+def test_a_law_is_less_than_thirty_lines():
+    """What the other tests run through every command is a small file."""
+    assert len(LAW.splitlines()) < 30
+
+
+def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
+    """collide, map, boundary, sensitivity and scenes take the model from the command line."""
+    one = run("collide", "granulation", "--model", str(mine), "--set", "custom.yield_stress=2 kPa", "--json")
+    assert json.loads(one.output)["outcome"] == "stick"  # the library's flight escapes here
+    file = tmp_path / "m.nc"
+    grid = ("--stokes", "0.03:0.06:2", "--angle", "60:60:1", "--vary", "custom.yield_stress=0 Pa:2 kPa:2")
+    done = run("map", "granulation", "--model", str(mine), *grid, "-o", str(file), "--plot", str(tmp_path / "m.png"))
+    assert done.exception is None, done.exception
+    assert file.is_file()
+    line = run("boundary", "granulation", "--model", str(mine), "--angle", "45:45:1", "--stokes", "0.03:0.08", "--json")
+    assert json.loads(line.output)["changes"][0][0]["centrifugal"] == pytest.approx(
+        4.121, abs=2e-3
+    )  # an independent prototype's
+    own = ("--model", str(mine), "--set", "custom.yield_stress=20 Pa", "--stokes", "0.06")
+    slope = run("sensitivity", "granulation", *own, "--wrt", "custom.yield_stress", "--json")
+    derivative = json.loads(slope.output)["gradient"]["restitution"]["custom.yield_stress"]
+    sides = [
+        collide(with_model(mine, custom__yield_stress=f"{20 + step} Pa"), stokes=0.06, rtol=1e-11, ledger=False)
+        for step in (-1, 1)
+    ]
+    # a central difference over 10 % of the stress: its error is of the third derivative, some 1e-3 here
+    assert derivative == pytest.approx((sides[1].restitution - sides[0].restitution) / 2, rel=5e-3)
+    shown = run("scenes", "granulation", "--model", str(mine))
+    assert 'yield_stress = "0 Pa"' in shown.output
+    assert 'law = "yielding"' in shown.output
+
+
+def test_verify_has_the_models_own_checks(mine: Path):
+    """`verify` proves the model's law and holds its flights to the bounds of every scene (the sample is cut short)."""
+    scene = with_model(mine, custom__yield_stress="50 Pa")
+    assert scene.package is not None
+    assert {(finding.group, finding.ok) for finding in of_the_model(scene.package)} == {("Model: mine", True)}
+    flown = flights(scene, (0.0, 1.0), Extent(factors=(1.0,)))
+    found = {finding.name: finding for finding in conserved("numeric", flown)}
+    assert found["energy ledger"].ok
+    assert all(finding.ok is not False for finding in found.values())
+
+
+@pytest.mark.parametrize("law", ["yielding", "plain"])
+def test_a_law_written_the_same_is_the_librarys(mine: Path, law: str):
+    """Without yield stress e_n is that of `mikami`.
+
+    The engine's steps do not depend on the last digit of the force, so 1e-14 is some rounding errors of e_n.
+    """
+    own = with_model(mine, bridge__law=law)
+    for stokes, angle in ((0.03, "60 deg"), (0.2, "20 deg"), (0.02, "75 deg")):
+        one = collide(own, stokes=stokes, angle=angle, engine="rosenbrock", ledger=False)
+        other = collide("granulation", stokes=stokes, angle=angle, engine="rosenbrock", ledger=False)
+        assert one.restitution == pytest.approx(other.restitution, rel=1e-14 if law == "plain" else 1e-12)
+        assert one.outcome == other.outcome
+
+
+def test_the_librarys_laws_stay_at_hand(mine: Path):
+    """A scene with the model may name a law of the library, which takes no notice of what the model adds."""
+    own = with_model(mine, bridge__law="lambert", custom__yield_stress="5 kPa")
+    library = Scene.load("granulation").with_entries({"bridge.law": "lambert"})
+    pair = [collide(scene, engine="rosenbrock", ledger=False).restitution for scene in (own, library)]
+    assert pair[0] == pytest.approx(pair[1], rel=1e-12)
+
+
+def test_more_attraction_keeps_together(mine: Path):
+    """A yield stress that pulls adds to the bridge: e_n falls with it, until the doublet sticks."""
+    found = [
+        collide(with_model(mine, custom__yield_stress=f"{stress} Pa"), ledger=False).restitution
+        for stress in (0, 50, 100, 2000)
+    ]
+    assert found == sorted(found, reverse=True)
+    assert found[0] > found[1] > 0
+    assert found[-1] == 0
+
+
+def test_workers_have_the_model(mine: Path):
+    """Collisions spread over cores are those of one process, and see the declared quantity vary."""
+    stress = np.linspace(0, 2000, 104)
+    many = collide_many(with_model(mine), stokes=0.03, angle=np.pi / 3, vary={"custom.yield_stress": stress})
+    few = collide_many(
+        with_model(mine), stokes=0.03, angle=np.pi / 3, vary={"custom.yield_stress": stress[[0, 2, 103]]}
+    )
+    assert set(many.reason.values) == {""}
+    assert many.attrs["model"] == (mine / "manifest.json").read_text()
+    np.testing.assert_allclose(many.restitution.values[[0, 2, 103]], few.restitution.values, rtol=1e-7)
+    assert many["custom.yield_stress"].attrs["units"] == "Pa"
+
+
+def test_a_scene_pickles_and_compares_with_its_model(mine: Path):
+    """A scene with a model survives pickling; without it, it is another one."""
+    scene = with_model(mine, custom__yield_stress="3 Pa")
+    assert pickle.loads(pickle.dumps(scene)) == scene
+    assert scene != Scene.load("granulation").with_entries({"bridge.law": "constant"})
+    assert Scene.from_toml(scene.to_toml(), package=scene.package) == scene
+
+
+def test_a_map_is_drawn_without_the_models_folder(mine: Path, tmp_path: Path):
+    """What a map keeps of the model describes its scene, and holds no code."""
+    from wetdoublet.solvers.many.regime_map import scene_of
+
+    data = regime_map(with_model(mine, custom__yield_stress="7 Pa"), stokes=[0.01], angle=[0.1], of=["restitution"])
+    scene = scene_of(data)
+    assert scene.entries["custom.yield_stress"] == 7.0
+    assert scene.package is not None
+    with pytest.raises(InputError, match="only described here"):
+        scene.package.text_of("scaling.py")
+
+
+@pytest.mark.parametrize(
+    ("entry", "value", "said"),
+    [
+        ("custom.yield_stress", "3 m", "is a length, not a pressure"),
+        ("custom.yield_stress", "3", "has no unit"),
+        ("custom.yield_stress", "-1 Pa", "yield stress >= 0 with its unit"),
+        ("custom.yield_stres", "3 Pa", "did you mean custom.yield_stress?"),
+        ("bridge.law", "yielding-more", "did you mean yielding?"),
+    ],
+)
+def test_declared_quantities_are_judged(mine: Path, entry: str, value: str, said: str):
+    """`[custom]` is read as strictly as any other table."""
+    done = run("collide", "granulation", "--model", str(mine), "--set", f"{entry}={value}")
+    assert done.exit_code == 2
+    assert said in done.output
+
+
+def test_what_has_no_default_must_be_given(tmp_path: Path):
+    """A quantity without a default is named where nothing gives it; of two laws one is chosen by name."""
+    file = tmp_path / "two.py"
+    file.write_text(
+        'from wetdoublet.derive.user import *\nk = quantity("strength")\n'
+        'law("bridge", "one", force=k*2*cos(phi))\nlaw("bridge", "two", force=2*cos(phi) + 0*k)\n'
+    )
+    assert run("generate", str(file), "--out", str(tmp_path / "two")).exit_code == 0
+    done = run("collide", "granulation", "--model", str(tmp_path / "two"))
+    assert done.exit_code == 2
+    assert "custom.strength: missing; accepted: a number (strength) > 0, such as 1" in done.output
+    scene = Scene.load("granulation", model=tmp_path / "two")
+    with pytest.raises(InputError, match=r"custom\.strength: missing"):
+        collide_many(scene, stokes=[0.03])
+    one, two = (scene.with_entries({"custom.strength": 1, "bridge.law": law}) for law in ("one", "two"))
+    library = Scene.load("granulation").with_entries({"bridge.law": "constant"})
+    found = [collide(each, stokes=0.1, engine="rosenbrock", ledger=False).restitution for each in (one, two, library)]
+    assert found[0] == pytest.approx(found[2], rel=1e-12)
+    assert found[1] == pytest.approx(found[2], rel=1e-12)
+
+
+def test_custom_needs_its_model(mine: Path, tmp_path: Path):
+    """A scene file with [custom] is an error without the model, and says what to give."""
+    file = tmp_path / "scene.toml"
+    file.write_text(with_model(mine).to_toml().replace('law = "yielding"', 'law = "mikami"'))
+    with pytest.raises(InputError, match=r"custom.yield_stress: .* no model is given; accepted: .*--model DIR"):
+        Scene.load(file)
+    assert Scene.load(file, model=mine).bridge.law == "yielding"
+
+
+def test_a_scene_without_the_slot_is_refused(mine: Path):
+    """A bridge law needs a bridge."""
+    with pytest.raises(InputError, match=r"a scene with a \[bridge\] table"):
+        Scene.load("granulation-dry-bridge", model=mine)
+
+
+def test_the_template_runs(tmp_path: Path):
+    """`generate --template` prints a model that is emitted and collides as it is."""
+    file = tmp_path / "template.py"
+    file.write_text(run("generate", "--template").output)
+    assert run("generate", str(file), "--out", str(tmp_path / "out")).exit_code == 0
+    done = run("collide", "granulation", "--model", str(tmp_path / "out"), "--json")
+    assert json.loads(done.output)["outcome"] == "stick-rotate-separate"
+
+
+def test_a_film_may_depend_on_the_speed(tmp_path: Path):
+    """A shear-thinning film is a law over the opening velocity; without thinning it is the library's."""
+    file = tmp_path / "thin.py"
+    file.write_text(
+        "from wetdoublet.derive.user import *\n"
+        'k = quantity("time_constant", unit="s", default="0 s", bounds=">= 0", over=x0/v0)\n'
+        "rate = sqrt((u/x0)**2)\n"
+        'law("film", "thinning", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2/(1 + k*rate))\n'
+    )
+    done = run("generate", str(file), "--out", str(tmp_path / "thin"))
+    assert done.exception is None, done.exception
+    scene = Scene.load("granulation", model=tmp_path / "thin")
+    same, thin = (scene, scene.with_entries({"custom.time_constant": "10 us"}))
+    pair = [collide(each, engine="rosenbrock", ledger=False).restitution for each in (same, "granulation", thin)]
+    assert pair[0] == pytest.approx(pair[1], rel=1e-9)
+    assert pair[2] > pair[1]
+
+
+def test_the_page_on_models_is_true(tmp_path: Path):
+    """The model file that docs/models.md shows is the template, and its checks hold."""
+    page = (Path(__file__).resolve().parents[3] / "docs" / "models.md").read_text(encoding="utf-8")
+    shown = page.partition("```python\n")[2].partition("```")[0]
+    assert shown == TEMPLATE
+    checks = model_checks(Path("mine.py"), shown)[1]
+    assert all(check.ok for check in checks)
+    for check in checks:
+        assert f"ok   {check.name}" in page

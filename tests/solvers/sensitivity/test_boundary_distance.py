@@ -1,0 +1,140 @@
+"""Near a boundary there is no derivative: it is refused by the boundary's name, with the distance."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import replace
+
+import pytest
+from wetdoublet.solvers import ComputationError, Scene, boundary, sensitivities
+from wetdoublet.solvers.boundaries.changes import Change
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
+from wetdoublet.solvers.sensitivity.boundary_distance import checked, limit
+
+from ...helpers.command import run
+
+pytestmark = pytest.mark.slow
+
+# preset, degrees, which change, its name
+EDGES = [
+    ("granulation", 55, 0, "saddle"),
+    ("granulation", 55, 1, "graze of the glass criterion"),
+    ("granulation", 0, 0, "graze of the glass criterion"),
+    ("pendulum", 20, 0, "rim"),
+    ("pendulum", 45, 0, "rim"),
+    ("pendulum", 45, 1, "graze of the glass criterion"),
+    ("granulation-dry-bridge", 45, 0, "graze of the glass criterion"),
+]
+_KNOWN: dict[tuple[str, int], tuple[Change, ...]] = {}
+
+
+def change(preset: str, degrees: int, k: int) -> Change:
+    """A change of outcome, traced once."""
+    if (preset, degrees) not in _KNOWN:
+        _KNOWN[preset, degrees] = boundary(preset, angle=math.radians(degrees), rtol=1e-11).changes[0]
+    return _KNOWN[preset, degrees][k]
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("edge", EDGES, ids=lambda edge: f"{edge[0]} {edge[1]} {edge[3]}")
+def test_within_the_limit_it_is_refused(edge: tuple[str, int, int, str], side: int) -> None:
+    """At half the limit on either side: the boundary's name, and the distance that `boundary` says it is."""
+    preset, degrees, k, name = edge
+    away = 0.5 * limit(1e-9)
+    stokes = change(preset, degrees, k).stokes * (1 + side * away)
+    with pytest.raises(ComputationError, match=name) as refused:
+        sensitivities(preset, wrt=["liquid.viscosity"], stokes=stokes, angle=math.radians(degrees))
+    said = re.search(r"relative distance of (\S+) in impact.stokes", str(refused.value))
+    assert said
+    # St* is located to 1e-9; the distance is printed with two digits
+    assert float(said[1]) == pytest.approx(away, rel=0.05)
+
+
+@pytest.mark.parametrize("edge", EDGES[1:5], ids=lambda edge: f"{edge[0]} {edge[1]} {edge[3]}")
+def test_beyond_the_limit_the_nearest_boundary_is_named(edge: tuple[str, int, int, str]) -> None:
+    """At three times the limit on the separating side there is a derivative, and the result says what it is near."""
+    preset, degrees, k, name = edge
+    away = 3 * limit(1e-9)
+    stokes = change(preset, degrees, k).stokes * (1 + away)
+    found = sensitivities(preset, wrt=["impact.stokes"], stokes=stokes, angle=math.radians(degrees))
+    assert found.near is not None
+    assert name in found.near.boundary
+    assert found.near.distance == pytest.approx(away, rel=0.01)
+    assert found.near.boundary in str(found)
+
+
+def test_square_root_at_the_rim() -> None:
+    """Past the rim e_n ~ sqrt(St - St*): e_n/(de_n/dSt) is twice the distance, in the limit."""
+    edge = change("pendulum", 45, 0).stokes
+    away = 3e-5
+    found = sensitivities("pendulum", wrt=["impact.stokes"], stokes=edge * (1 + away), angle=math.radians(45))
+    e_n, slope = found.value["restitution"], found.gradient["restitution"]["impact.stokes"]
+    assert e_n is not None
+    # the strings make e_n^2 bend by some thousand times the distance: 2.7 % measured
+    assert e_n / float(slope or 0) / edge == pytest.approx(2 * away, rel=0.04)
+
+
+def test_logarithm_at_the_saddle() -> None:
+    """Past the saddle t_f ~ -ln(St - St*)/lambda: dt_f/dSt times the distance is the same at any small distance."""
+    edge = change("granulation", 55, 0).stokes
+    products = []
+    for away in (2e-5, 2e-4):
+        found = sensitivities("granulation", ["contact_time"], ["impact.stokes"], stokes=edge * (1 + away),
+                              angle=math.radians(55))  # fmt: skip
+        products.append(float(found.gradient["contact_time"]["impact.stokes"] or 0) * away)
+    assert products[0] < 0
+    assert products[0] == pytest.approx(products[1], rel=0.05)  # the next term is linear in the distance
+
+
+def test_restitution_at_the_saddle() -> None:
+    """Past the saddle e_n has a derivative, what is left of terms of one over the distance: the same at any.
+
+    The landing's error is of the square of its step, times these terms: it must be settled better here than elsewhere.
+    """
+    edge = change("granulation", 55, 0).stokes
+    found = [
+        sensitivities("granulation", wrt=["impact.stokes"], stokes=edge * (1 + away), angle=math.radians(55))
+        for away in (1.1e-5, 1.1e-4)
+    ]
+    one, other = (each.elasticity["restitution"]["impact.stokes"] for each in found)
+    # linear in the distance, 8 % a per cent of it measured
+    assert one == pytest.approx(other, rel=1.5e-3)
+
+
+def test_the_command_says_it_in_one_line() -> None:
+    """Exit status 1, nothing on standard output, one line on standard error, at the boundary itself."""
+    stokes = change("granulation", 55, 0).stokes
+    arguments = ["sensitivity", "granulation", "--stokes", repr(stokes), "--angle", "55 deg", "--json"]
+    shown = run(*arguments)
+    assert shown.exit_code == 1
+    assert shown.stdout == ""
+    assert shown.stderr.count("\n") == 1
+    assert shown.stderr.startswith("no derivative: the collision lies at the separatrix")
+
+
+def test_a_looser_tolerance_keeps_further_away() -> None:
+    """The limit follows the tolerance: what is refused at 1e-7 has a derivative at 1e-10, where it is well resolved."""
+    stokes = change("granulation", 55, 1).stokes * (1 + 1e-4)
+    angle = math.radians(55)
+    with pytest.raises(ComputationError, match="graze"):
+        sensitivities("granulation", stokes=stokes, angle=angle, rtol=1e-7)
+    found = sensitivities("granulation", wrt=["impact.stokes"], stokes=stokes, angle=angle, rtol=1e-10)
+    assert json.loads(json.dumps(found.to_dict()))["nearest"]["distance"] == pytest.approx(1e-4, rel=0.5)
+
+
+def test_chatter_is_refused() -> None:
+    """A doublet that rests before it separates: its rebounds do not end, so no derivative is given.
+
+    No scene is known to do this (what holds at rest goes on holding), so a path is told that it did.
+    """
+    scene = Scene.load("granulation").with_impact(stokes=0.14, angle="40 deg")
+    n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
+    finder = EventLocator(load(select_model(scene, True)), n.groups, 1e-9)
+    path = finder.run()
+    path.steps[0] = replace(path.steps[0], kinds=("glass", "rests"))
+    with pytest.raises(ComputationError, match="chatter"):
+        checked(scene, n, finder, path, 1e-9)

@@ -1,0 +1,240 @@
+"""Second derivatives, and the traps of differentiating through CasADi's integrators, each kept shut."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import pytest
+from casadi import Function, jtimes, vertcat
+from wetdoublet.solvers import InputError, Scene, collide, sensitivities
+from wetdoublet.solvers.engines.casadi import integrators
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import SX, load, select_model
+from wetdoublet.solvers.model.phases import Flow, Region, event_table, expressions
+from wetdoublet.solvers.sensitivity import derivatives
+from wetdoublet.solvers.sensitivity import trajectory_expression as flight
+from wetdoublet.solvers.sensitivity.derivatives import evaluate
+from wetdoublet.solvers.sensitivity.problem import Problem
+
+from ...helpers.sensitive import CASES, DRY, GRANULATION, PENDULUM, differences, varied
+
+pytestmark = pytest.mark.slow
+
+GLASS = CASES[0].scene
+WRT = ("liquid.glass_transition_pressure", "bridge.volume", "liquid.film_thickness", "impact.angle")
+
+
+def logarithmic(found: Any, of: str) -> np.ndarray:
+    """p_i p_j d2y/dp_i dp_j: of order one, whatever the units."""
+    p = np.array(list(found.reference.values()))
+    hessian = np.array([list(row.values()) for row in found.hessian[of].values()], dtype=float)
+    return np.asarray(hessian * np.outer(p, p))
+
+
+def by_differences(scene: Scene, of: str, names: tuple[str, ...], step: float = 2e-3) -> np.ndarray:
+    """The same from central differences of gradients, extrapolated once: an error of fourth order in the step."""
+    at = {name: float(scene.entries[name]) for name in names}
+
+    def gradient(name: str, part: float) -> np.ndarray:
+        changed = varied(scene, name, at[name] * (1 + part))
+        row = sensitivities(changed, [of], names, method="adjoint", rtol=1e-12).gradient[of]
+        return np.array([at[one] * float(row[one] or 0.0) for one in names])
+
+    columns = []
+    for name in names:
+        coarse, fine = ((gradient(name, h) - gradient(name, -h)) / (2 * h) for h in (step, step / 2))
+        columns.append((4 * fine - coarse) / 3)
+    return np.array(columns).T
+
+
+@pytest.mark.parametrize("of", ["restitution", "contact_time"])
+def test_hessian_is_that_of_differences(of: str) -> None:
+    """Second derivatives through a glass event, film edge and rupture, in parameters of 1e-5 m and 1e7 Pa alike.
+
+    The differences are good to 1e-8 of the largest; derivatives in SI, not in parts of each parameter, failed here.
+    """
+    scene = GLASS.with_impact(speed=GLASS.speed)
+    found = logarithmic(sensitivities(scene, [of], WRT, hessian=True, rtol=1e-11), of)
+    expected = by_differences(scene, of, WRT)
+    assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
+    assert found == pytest.approx(found.T, abs=1e-12 * np.abs(found).max())
+
+
+def test_hessian_of_a_turned_tethered_flight() -> None:
+    """As above where the doublet turns by itself, with strings."""
+    scene = PENDULUM.with_impact(stokes=1.0, angle="60 deg")
+    scene, names = scene.with_impact(speed=scene.speed), ("pendulum.length", "impact.angle")
+    found = logarithmic(sensitivities(scene, wrt=names, hessian=True, rtol=1e-11), "restitution")
+    expected = by_differences(scene, "restitution", names)
+    assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
+
+
+def test_hessian_times_a_vector() -> None:
+    """One direction gives what the whole matrix gives times it, and both show; no parameter's name is refused."""
+    vector = {"bridge.volume": 0.1, "impact.angle": 0.5}
+    found = sensitivities(GLASS, ["contact_time"], WRT, hessian=True)
+    along = sensitivities(GLASS, ["contact_time"], WRT, hessian=vector)
+    whole, times = found.hessian, along.hessian_times
+    assert whole is not None
+    assert times is not None
+    for name in WRT:
+        row = whole["contact_time"][name]
+        expected = sum(float(row[one] or 0.0) * part for one, part in vector.items())
+        assert times["contact_time"][name] == pytest.approx(expected, rel=1e-9)
+        shown = [line.split()[1:] for line in str(found).splitlines() if line.startswith(f"{name} ")]
+        assert [float(cell) for cells in shown[1:] for cell in cells] == pytest.approx(list(row.values()), rel=1e-5)
+        assert f"{times['contact_time'][name]:.6g}" in str(along)
+    with pytest.raises(InputError, match="hessian"):
+        sensitivities(GLASS, wrt=WRT, hessian={"bridge.volum": 1.0})
+
+
+def test_cvodes_has_no_second_derivatives() -> None:
+    """It is refused by name instead of returning what CasADi's CVODES makes of it."""
+    with pytest.raises(InputError, match="engine.*rosenbrock.*|rosenbrock"):
+        sensitivities(GLASS, hessian=True, engine="cvodes")
+
+
+# ---- the landing step
+
+
+@lru_cache(maxsize=64)
+def first_order(flow: Flow, watch: Any, event: str) -> Function:
+    """A landing by the first-order Taylor step: y + f dt with dt = -g/g'."""
+    parts, motion, level = expressions(flow), SX.sym("motion"), SX.sym("level")
+    g = {each.name: each.function for each in event_table(flow, watch, motion, level)}[event]
+    y = parts.variables
+    dt = -g / jtimes(g, y, parts.rates)
+    inputs = [y, vertcat(flow.model.parameters, motion, level)]
+    return Function("land", inputs, [y + parts.rates * dt, dt, g])
+
+
+def test_the_first_order_landing_is_not_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With it the gradient is right and the Hessian wrong by a part of order one: why there is a second-order term."""
+    right = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
+    monkeypatch.setattr(flight, "landing", first_order)
+    for cached in (flight.flight, flight.ending, derivatives.adjoint, derivatives.forward, derivatives.curvature):
+        cached.cache_clear()
+    wrong = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
+    for cached in (flight.flight, flight.ending, derivatives.adjoint, derivatives.forward, derivatives.curvature):
+        cached.cache_clear()
+    for name in WRT:
+        expected = right.elasticity["restitution"][name]
+        assert wrong.elasticity["restitution"][name] == pytest.approx(expected, rel=1e-8, abs=1e-9)
+    one, other = (logarithmic(found, "restitution") for found in (right, wrong))
+    assert np.abs(one - other).max() > 0.1 * np.abs(one).max()
+
+
+# ---- events that are true where a phase starts
+
+
+def test_a_criterion_true_at_first_touch() -> None:
+    """Without a bridge, glass at initial contact: e_n = e_dry whatever else; so is its gradient."""
+    found = sensitivities(DRY, ["restitution", "contact_time"], stokes=50.0, angle="20 deg", method="adjoint")
+    assert found.value["restitution"] == 0.99
+    row = found.gradient["restitution"]
+    assert row["particles.dry_restitution"] == 1.0
+    assert {value for name, value in row.items() if name != "particles.dry_restitution"} == {0.0}
+    assert set(found.gradient["contact_time"].values()) == {0.0}
+
+
+def test_a_criterion_true_at_first_touch_with_a_bridge() -> None:
+    """The jump comes before any flight; what follows is differentiated as ever."""
+    scene = GRANULATION.with_impact(stokes=30.0, angle="20 deg")
+    names = ("particles.dry_restitution", "bridge.surface_tension", "impact.speed", "liquid.film_thickness")
+    found = sensitivities(scene, ["restitution"], names, rtol=1e-10)
+    one = collide(scene)
+    assert one.events[0].kind == "glass"
+    assert one.events[0].time == 0.0
+    slopes = differences(scene, ("restitution",), names)
+    largest = max(abs(float(value[0])) for value in slopes.values())
+    for name in names:
+        slope = float(found.gradient["restitution"][name] or 0.0) * found.reference[name]
+        assert slope == pytest.approx(float(slopes[name][0]), abs=1e-9 * largest)
+
+
+# ---- the integrators
+
+
+def flows(scene: Scene) -> list[Flow]:
+    """Every smooth flow of a scene."""
+    choice = select_model(scene, True)
+    return [Flow(choice, Region(film, shear, False)) for film in (0, 1) for shear in (0, 1)]
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_no_switch_acts_along_a_flight(case: Any) -> None:
+    """Right-hand sides hold one switch, the guard against x <= 0, and no flight comes near it.
+
+    A switch that acts inside a phase costs derivatives 3 to 5 digits; the film's edge is an event for that reason.
+    """
+    scene = case.scene
+    n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
+    guard = 0.5 * min(max(n.groups["elastic_gap"], n.groups["rough_gap"]), 1.0)
+    one = collide(scene, ledger=False, engine="rosenbrock")
+    assert float(one.smallest_gap or 0) / n.length >= 2 * guard * (1 - 1e-9)
+    for flow in flows(scene) if n.oblique else []:
+        model = load(flow.choice)
+        bare = model("right_hand_side", model.state, {"film": flow.region.film, "shear": flow.region.shear})
+        count = expressions(flow).rates
+        operations = Function("rates", [model.column, model.parameters], [count])
+        plain_rates = Function("bare", [model.column, model.parameters], [vertcat(*(SX(v) for v in bare.values()))])
+        p = model.group_values(n.groups)
+        y = model.start(p) * 0.7
+        assert np.array_equal(operations(y, p).full(), plain_rates(y, p).full())
+
+
+def test_options_that_derivatives_rest_on() -> None:
+    """CVODES controls the error of adjoint quadratures, absolute tolerances are 1e-3 of the relative ones, and the
+    spacing of checkpoints is CasADi's own.
+    """
+    told = tolerance(1e-9, "rosenbrock", nondimensionalise(GLASS, float(GLASS.speed or 0), 0.5).groups)
+    assert told.absolute == pytest.approx(1e-3 * told.relative)
+    assert told.options("cvodes")["quad_err_con"] is True
+    assert "steps_per_checkpoint" not in {**told.options("cvodes"), **told.options("rosenbrock")}
+
+
+@pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
+def test_integrators_that_are_differentiated_have_no_events(plugin: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Events are landed on outside (CVODES' own are silently wrong), and integrals are states, not quadratures."""
+    built: list[tuple[str, str, set[str]]] = []
+    usual = integrators.integrator
+
+    def spied(name: str, engine: str, dae: dict[str, Any], *rest: Any) -> Any:
+        built.append((name, engine, set(dae)))
+        return usual(name, engine, dae, *rest)
+
+    monkeypatch.setattr(integrators, "integrator", spied)
+    # a tolerance that nothing else asks for, so that nothing is taken from the caches
+    sensitivities(GLASS, ["rotation", "energy.capillary"], rtol=1.03e-9, engine=plugin)
+    assert {name for name, engine, _ in built if engine == plugin} >= {"flow"}
+    for name, engine, parts in built:
+        assert parts == ({"x", "p", "ode", "zero"} if name == "locate" else {"x", "p", "ode"})
+        assert engine == "rosenbrock" or "zero" not in parts
+
+
+def test_a_failure_is_no_zero() -> None:
+    """An integrator that gives up raises; zeros would look like a stick that depends on nothing."""
+    problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
+    path, _ = problem.located(("restitution",), 1e-9)
+    course = flight.course_of(path, path.model.choice)
+    whole = flight.flight(course, ("restitution",), "rosenbrock", Tolerance(1e-9, 1e-12))
+    with pytest.raises(IntegrationFailed):
+        evaluate(whole.function, path.p * np.nan, np.array([step.duration for step in path.steps]))
+    durations = np.array([step.duration for step in path.steps]) / 3
+    with pytest.raises(IntegrationFailed, match="misses"):
+        derivatives.settled(whole, path.p, durations, np.arange(3), 1e-9)
+
+
+def test_located_durations_need_not_be_exact() -> None:
+    """The landing takes the rest: durations wrong by 1e-4 give the same derivatives after the flight has settled."""
+    problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
+    path, _ = problem.located(("restitution",), 1e-9)
+    right = problem.slopes(path, ("restitution",), "adjoint", "rosenbrock", 1e-10)
+    steps = [type(step)(**{**vars(step), "duration": step.duration * (1 + 1e-4)}) for step in path.steps]
+    path.steps[:] = steps
+    found = problem.slopes(path, ("restitution",), "adjoint", "rosenbrock", 1e-10)
+    assert found.first == pytest.approx(right.first, rel=1e-8)
+    assert found.value == pytest.approx(right.value, rel=1e-9)

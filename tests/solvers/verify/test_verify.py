@@ -1,0 +1,258 @@
+"""The laws hold on the presets; the budget of e_n^2 - 1; the report and its command."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Collision, Scene, collide, collide_many
+from wetdoublet.solvers.verify import (
+    Finding,
+    Report,
+    backward,
+    closed,
+    conserved,
+    edges,
+    numeric,
+    order,
+    restitution_budget,
+    sample,
+    surface,
+)
+from wetdoublet.solvers.verify.plot import draw_budget
+
+from ...helpers.command import run
+
+pytestmark = pytest.mark.slow
+
+LAWS = [
+    "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
+    "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
+    "convergence, rosenbrock", "convergence, taylor", "taylor = rosenbrock", "stick certificate",
+    "e_n^2 - 1: identity", "e_n^2: ceiling", "e_n > 1",
+]  # fmt: skip
+
+
+# fewer impacts than a user gets, of every kind
+SMALL = sample.Extent(
+    tolerances=tuple(10.0**-k for k in (5, 6, 7, 9)), audited=30, grid_angles=(30, 60, 75), grid_points=8
+)
+
+
+@pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
+def test_every_law_holds_on_the_presets(name: str) -> None:
+    """Every law has a finding on every preset that has its subject, and none fails."""
+    found = {finding.name: finding for finding in numeric(Scene.load(name), extent=SMALL)}
+    strings = name == "pendulum"
+    expected = LAWS + ["swinging"] * strings
+    assert sorted(found) == sorted(expected)
+    assert [law for law, finding in found.items() if finding.ok is False] == []
+    held = [law for law, finding in found.items() if finding.ok is not None]
+    assert len(held) >= len(expected) - 3 - strings
+
+
+def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
+    """Surface arm: the drift of L is reported, not held; it equals the integral of -x F_t to integration error."""
+    scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
+    flown = sample.flights(scene, (0.0, 0.5, 1.3))
+    findings = [*conserved.conserved("g", flown), *surface.surface_arm("g", flown)]
+    found = {finding.name: finding for finding in findings}
+    assert found["angular momentum"].ok is None
+    drift = float(found["angular momentum"].figure.split()[1].rstrip(":"))
+    assert 1e-3 < drift < 2e-2  # x/4a is 0.2 to 1 % here
+    assert found["dL = -int x F_t dt"].ok is True
+    assert not [law for law, finding in found.items() if finding.ok is False]
+
+
+def test_the_budget_adds_up() -> None:
+    """Granulation, 75 deg, St 0.02: e_n about 1.4, and e_n^2 - 1 is what is released less all losses."""
+    budget = restitution_budget("granulation", stokes=[0.002, 0.02], angle=[math.radians(75)])
+    assert budget["outcome"].values.tolist() == [[0, 1]]
+    assert math.isnan(budget["excess"][0, 0])
+    at = budget.isel(angle=0, stokes=1)
+    assert float(at["restitution"]) == pytest.approx(1.4, abs=0.1)  # an independent prototype's, two digits
+    losses = ("normal_lubrication", "tangential_lubrication", "capillary", "dry_contact", "strings", "residual")
+    lost = sum(float(at[name]) for name in losses)
+    # rounding of sums of terms of about 7
+    assert float(at["rotation_released"]) - lost == pytest.approx(float(at["restitution"]) ** 2 - 1, abs=1e-12)
+    assert 1 < float(at["restitution"]) ** 2 < float(at["ceiling"])
+
+
+def test_intervals_end_where_the_restitution_is_one() -> None:
+    """e_n passes 1, or jumps over it where the outcome changes, within 1e-4 of an end, by another engine."""
+    scene, angles = Scene.load("granulation"), np.radians([10.0, 65.0, 75.0]).tolist()
+    nothing, jumps, passes = edges.above_one(scene, angles, np.array([0.01, 0.03, 0.1, 0.3]), 1e-10)
+    assert nothing.spans == ()
+    for one in (jumps, passes):
+        ((low, high),) = one.spans
+        assert high == 0.3
+        beside = collide_many(scene, stokes=[low * (1 - 1e-4), low * (1 + 1e-4)], angle=one.angle, engine="rosenbrock")
+        below, above = beside["restitution"].values
+        assert below < 1 < above <= one.most
+        assert (above - below > 0.1) == (one is jumps)
+
+
+def test_the_picture_shows_the_terms(tmp_path) -> None:
+    """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number."""
+    angles = np.radians([45, 60, 75]).tolist()
+    budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
+    figure = draw_budget(budget, tmp_path / "budget.png")
+    assert (tmp_path / "budget.png").stat().st_size > 10_000
+    lines = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == 4]
+    drawn = [line.get_ydata() for line in lines]
+    for row in (1, 2):
+        assert any(np.array_equal(line, budget["excess"].values[row], equal_nan=True) for line in drawn)
+
+
+def test_amplification_of_a_relaxing_spin() -> None:
+    """Gap held: the slip falls as exp(-k t), so backward the variational matrix grows by about exp(k t)."""
+    from wetdoublet.solvers.model.dimensionless import nondimensionalise
+    from wetdoublet.solvers.model.model import load, select_model
+    from wetdoublet.solvers.model.phases import Flow, Region
+
+    scene = Scene.load("granulation-dry-bridge")
+    n = nondimensionalise(scene, scene.speed_of(0.03), math.radians(60))
+    flow = Flow(select_model(scene, oblique=True, full=True), Region(1, 1, True))
+    p = load(flow.choice).group_values(n.groups)
+    start = np.array([0.5, 0.0, (4 + n.groups["aspect"] * 0.5) ** 2, 0.0])
+    a, m, mu, x = 50e-6, 5.2e-9, 2.0, 4e-6
+    r = 4 * a + x
+    decay = 8 * math.pi * mu * a**2 * math.log(2 * a / x) / m * (1 / r + 5 * r / (32 * a**2)) * n.time
+    for exponent in (2.0, 6.0):
+        found = backward._amplification(flow, start, p, exponent / decay)
+        # the norm is at least the spectral radius, and at most a few times it for so mild a non-normality
+        assert math.exp(exponent) * 0.5 < found < 4 * math.exp(exponent)
+    assert all(backward._amplification(flow, start, p, t) > backward.MOST for t in (12 / decay, 1e3 / decay))
+
+
+def test_the_slope_of_known_errors() -> None:
+    """Errors in proportion to rtol have slope 1; errors that stay have slope 0; what rises is seen."""
+    tolerances = sample.WHOLE.tolerances
+    falling = [3 * rtol for rtol in tolerances]
+    assert order.fit(tolerances, falling) == (pytest.approx(1.0, abs=1e-12), pytest.approx(0.1))
+    assert order.fit(tolerances, [1e-6] * len(falling))[0] == pytest.approx(0.0, abs=1e-12)
+    assert order.fit(tolerances, [*falling[:3], 100 * falling[2], *falling[4:]])[1] == pytest.approx(100.0)
+    assert math.isnan(order.fit(tolerances, [math.inf] * len(falling))[0])
+
+
+def report() -> Report:
+    """Two groups, one failure, a note, a long text, a bar in a statement."""
+    return Report(
+        (
+            Finding("Symbolic", "inertia", "I(x) = |rigid|", "2 identities", "", True),
+            Finding("Numeric: s", "energy ledger", "closes", "3.0e-06", "1.0e-08", False, "St 1, 30 deg, cvodes"),
+            Finding("Numeric: s", "e_n > 1", "where", "word " * 40, "", None, about=("  a table",)),
+        )
+    )
+
+
+def test_the_report_on_a_terminal() -> None:
+    """Failures first with what they say, at most 100 columns, a summary that names them at the end."""
+    text = str(report())
+    lines = text.splitlines()
+    assert lines[0] == "Failed"
+    assert lines[2].startswith("FAIL") and "3.0e-06 <= 1.0e-08" in lines[2] and "at St 1, 30 deg, cvodes" in lines[2]
+    assert max(map(len, lines)) <= 100
+    assert lines[-1] == "1 of 2 checks FAIL, 1 note: energy ledger (Numeric: s)"
+    good = Report(report().findings[:1])
+    assert "Failed" not in str(good) and str(good).splitlines()[-1] == "1 checks hold"
+
+
+def test_the_report_as_markdown() -> None:
+    """A table a group with as many cells in each row, bars escaped, tables of a finding as text."""
+    text = report().to_markdown()
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert {row.replace("\\|", "").count("|") for row in rows} == {7}
+    assert "```text\n  a table\n```" in text
+    assert text.index("## Failed") < text.index("## Symbolic")
+
+
+def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
+    """Exit 1; one line on standard error: which law, by how much, where."""
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: report())
+    result = run("verify", "granulation")
+    assert result.exit_code == 1
+    line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
+    assert result.stderr == f"verify: {line}\n"
+
+
+def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
+    """Exit 130; the findings made so far are on standard output, what they leave open on standard error."""
+
+    def stopped(scene, progress):
+        for finding in report().findings:
+            progress(finding)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", stopped)
+    result = run("verify", "granulation")
+    assert result.exit_code == 130
+    assert result.stdout.rstrip("\n") == str(report())
+    last = report().findings[-1].name
+    assert result.stderr == f"interrupted after 3 checks, the last of them {last}; what follows is not checked\n"
+
+
+def test_the_command_draws(monkeypatch, tmp_path) -> None:
+    """`--plot` draws the budget of the report; the report goes to standard output all the same."""
+    budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
+    good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: good)
+    result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
+    assert result.exit_code == 0
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
+def test_closed_forms_stay_where_flights_go(engine: str) -> None:
+    """So fast an impact that elasticity stops it at a third of the film: no closed form is asked for beneath that."""
+    scene = Scene.load("granulation").with_impact(stokes=20.0, angle=0.0)
+    assert (scene.elastic_length(scene.speed_of(20.0)) or 0) > 0.2 * scene.liquid.film_thickness
+    for check in (closed.film_alone, closed.straight_line, closed.spin_relaxes):
+        figure, _ = check(scene, engine)
+        assert 0 <= figure < 1e-8  # 100 rtol
+
+
+def off_by(error: Callable[[float], float]) -> sample.Collide:
+    """`collide` whose e_n is that of rtol 1e-13 with an error that depends on the tolerance it is asked for."""
+
+    def run(scene: Scene, rtol: float, **asked: Any) -> Collision:
+        one = collide(scene, rtol=1e-13, **asked)
+        return replace(one, restitution=one.restitution * (1 + error(rtol) * (rtol > 1e-13)))
+
+    return run
+
+
+def test_a_flight_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
+    """Errors at rounding for every rtol have no slope; the check holds and says why."""
+    one = collide("granulation", stokes=0.12, angle=1.0)
+    flown = sample.Sample(one.scene, [{"rosenbrock": one}])
+    (found,) = order.convergence("g", flown, collide=off_by(lambda rtol: 1e-15))
+    assert (found.ok, found.figure) == (True, "all errors at rounding")
+
+
+@pytest.mark.parametrize(("part", "ok"), [(0.01, True), (0.2, False)])
+def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> None:
+    """Errors that fall as rtol^0.5 have too small a slope; that fails unless all are below a twentieth of rtol."""
+    one = collide("granulation", stokes=0.12, angle=1.0)
+    flown = sample.Sample(one.scene, [{"rosenbrock": one}])
+    last = sample.WHOLE.tolerances[-1]
+    # the last one alone would be rounding: 0.01 rtol is 1e-13
+    (found,) = order.convergence("g", flown, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
+    assert (found.ok, "every error below 0.05 rtol" in found.figure) == (ok, ok)
+    assert "slope 0.5" in found.figure
+
+
+def test_what_finds_nothing_to_look_at_says_so() -> None:
+    """A film so thin that glass is met at initial contact: every law without a flight is a note with that reason."""
+    scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
+    flown = sample.flights(scene, (0.0, 0.5))
+    findings = [*conserved.conserved("g", flown), *backward.backward("g", flown), *order.convergence("g", flown)]
+    found = {finding.name: finding for finding in findings}
+    for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
+        assert (found[law].ok, found[law].figure) == (None, "no flight lasts: all reverse at initial contact")
+    assert found["angular momentum"].ok is None and "torque" in found["angular momentum"].figure

@@ -1,0 +1,143 @@
+"""`bench`: cost and error of the engines on a scene's collisions, and the setting recommended. No time is asserted."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.verify.work_precision import ANGLES, STOKES, Row, WorkPrecision, work_precision
+from wetdoublet.solvers.verify.work_precision_report import draw, text, to_dict
+
+from ...helpers.command import run
+
+RTOLS = (1e-5, 1e-8)
+PENDULUM = Scene.load("pendulum")
+
+
+@pytest.fixture(scope="module")
+def measured() -> WorkPrecision:
+    """The pendulum's impacts at two tolerances."""
+    return work_precision(PENDULUM, RTOLS, single=4, batch=20)
+
+
+def test_errors_are_those_of_collisions_asked_for_one_by_one(measured: WorkPrecision) -> None:
+    """Largest differences in e_n and contact time of Rosenbrock to CVODES at 1e-12, a reference that bench has not."""
+    assert measured.separate > 1
+    assert measured.left_out == 0
+    for rtol in RTOLS:
+        errors, times = [], []
+        for impact in measured.impacts:
+            asked = {"stokes": impact.stokes, "angle": impact.angle, "ledger": False}
+            one = collide(PENDULUM, **asked, rtol=rtol, engine="rosenbrock")
+            truth = collide(PENDULUM, **asked, rtol=1e-12, engine="cvodes")
+            if truth.contact_time and one.contact_time:
+                errors.append(abs(one.restitution - truth.restitution))
+                times.append(abs(one.contact_time / truth.contact_time - 1))
+        (row,) = (row for row in measured.rows if (row.engine, row.rtol) == ("rosenbrock", rtol))
+        assert row.error == pytest.approx(max(errors), rel=0.1)
+        assert row.time_error == pytest.approx(max(times), rel=0.1)
+
+
+def test_every_engine_is_measured_at_every_tolerance(measured: WorkPrecision) -> None:
+    """All outcomes right; errors fall with the tolerance, and stay above the references' own."""
+    assert [(row.engine, row.rtol) for row in measured.rows] == [(e, rtol) for e in measured.engines for rtol in RTOLS]
+    assert {"cvodes", "rosenbrock"} <= set(measured.engines)
+    for loose, tight in zip(measured.rows[::2], measured.rows[1::2], strict=True):
+        assert loose.wrong == loose.failed == tight.wrong == tight.failed == 0
+        assert loose.error is not None
+        assert tight.error is not None
+        assert loose.error > tight.error > measured.uncertainty
+        assert tight.single > 0
+
+
+def test_text_and_json_say_the_same(measured: WorkPrecision, tmp_path: Path) -> None:
+    """A line of the table a row, the recommendation of both, and a picture."""
+    said, record = text(measured, 1e-6), json.loads(json.dumps(to_dict(measured, 1e-6), allow_nan=False))
+    assert "St 0.65 to 2.6, angle 40 to 50 deg (about the scene's impact)" in said
+    assert sum(line.startswith(("| cvodes", "| rosen", "| taylor")) for line in said.splitlines()) == len(
+        record["rows"]
+    )
+    for each in record["recommended"]:
+        assert f"* {each['use']}: {each['engine']}, rtol {each['rtol']:.0e}" in said
+        assert each["reason"] in said
+    draw(measured, 1e-6, tmp_path / "bench.png")
+    assert (tmp_path / "bench.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def _row(engine: str, rtol: float, error: float | None, cost: float, **more: int) -> Row:
+    counts = {"wrong": 0, "failed": 0, "handed_over": 0} | more
+    return Row(engine, rtol, error, error, cost, cost / 10 if rtol > 1e-6 else None, **counts)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "one", "batch"),
+    [
+        (1e-3, ("cvodes", 1e-4), ("cvodes", 1e-4)),  # the cheapest engine
+        (1e-5, ("rosenbrock", 1e-6), (None, None)),  # cvodes' luck at 1e-5 does not last, and no batch was measured
+        (1e-9, (None, None), (None, None)),  # nothing reaches it
+        (1e-14, (None, None), (None, None)),  # the references do not tell
+    ],
+)
+def test_the_cheapest_setting_that_keeps_the_error_is_recommended(
+    measured: WorkPrecision, wanted: float, one: tuple[str, float], batch: tuple[str, float]
+) -> None:
+    """Of each engine the loosest tolerance from which on it keeps the error; wrong outcomes disqualify."""
+    rows = (
+        _row("cvodes", 1e-4, 1e-4, 1.0), _row("cvodes", 1e-5, 1e-6, 1.5), _row("cvodes", 1e-6, 2e-5, 2.0),
+        _row("rosenbrock", 1e-4, 1e-6, 3.0, wrong=1), _row("rosenbrock", 1e-6, 1e-8, 4.0),
+    )  # fmt: skip
+    found = replace(measured, rows=rows, uncertainty=1e-13).recommend(wanted)
+    assert [(each.engine, each.rtol) for each in found] == [one, batch]
+    assert all(each.reason for each in found)
+
+
+def test_a_scene_without_an_impact_has_the_default_sample() -> None:
+    """It is said, and within its ranges; impacts that differ from those of the scene's own."""
+    bare = Scene.from_dict({key: table for key, table in PENDULUM.to_dict().items() if key != "impact"})
+    found = work_precision(bare, (1e-4,), single=2, batch=4)
+    assert "the scene has no impact" in found.sample
+    assert all(STOKES[0] <= each.stokes <= STOKES[1] for each in found.impacts)
+    assert all(ANGLES[0] <= each.angle <= ANGLES[1] for each in found.impacts)
+
+
+def test_sticks_have_no_error(tmp_path: Path) -> None:
+    """Where all collisions stick only outcomes count; all three files are in the folder of --out."""
+    done = run("bench", "granulation", "--stokes", "1e-5", "--angle", "30 deg", "--json", "--out", str(tmp_path / "b"))
+    assert done.exit_code == 0, done.output
+    record = json.loads(done.stdout)
+    assert record["separate"] == 0
+    assert {row["error"]["restitution"] for row in record["rows"]} == {None}
+    assert math.isclose(record["recommended"][0]["rtol"], 1e-4)
+    assert sorted(file.name for file in (tmp_path / "b").iterdir()) == ["bench.json", "bench.png", "bench.txt"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--error", "2"), "--error"),
+        (("nowhere",), "granulation"),
+        (("--set", "liquid.viscosity=3 Pa s"), "needs a SCENE"),
+        (("--plot", "x.doc"), "--plot"),
+    ],
+)
+def test_bad_input_is_named(arguments: tuple[str, ...], said: str) -> None:
+    """One line, exit 2."""
+    done = run("bench", *arguments)
+    assert done.exit_code == 2
+    assert said in done.output
+    assert len(done.output.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [(("granulation", "--stress", "8"), "SCENE"), (("--stress", "8", "-o", "x.md"), "-o"), (("--out", "x"), "--out")],
+)
+def test_the_stress_run_draws_its_own_scenes(arguments: tuple[str, ...], said: str) -> None:
+    """`verify --stress` beside a scene or a report, and --out without it, are bad input."""
+    done = run("verify", *arguments)
+    assert done.exit_code == 2
+    assert done.output.startswith(f"{said}: ")
