@@ -1,10 +1,10 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5
+# Equations sha256 9d96ea4345e41696ac7f9b0587cb38a4c24920a0f5ca8b7dd20e6d5a11b14940
 """Head-on doublet with a film only.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -24,7 +24,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening")
+STATES = ("gap", "normal_velocity")
 GROUPS = ("stokes", "glass_number", "elastic_gap", "rough_gap", "dry_restitution")
 SLOTS = ("film", "glass")
 FUNCTIONS = (
@@ -42,7 +42,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5"
+DIGEST = "9d96ea4345e41696ac7f9b0587cb38a4c24920a0f5ca8b7dd20e6d5a11b14940"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -53,12 +53,12 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 5
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     return {
-        "gap": opening,
-        "opening": -film_force,
+        "gap": normal_velocity,
+        "normal_velocity": -film_force,
     }
 
 
@@ -73,21 +73,21 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 6
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
     }
 
@@ -98,11 +98,11 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
+        "normal_velocity": -dry_restitution*normal_velocity,
     }
 
 
@@ -113,7 +113,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     return {
         "gap": 1,
-        "opening": -1,
+        "normal_velocity": -1,
     }
 
 
@@ -122,9 +122,9 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 2
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "kinetic": opening**2/2,
+        "kinetic": normal_velocity**2/2,
     }
 
 
@@ -136,11 +136,11 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 5
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
     }
 
 
@@ -149,10 +149,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -161,9 +161,9 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 0
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
     }
 
 
@@ -187,7 +187,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     gap = state["gap"]
     return {
         "gap": gap,
-        "opening": 0,
+        "normal_velocity": 0,
     }
 
 

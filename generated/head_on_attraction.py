@@ -1,10 +1,10 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d81c517e2156c2999c6396958d9a01fa97a118d7dbee1d82dd21810be41ae67f
+# Equations sha256 5b35b2d9777499e00cb564b07af627d3bb9fa91f5011930df280f737ed67760d
 """Head-on doublet with another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -25,7 +25,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening")
+STATES = ("gap", "normal_velocity")
 GROUPS = ("stokes", "adhesion", "glass_number", "elastic_gap", "rough_gap", "dry_restitution")
 SLOTS = ("film", "glass", "attraction")
 FUNCTIONS = (
@@ -43,7 +43,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "d81c517e2156c2999c6396958d9a01fa97a118d7dbee1d82dd21810be41ae67f"
+DIGEST = "5b35b2d9777499e00cb564b07af627d3bb9fa91f5011930df280f737ed67760d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -54,14 +54,14 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 9
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     adhesion = groups["adhesion"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "gap": opening,
-        "opening": -attraction_force - film_force,
+        "gap": normal_velocity,
+        "normal_velocity": -attraction_force - film_force,
     }
 
 
@@ -80,21 +80,21 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 6
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
     }
 
@@ -105,11 +105,11 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
+        "normal_velocity": -dry_restitution*normal_velocity,
     }
 
 
@@ -120,7 +120,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     return {
         "gap": 1,
-        "opening": -1,
+        "normal_velocity": -1,
     }
 
 
@@ -129,9 +129,9 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 2
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "kinetic": opening**2/2,
+        "kinetic": normal_velocity**2/2,
     }
 
 
@@ -143,14 +143,14 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 9
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     adhesion = groups["adhesion"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
-        "attraction": attraction_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "attraction": attraction_force*normal_velocity,
     }
 
 
@@ -159,10 +159,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -171,9 +171,9 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 0
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
     }
 
 
@@ -201,7 +201,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     gap = state["gap"]
     return {
         "gap": gap,
-        "opening": 0,
+        "normal_velocity": 0,
     }
 
 

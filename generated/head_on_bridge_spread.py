@@ -1,10 +1,10 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8d741ccdc624bbedad883044fba437dc917afcbc9af2b427eaaba44835bd0e10
+# Equations sha256 b8bfb3672101eba3903218c0362d6d69e59f93268ad02eed924b5cbc5dba7cb1
 """Head-on doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -29,7 +29,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening")
+STATES = ("gap", "normal_velocity")
 GROUPS = (
     "stokes",
     "aspect",
@@ -58,7 +58,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "8d741ccdc624bbedad883044fba437dc917afcbc9af2b427eaaba44835bd0e10"
+DIGEST = "b8bfb3672101eba3903218c0362d6d69e59f93268ad02eed924b5cbc5dba7cb1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -69,17 +69,17 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 11
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
-    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "gap": opening,
-        "opening": -bridge_force - film_force,
+        "gap": normal_velocity,
+        "normal_velocity": -bridge_force - film_force,
     }
 
 
@@ -101,22 +101,22 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 6
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
     }
 
@@ -127,11 +127,11 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
+        "normal_velocity": -dry_restitution*normal_velocity,
     }
 
 
@@ -142,7 +142,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     return {
         "gap": 1,
-        "opening": -1,
+        "normal_velocity": -1,
     }
 
 
@@ -151,9 +151,9 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 2
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "kinetic": opening**2/2,
+        "kinetic": normal_velocity**2/2,
     }
 
 
@@ -165,17 +165,17 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 11
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
-    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
     }
 
 
@@ -184,10 +184,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -196,9 +196,9 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 0
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
     }
 
 
@@ -229,7 +229,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     gap = state["gap"]
     return {
         "gap": gap,
-        "opening": 0,
+        "normal_velocity": 0,
     }
 
 

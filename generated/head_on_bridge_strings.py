@@ -1,10 +1,10 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 313600c7e7173d8ee00e63eb542f369d16fd93d866f95c0b16097df375939f16
+# Equations sha256 3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a
 """Head-on doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -31,7 +31,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening")
+STATES = ("gap", "normal_velocity")
 GROUPS = (
     "stokes",
     "aspect",
@@ -61,7 +61,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "313600c7e7173d8ee00e63eb542f369d16fd93d866f95c0b16097df375939f16"
+DIGEST = "3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -72,7 +72,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 20
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
@@ -80,13 +80,13 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     contact_angle = groups["contact_angle"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     offset_squared = aspect**2*gap**2/4
     string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
-        "gap": opening,
-        "opening": -bridge_force - film_force - string_pull,
+        "gap": normal_velocity,
+        "normal_velocity": -bridge_force - film_force - string_pull,
     }
 
 
@@ -112,22 +112,22 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 7
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
     }
@@ -139,11 +139,11 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
+        "normal_velocity": -dry_restitution*normal_velocity,
     }
 
 
@@ -154,7 +154,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     return {
         "gap": 1,
-        "opening": -1,
+        "normal_velocity": -1,
     }
 
 
@@ -164,13 +164,13 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 10
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     offset_squared = aspect**2*gap**2/4
     return {
-        "kinetic": opening**2/2,
+        "kinetic": normal_velocity**2/2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
     }
 
@@ -183,17 +183,17 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 11
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
     }
 
 
@@ -202,10 +202,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -214,9 +214,9 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 0
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
     }
 
 
@@ -251,5 +251,5 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     gap = state["gap"]
     return {
         "gap": gap,
-        "opening": 0,
+        "normal_velocity": 0,
     }

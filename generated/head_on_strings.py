@@ -1,10 +1,10 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b7c94a140dd36ed70087e6549825a78bf9242eb24c5c1d36b8b4f4814ef7ee42
+# Equations sha256 d3b3374936ef6e5dfb988abf3440299295b16bff69756a6b4154ce9295a507aa
 """Head-on doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -27,7 +27,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening")
+STATES = ("gap", "normal_velocity")
 GROUPS = (
     "stokes",
     "aspect",
@@ -53,7 +53,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "b7c94a140dd36ed70087e6549825a78bf9242eb24c5c1d36b8b4f4814ef7ee42"
+DIGEST = "d3b3374936ef6e5dfb988abf3440299295b16bff69756a6b4154ce9295a507aa"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -64,17 +64,17 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 14
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     offset_squared = aspect**2*gap**2/4
     string_pull = aspect*gap*weight*laws.strings.stiffness(string_ratio, offset_squared)
     return {
-        "gap": opening,
-        "opening": -film_force - string_pull,
+        "gap": normal_velocity,
+        "normal_velocity": -film_force - string_pull,
     }
 
 
@@ -95,21 +95,21 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 6
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
     }
 
@@ -120,11 +120,11 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
+        "normal_velocity": -dry_restitution*normal_velocity,
     }
 
 
@@ -135,7 +135,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     return {
         "gap": 1,
-        "opening": -1,
+        "normal_velocity": -1,
     }
 
 
@@ -145,13 +145,13 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 10
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     aspect = groups["aspect"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     offset_squared = aspect**2*gap**2/4
     return {
-        "kinetic": opening**2/2,
+        "kinetic": normal_velocity**2/2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
     }
 
@@ -164,11 +164,11 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 5
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
     }
 
 
@@ -177,10 +177,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -189,9 +189,9 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 0
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
     }
 
 
@@ -221,5 +221,5 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     gap = state["gap"]
     return {
         "gap": gap,
-        "opening": 0,
+        "normal_velocity": 0,
     }

@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 27ecfd1ceeed8c533d9a794742af99c3644bf01969384e854d6edc0d2e02fa3f
+# Equations sha256 086e9f9d9b485ca3952a69793800db1fef580b75e3d815ffd0dbff35e6c5715d
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 - spin [omega0]: spin of each sphere over omega0
 
 Groups:
@@ -28,7 +28,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit", "spin")
+STATES = ("gap", "normal_velocity", "orbital_momentum", "spin")
 GROUPS = (
     "stokes",
     "aspect",
@@ -57,7 +57,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "27ecfd1ceeed8c533d9a794742af99c3644bf01969384e854d6edc0d2e02fa3f"
+DIGEST = "086e9f9d9b485ca3952a69793800db1fef580b75e3d815ffd0dbff35e6c5715d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -68,23 +68,23 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 29
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     lever = laws.arm.lever(distance)
     return {
-        "gap": opening,
-        "opening": centrifugal_force - film_force,
-        "orbit": -distance*shear_force,
+        "gap": normal_velocity,
+        "normal_velocity": centrifugal_force - film_force,
+        "orbital_momentum": -distance*shear_force,
         "spin": 5*lever*shear_force/16,
     }
 
@@ -97,19 +97,19 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 18
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     lever = laws.arm.lever(distance)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*shear_force,
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*shear_force,
         "spin": 5*lever*shear_force/16,
     }
 
@@ -120,11 +120,11 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -136,11 +136,11 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 11
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     return {
         "inward_force": -centrifugal_force,
@@ -148,27 +148,27 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 19
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": -centrifugal_force,
@@ -181,14 +181,14 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
         "spin": spin,
     }
 
@@ -201,8 +201,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     aspect = groups["aspect"]
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + 4)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + 4)**2,
         "spin": 0,
     }
 
@@ -213,15 +213,15 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 18
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
     }
 
 
@@ -233,20 +233,20 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 26
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     lever = laws.arm.lever(distance)
     return {
-        "normal_lubrication": film_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
     }
 
@@ -256,10 +256,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -268,10 +268,10 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
     Total operations: 6
     """
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     return {
         "angular_momentum": momentum/(aspect + 4)**2,
     }
@@ -283,14 +283,14 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -304,12 +304,12 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     Total operations: 22
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     inertia_ratio = distance**2 + 6.4
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
@@ -323,16 +323,16 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 12
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     inertia_ratio = distance**2 + 6.4
     return {
         "gap": gap,
-        "opening": 0,
-        "orbit": distance**2*momentum/inertia_ratio,
+        "normal_velocity": 0,
+        "orbital_momentum": distance**2*momentum/inertia_ratio,
         "spin": momentum/inertia_ratio,
     }
 

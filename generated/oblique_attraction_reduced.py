@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 55a3b643d0f49913ca98660ad4c4926ef513f808b02ca367cd5753caca28ee7e
+# Equations sha256 643dc5b9375ef484ef94de1cec173548c2b062f8bcc41efe586ea1ea631eaf16
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -30,7 +30,7 @@ from casadi import fmax
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit")
+STATES = ("gap", "normal_velocity", "orbital_momentum")
 GROUPS = (
     "stokes",
     "aspect",
@@ -61,7 +61,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "55a3b643d0f49913ca98660ad4c4926ef513f808b02ca367cd5753caca28ee7e"
+DIGEST = "643dc5b9375ef484ef94de1cec173548c2b062f8bcc41efe586ea1ea631eaf16"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -72,25 +72,25 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 36
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     adhesion = groups["adhesion"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "gap": opening,
-        "opening": centrifugal_force - attraction_force - film_force,
-        "orbit": -distance*shear_force,
+        "gap": normal_velocity,
+        "normal_velocity": centrifugal_force - attraction_force - film_force,
+        "orbital_momentum": -distance*shear_force,
     }
 
 
@@ -102,19 +102,19 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 21
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*shear_force,
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*shear_force,
     }
 
 
@@ -124,11 +124,11 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -140,13 +140,13 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 14
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     adhesion = groups["adhesion"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
@@ -155,14 +155,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 22
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -171,14 +171,14 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": attraction_force - centrifugal_force,
@@ -191,13 +191,13 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
     }
 
 
@@ -209,8 +209,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     aspect = groups["aspect"]
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + 4)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + 4)**2,
     }
 
 
@@ -220,16 +220,16 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 25
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
     }
 
 
@@ -241,14 +241,14 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 9
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     adhesion = groups["adhesion"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
-        "attraction": attraction_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "attraction": attraction_force*normal_velocity,
     }
 
 
@@ -257,10 +257,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -270,15 +270,15 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 14
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -292,8 +292,8 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 35
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -306,36 +306,36 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     nearest = aspect*contact + 4
     farthest = aspect + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_orbit = fmax(orbit, spun_up)
+    largest_momentum = fmax(orbital_momentum, spun_up)
     least_attraction = adhesion*laws.attraction.force(1)/stokes
-    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(1 - gap),
+        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(1 - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 
 def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
-    either arm: margins of the proof by the orbit's momentum.
+    either arm: margins of the proof by the orbital momentum.
 
     Total operations: 29
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     rotation_energy_unit = obliquity**2/16
     return {
         "slip": slip,
-        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
     }
 
 
@@ -372,8 +372,8 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     inertia_ratio = distance**2 + 6.4
     return {
         "gap": gap,
-        "opening": 0,
-        "orbit": distance**2*momentum/inertia_ratio,
+        "normal_velocity": 0,
+        "orbital_momentum": distance**2*momentum/inertia_ratio,
     }
 
 

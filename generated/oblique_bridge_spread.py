@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 80b525c906e103c5d8423df864fc23ff130ba9cb8f51239588f2115dba866789
+# Equations sha256 b3a8d14c6722e125f675926b8bbc542521d31db6902104fdc48a0437f0fae067
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 - spin [omega0]: spin of each sphere over omega0
 
 Groups:
@@ -34,7 +34,7 @@ from casadi import fmax, sqrt
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit", "spin")
+STATES = ("gap", "normal_velocity", "orbital_momentum", "spin")
 GROUPS = (
     "stokes",
     "aspect",
@@ -69,7 +69,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "80b525c906e103c5d8423df864fc23ff130ba9cb8f51239588f2115dba866789"
+DIGEST = "b3a8d14c6722e125f675926b8bbc542521d31db6902104fdc48a0437f0fae067"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -80,8 +80,8 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 35
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -90,17 +90,17 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     lever = laws.arm.lever(distance)
     return {
-        "gap": opening,
-        "opening": centrifugal_force - bridge_force - film_force,
-        "orbit": -distance*shear_force,
+        "gap": normal_velocity,
+        "normal_velocity": centrifugal_force - bridge_force - film_force,
+        "orbital_momentum": -distance*shear_force,
         "spin": 5*lever*shear_force/16,
     }
 
@@ -113,19 +113,19 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 18
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     lever = laws.arm.lever(distance)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*shear_force,
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*shear_force,
         "spin": 5*lever*shear_force/16,
     }
 
@@ -136,11 +136,11 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -152,7 +152,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 16
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -160,7 +160,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
@@ -169,14 +169,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 24
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -188,14 +188,14 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": bridge_force - centrifugal_force,
@@ -208,14 +208,14 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
         "spin": spin,
     }
 
@@ -228,8 +228,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     aspect = groups["aspect"]
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + 4)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + 4)**2,
         "spin": 0,
     }
 
@@ -240,15 +240,15 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 18
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
     }
 
 
@@ -260,8 +260,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 32
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -270,15 +270,15 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     lever = laws.arm.lever(distance)
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
     }
 
@@ -288,10 +288,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -300,10 +300,10 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
     Total operations: 6
     """
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     return {
         "angular_momentum": momentum/(aspect + 4)**2,
     }
@@ -315,14 +315,14 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -336,8 +336,8 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 39
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -349,42 +349,42 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     dry_restitution = groups["dry_restitution"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     contact = fmax(elastic_gap, rough_gap)
     nearest = aspect*contact + 4
     farthest = aspect*rupture_gap + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_orbit = fmax(orbit, spun_up)
+    largest_momentum = fmax(orbital_momentum, spun_up)
     least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
-    hold = least_attraction - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+    hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 
 
 def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
-    either arm: margins of the proof by the orbit's momentum.
+    either arm: margins of the proof by the orbital momentum.
 
     Total operations: 73
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     rotation_energy_unit = obliquity**2/16
-    rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
+    rigid_share = sqrt(spin)/(sqrt(orbital_momentum) + 1.6*sqrt(spin))
     return {
         "slip": slip,
-        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
-        "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
+        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "surface": rotation_energy_unit*(orbital_momentum**2/(2*distance**2) - (sqrt(orbital_momentum) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }
 
 
@@ -395,7 +395,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     Total operations: 27
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -404,7 +404,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     distance = aspect*gap + 4
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     inertia_ratio = distance**2 + 6.4
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
@@ -419,16 +419,16 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 12
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     inertia_ratio = distance**2 + 6.4
     return {
         "gap": gap,
-        "opening": 0,
-        "orbit": distance**2*momentum/inertia_ratio,
+        "normal_velocity": 0,
+        "orbital_momentum": distance**2*momentum/inertia_ratio,
         "spin": momentum/inertia_ratio,
     }
 

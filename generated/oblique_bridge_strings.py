@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e
+# Equations sha256 6040cb6b6d0eef607e55ac8e8534fbc2c5758054c22d4d79031f9b61ca6f5607
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 - spin [omega0]: spin of each sphere over omega0
 - rotation [rad]: angle turned by the line of centres
 
@@ -37,7 +37,7 @@ from casadi import fmax, pi, sin, sqrt
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit", "spin", "rotation")
+STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "rotation")
 GROUPS = (
     "stokes",
     "aspect",
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "orbital",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e"
+DIGEST = "6040cb6b6d0eef607e55ac8e8534fbc2c5758054c22d4d79031f9b61ca6f5607"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -82,8 +82,8 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 65
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
@@ -95,11 +95,11 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     string_pull = (
@@ -108,9 +108,9 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
     lever = laws.arm.lever(distance)
     return {
-        "gap": opening,
-        "opening": centrifugal_force - bridge_force - film_force - string_pull,
-        "orbit": -distance*(shear_force + string_sideways),
+        "gap": normal_velocity,
+        "normal_velocity": centrifugal_force - bridge_force - film_force - string_pull,
+        "orbital_momentum": -distance*(shear_force + string_sideways),
         "spin": 5*lever*shear_force/16,
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -124,7 +124,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 38
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
@@ -133,7 +133,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
@@ -141,8 +141,8 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     lever = laws.arm.lever(distance)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*(shear_force + string_sideways),
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*(shear_force + string_sideways),
         "spin": 5*lever*shear_force/16,
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -154,11 +154,11 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -170,7 +170,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 36
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -181,7 +181,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
@@ -194,14 +194,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 46
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -216,7 +216,7 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
@@ -224,16 +224,16 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
     )
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": bridge_force - centrifugal_force + string_pull,
         "half_turn": pi - rotation,
-        "unwinding": orbit,
+        "unwinding": orbital_momentum,
     }
 
 
@@ -243,15 +243,15 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
         "spin": spin,
         "rotation": rotation,
     }
@@ -265,8 +265,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     aspect = groups["aspect"]
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + 4)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + 4)**2,
         "spin": 0,
         "rotation": 0,
     }
@@ -278,8 +278,8 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 32
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     aspect = groups["aspect"]
@@ -287,10 +287,10 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
     }
 
@@ -303,8 +303,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 32
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -313,15 +313,15 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     lever = laws.arm.lever(distance)
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
     }
 
@@ -331,10 +331,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -343,10 +343,10 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
     Total operations: 6
     """
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     return {
         "angular_momentum": momentum/(aspect + 4)**2,
     }
@@ -358,14 +358,14 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -379,8 +379,8 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 75
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
@@ -395,15 +395,15 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     dry_restitution = groups["dry_restitution"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     contact = fmax(elastic_gap, rough_gap)
     nearest = aspect*contact + 4
     farthest = aspect*rupture_gap + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_orbit = fmax(orbit, spun_up)
+    largest_momentum = fmax(orbital_momentum, spun_up)
     least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
     hold = (
-        - aspect*largest_orbit**2*obliquity**2/(16*nearest**3)
+        - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
         + least_attraction
         + weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
     )
@@ -412,30 +412,30 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     )
     return {
         "hold": hold,
-        "flight": fmax(opening, -dry_restitution*opening)**2/2 - hold*(rupture_gap - gap),
+        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
     }
 
 
 def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
-    either arm: margins of the proof by the orbit's momentum.
+    either arm: margins of the proof by the orbital momentum.
 
     Total operations: 73
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     rotation_energy_unit = obliquity**2/16
-    rigid_share = sqrt(spin)/(sqrt(orbit) + 1.6*sqrt(spin))
+    rigid_share = sqrt(spin)/(sqrt(orbital_momentum) + 1.6*sqrt(spin))
     return {
         "slip": slip,
-        "orbit_energy": orbit**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbit/distance**2 - spin)**2/(0.3125 + 2/distance**2),
-        "surface": rotation_energy_unit*(orbit**2/(2*distance**2) - (sqrt(orbit) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
+        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
+        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "surface": rotation_energy_unit*(orbital_momentum**2/(2*distance**2) - (sqrt(orbital_momentum) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

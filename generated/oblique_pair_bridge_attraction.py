@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c858056a2454dee303e402586644e9f2ab13994d8ee8763f739ac5f7af4c339d
+# Equations sha256 f922e056451b69f2bc63e4c389cfd7e36a6229186604b0bc828e4f107c79817a
 """Oblique unequal doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 - spin [omega0]: spin of each sphere over omega0
 - partner_spin [omega0]: spin of the partner over omega0
 
@@ -36,7 +36,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit", "spin", "partner_spin")
+STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "partner_spin")
 GROUPS = (
     "stokes",
     "aspect",
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c858056a2454dee303e402586644e9f2ab13994d8ee8763f739ac5f7af4c339d"
+DIGEST = "f922e056451b69f2bc63e4c389cfd7e36a6229186604b0bc828e4f107c79817a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -82,8 +82,8 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 83
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -97,7 +97,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     radius = (radius_ratio + 1)/radius_ratio
     partner_radius = radius_ratio + 1
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
@@ -109,13 +109,13 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
     partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
     shear_force = (partner_torque + torque)/(centres*lever)
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "gap": opening,
-        "opening": aspect*distance*obliquity**2*orbital_rate**2/centres**2 - attraction_force - bridge_force - film_force,
-        "orbit": -distance*shear_force,
+        "gap": normal_velocity,
+        "normal_velocity": aspect*distance*obliquity**2*orbital_rate**2/centres**2 - attraction_force - bridge_force - film_force,
+        "orbital_momentum": -distance*shear_force,
         "spin": torque/spin_inertia,
         "partner_spin": partner_torque/partner_inertia,
     }
@@ -129,7 +129,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 61
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -138,7 +138,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     radius = (radius_ratio + 1)/radius_ratio
     partner_radius = radius_ratio + 1
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
@@ -152,8 +152,8 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     shear_force = (partner_torque + torque)/(centres*lever)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*shear_force,
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*shear_force,
         "spin": torque/spin_inertia,
         "partner_spin": partner_torque/partner_inertia,
     }
@@ -165,13 +165,13 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 10
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/centres,
     }
@@ -183,7 +183,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 24
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -194,7 +194,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
@@ -203,14 +203,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 33
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -225,14 +225,14 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rupture_gap = groups["rupture_gap"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
@@ -246,15 +246,15 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
         "spin": spin,
         "partner_spin": partner_spin,
     }
@@ -270,8 +270,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     centres = (radius_ratio + 1)**2/radius_ratio
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + centres)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + centres)**2,
         "spin": 0,
         "partner_spin": 0,
     }
@@ -283,8 +283,8 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 49
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
@@ -293,11 +293,11 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
     return {
-        "kinetic": opening**2/2 + distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2),
+        "kinetic": normal_velocity**2/2 + distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2),
     }
 
 
@@ -309,8 +309,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 70
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -323,7 +323,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     radius = (radius_ratio + 1)/radius_ratio
     partner_radius = radius_ratio + 1
     slip = orbital_rate - spin
@@ -333,13 +333,13 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
     partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
     shear_force = (partner_torque + torque)/(centres*lever)
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
-        "attraction": attraction_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
+        "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
     }
 
@@ -349,10 +349,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -361,7 +361,7 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
     Total operations: 25
     """
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
@@ -370,7 +370,7 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     centres = (radius_ratio + 1)**2/radius_ratio
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     return {
         "angular_momentum": momentum/(aspect + centres)**2,
     }
@@ -382,17 +382,17 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 10
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + centres),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -407,7 +407,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     Total operations: 53
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -423,7 +423,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     distance = aspect*gap + centres
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     inertia_ratio = distance**2 + partner_inertia + spin_inertia
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
@@ -439,7 +439,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 32
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
@@ -449,12 +449,12 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     distance = aspect*gap + centres
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     inertia_ratio = distance**2 + partner_inertia + spin_inertia
     return {
         "gap": gap,
-        "opening": 0,
-        "orbit": distance**2*momentum/inertia_ratio,
+        "normal_velocity": 0,
+        "orbital_momentum": distance**2*momentum/inertia_ratio,
         "spin": momentum/inertia_ratio,
         "partner_spin": momentum/inertia_ratio,
     }

@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 4b4e7d7d1e2d2d218189b1ccfee1c28005300792444521e936349b92533fa491
+# Equations sha256 9ab892b36f932f6b54adb18848d4cb0debe8d8b9783234df0c2e99d1bfe0eb5b
 """Oblique unequal doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 - spin [omega0]: spin of each sphere over omega0
 - partner_spin [omega0]: spin of the partner over omega0
 
@@ -35,7 +35,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit", "spin", "partner_spin")
+STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "partner_spin")
 GROUPS = (
     "stokes",
     "aspect",
@@ -69,7 +69,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "4b4e7d7d1e2d2d218189b1ccfee1c28005300792444521e936349b92533fa491"
+DIGEST = "9ab892b36f932f6b54adb18848d4cb0debe8d8b9783234df0c2e99d1bfe0eb5b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -80,8 +80,8 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 79
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -94,7 +94,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     radius = (radius_ratio + 1)/radius_ratio
     partner_radius = radius_ratio + 1
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
@@ -106,12 +106,12 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
     partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
     shear_force = (partner_torque + torque)/(centres*lever)
-    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "gap": opening,
-        "opening": aspect*distance*obliquity**2*orbital_rate**2/centres**2 - bridge_force - film_force,
-        "orbit": -distance*shear_force,
+        "gap": normal_velocity,
+        "normal_velocity": aspect*distance*obliquity**2*orbital_rate**2/centres**2 - bridge_force - film_force,
+        "orbital_momentum": -distance*shear_force,
         "spin": torque/spin_inertia,
         "partner_spin": partner_torque/partner_inertia,
     }
@@ -125,7 +125,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 61
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -134,7 +134,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     radius = (radius_ratio + 1)/radius_ratio
     partner_radius = radius_ratio + 1
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
@@ -148,8 +148,8 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     shear_force = (partner_torque + torque)/(centres*lever)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*shear_force,
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*shear_force,
         "spin": torque/spin_inertia,
         "partner_spin": partner_torque/partner_inertia,
     }
@@ -161,13 +161,13 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 10
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/centres,
     }
@@ -179,7 +179,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 20
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -189,7 +189,7 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
         "inward_force": bridge_force - aspect*distance*obliquity**2*orbital_rate**2/centres**2,
@@ -197,14 +197,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 28
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -218,13 +218,13 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rupture_gap = groups["rupture_gap"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": bridge_force - aspect*distance*obliquity**2*orbital_rate**2/centres**2,
@@ -237,15 +237,15 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
         "spin": spin,
         "partner_spin": partner_spin,
     }
@@ -261,8 +261,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     centres = (radius_ratio + 1)**2/radius_ratio
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + centres)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + centres)**2,
         "spin": 0,
         "partner_spin": 0,
     }
@@ -274,8 +274,8 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 49
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
@@ -284,11 +284,11 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
     return {
-        "kinetic": opening**2/2 + distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2),
+        "kinetic": normal_velocity**2/2 + distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2),
     }
 
 
@@ -300,8 +300,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 66
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -313,7 +313,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     radius = (radius_ratio + 1)/radius_ratio
     partner_radius = radius_ratio + 1
     slip = orbital_rate - spin
@@ -323,11 +323,11 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
     partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
     shear_force = (partner_torque + torque)/(centres*lever)
-    film_force = film*opening*laws.film.resistance(gap, aspect, volume)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap, aspect, volume)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
     }
 
@@ -337,10 +337,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -349,7 +349,7 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
     Total operations: 25
     """
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
@@ -358,7 +358,7 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     centres = (radius_ratio + 1)**2/radius_ratio
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     return {
         "angular_momentum": momentum/(aspect + centres)**2,
     }
@@ -370,17 +370,17 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 10
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + centres),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -395,7 +395,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     Total operations: 49
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     stokes = groups["stokes"]
@@ -410,7 +410,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     distance = aspect*gap + centres
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     inertia_ratio = distance**2 + partner_inertia + spin_inertia
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
@@ -425,7 +425,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 32
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
@@ -435,12 +435,12 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     distance = aspect*gap + centres
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbit + partner_inertia*partner_spin + spin*spin_inertia
+    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     inertia_ratio = distance**2 + partner_inertia + spin_inertia
     return {
         "gap": gap,
-        "opening": 0,
-        "orbit": distance**2*momentum/inertia_ratio,
+        "normal_velocity": 0,
+        "orbital_momentum": distance**2*momentum/inertia_ratio,
         "spin": momentum/inertia_ratio,
         "partner_spin": momentum/inertia_ratio,
     }

@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d0205c577f23f4804710ce0711e24dab988a41fdb475d9c183971d384367236a
+# Equations sha256 92a4d2622ca085d9738a66034cbb5acc3212a1f240370b64d4225047af79a249
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -27,7 +27,7 @@ from typing import Any
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit")
+STATES = ("gap", "normal_velocity", "orbital_momentum")
 GROUPS = (
     "stokes",
     "aspect",
@@ -55,7 +55,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d0205c577f23f4804710ce0711e24dab988a41fdb475d9c183971d384367236a"
+DIGEST = "92a4d2622ca085d9738a66034cbb5acc3212a1f240370b64d4225047af79a249"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -66,23 +66,23 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 32
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     return {
-        "gap": opening,
-        "opening": centrifugal_force - film_force,
-        "orbit": -distance*shear_force,
+        "gap": normal_velocity,
+        "normal_velocity": centrifugal_force - film_force,
+        "orbital_momentum": -distance*shear_force,
     }
 
 
@@ -94,19 +94,19 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 21
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*shear_force,
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*shear_force,
     }
 
 
@@ -116,11 +116,11 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -132,11 +132,11 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 11
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     return {
         "inward_force": -centrifugal_force,
@@ -144,27 +144,27 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 19
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": -centrifugal_force,
@@ -177,13 +177,13 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
     }
 
 
@@ -195,8 +195,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     aspect = groups["aspect"]
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + 4)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + 4)**2,
     }
 
 
@@ -206,16 +206,16 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 25
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
     }
 
 
@@ -227,11 +227,11 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 5
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
     }
 
 
@@ -240,10 +240,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -253,15 +253,15 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 14
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     momentum = (aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbit/32
+    spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -298,8 +298,8 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     inertia_ratio = distance**2 + 6.4
     return {
         "gap": gap,
-        "opening": 0,
-        "orbit": distance**2*momentum/inertia_ratio,
+        "normal_velocity": 0,
+        "orbital_momentum": distance**2*momentum/inertia_ratio,
     }
 
 

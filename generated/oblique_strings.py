@@ -1,11 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f3a01cf791d429399e062b7337c5ca807169f2c95c143da4673d3d442fc3cc9f
+# Equations sha256 e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
-- orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
+- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
 - spin [omega0]: spin of each sphere over omega0
 - rotation [rad]: angle turned by the line of centres
 
@@ -33,7 +33,7 @@ from casadi import fmax, fmin, pi, sin, sqrt
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "orbit", "spin", "rotation")
+STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "rotation")
 GROUPS = (
     "stokes",
     "aspect",
@@ -62,7 +62,7 @@ FUNCTIONS = (
     "tethered",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f3a01cf791d429399e062b7337c5ca807169f2c95c143da4673d3d442fc3cc9f"
+DIGEST = "e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -73,8 +73,8 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 59
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
@@ -83,11 +83,11 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     string_pull = (
         weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
@@ -95,9 +95,9 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
     lever = laws.arm.lever(distance)
     return {
-        "gap": opening,
-        "opening": centrifugal_force - film_force - string_pull,
-        "orbit": -distance*(shear_force + string_sideways),
+        "gap": normal_velocity,
+        "normal_velocity": centrifugal_force - film_force - string_pull,
+        "orbital_momentum": -distance*(shear_force + string_sideways),
         "spin": 5*lever*shear_force/16,
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -111,7 +111,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     Total operations: 38
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
@@ -120,7 +120,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
@@ -128,8 +128,8 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     lever = laws.arm.lever(distance)
     return {
         "gap": 0,
-        "opening": 0,
-        "orbit": -distance*(shear_force + string_sideways),
+        "normal_velocity": 0,
+        "orbital_momentum": -distance*(shear_force + string_sideways),
         "spin": 5*lever*shear_force/16,
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -141,11 +141,11 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
@@ -157,14 +157,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 30
     """
     gap = state["gap"]
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     rotation = state["rotation"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     string_pull = (
@@ -176,14 +176,14 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 39
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     rotation = state["rotation"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
@@ -193,22 +193,22 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     string_pull = (
         weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
     )
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": string_pull - centrifugal_force,
         "half_turn": pi - rotation,
-        "unwinding": orbit,
+        "unwinding": orbital_momentum,
     }
 
 
@@ -218,15 +218,15 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
-        "orbit": orbit,
+        "normal_velocity": -dry_restitution*normal_velocity,
+        "orbital_momentum": orbital_momentum,
         "spin": spin,
         "rotation": rotation,
     }
@@ -240,8 +240,8 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     aspect = groups["aspect"]
     return {
         "gap": 1,
-        "opening": -1,
-        "orbit": (aspect + 4)**2,
+        "normal_velocity": -1,
+        "orbital_momentum": (aspect + 4)**2,
         "spin": 0,
         "rotation": 0,
     }
@@ -253,8 +253,8 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 32
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     aspect = groups["aspect"]
@@ -262,10 +262,10 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     weight = groups["weight"]
     string_ratio = groups["string_ratio"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
     return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2 + opening**2/2,
+        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
     }
 
@@ -278,20 +278,20 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 26
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     lever = laws.arm.lever(distance)
     return {
-        "normal_lubrication": film_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
     }
 
@@ -301,10 +301,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -313,10 +313,10 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
     Total operations: 6
     """
-    orbit = state["orbit"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     return {
         "angular_momentum": momentum/(aspect + 4)**2,
     }
@@ -328,14 +328,14 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 7
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
     distance = aspect*gap + 4
-    orbital_rate = orbit/distance**2
+    orbital_rate = orbital_momentum/distance**2
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": distance*orbital_rate/(aspect + 4),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
@@ -348,8 +348,8 @@ def tethered(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 67
     """
     gap = state["gap"]
-    opening = state["opening"]
-    orbit = state["orbit"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     rotation = state["rotation"]
     stokes = groups["stokes"]
@@ -361,18 +361,18 @@ def tethered(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     dry_restitution = groups["dry_restitution"]
-    momentum = orbit + 6.4*spin
+    momentum = orbital_momentum + 6.4*spin
     contact = fmax(elastic_gap, rough_gap)
     nearest = aspect*contact + 4
     farthest = aspect + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_orbit = fmax(orbit, spun_up)
+    largest_momentum = fmax(orbital_momentum, spun_up)
     largest_pull = weight*(aspect + 8)*laws.strings.stiffness(string_ratio, aspect**2/4 + 4*aspect + 16)
-    fastest = sqrt(2*largest_pull + fmin(0, opening)**2)
+    fastest = sqrt(2*largest_pull + fmin(0, normal_velocity)**2)
     reach = fmax(contact, laws.glass.reach(fastest, glass_number))
     return {
-        "outward": aspect*largest_orbit**2*obliquity**2/(16*nearest**3),
+        "outward": aspect*largest_momentum**2*obliquity**2/(16*nearest**3),
         "pull": weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2),
-        "film": stokes*fmax(0, opening) - laws.film.stopping(gap),
+        "film": stokes*fmax(0, normal_velocity) - laws.film.stopping(gap),
         "recoil": dry_restitution*fastest*stokes - laws.film.stopping(reach),
     }

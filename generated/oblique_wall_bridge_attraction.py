@@ -1,10 +1,10 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 cf186312da4398bc7cdae21e325266feb9562d28840d831119c2690d8302c745
+# Equations sha256 8f8f1e69f16ea3403c6ddcf3be3d996d5d5ec80fae72733563158ce398022fe8
 """Oblique sphere-wall doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
-- opening [v0]: opening velocity over impact speed, negative on approach
+- normal_velocity [v0]: normal velocity over impact speed, negative on approach
 - decay [1]: e-foldings of the slower mode of sliding and rolling beside a wall
 
 Groups:
@@ -34,7 +34,7 @@ from casadi import exp, sqrt
 
 Values = Mapping[str, Any]
 
-STATES = ("gap", "opening", "decay")
+STATES = ("gap", "normal_velocity", "decay")
 GROUPS = (
     "stokes",
     "aspect",
@@ -66,7 +66,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "cf186312da4398bc7cdae21e325266feb9562d28840d831119c2690d8302c745"
+DIGEST = "8f8f1e69f16ea3403c6ddcf3be3d996d5d5ec80fae72733563158ce398022fe8"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -77,19 +77,19 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     Total operations: 24
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     capillary = groups["capillary"]
     volume = groups["volume"]
     contact_angle = groups["contact_angle"]
     adhesion = groups["adhesion"]
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "gap": opening,
-        "opening": -attraction_force - bridge_force - film_force,
+        "gap": normal_velocity,
+        "normal_velocity": -attraction_force - bridge_force - film_force,
         "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
@@ -106,7 +106,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     aspect = groups["aspect"]
     return {
         "gap": 0,
-        "opening": 0,
+        "normal_velocity": 0,
         "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
     }
 
@@ -131,23 +131,23 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the opening
-    velocity (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
+    (its sign tells closing from opening), `release` in resting contact.
 
     Total operations: 9
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     aspect = groups["aspect"]
     glass_number = groups["glass_number"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
-        "glass": glass_number - laws.glass.pressure(gap, -opening),
+        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
@@ -160,12 +160,12 @@ def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     Total operations: 2
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     decay = state["decay"]
     dry_restitution = groups["dry_restitution"]
     return {
         "gap": gap,
-        "opening": -dry_restitution*opening,
+        "normal_velocity": -dry_restitution*normal_velocity,
         "decay": decay,
     }
 
@@ -177,7 +177,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """
     return {
         "gap": 1,
-        "opening": -1,
+        "normal_velocity": -1,
         "decay": 0,
     }
 
@@ -187,7 +187,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 47
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     decay = state["decay"]
     obliquity = groups["obliquity"]
     slow_mode = exp(-decay)
@@ -195,7 +195,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
     roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
-        "kinetic": obliquity**2*(0.2*roll**2 + slide**2/2) + opening**2/2,
+        "kinetic": normal_velocity**2/2 + obliquity**2*(0.2*roll**2 + slide**2/2),
     }
 
 
@@ -207,7 +207,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     Total operations: 75
     """
     gap = state["gap"]
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     decay = state["decay"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
@@ -222,13 +222,13 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
-    film_force = film*opening*laws.film.resistance(gap)/stokes
+    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
-        "normal_lubrication": film_force*opening,
-        "capillary": bridge_force*opening,
-        "attraction": attraction_force*opening,
+        "normal_lubrication": film_force*normal_velocity,
+        "capillary": bridge_force*normal_velocity,
+        "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(shear_force*slide - roll*torque),
     }
 
@@ -238,10 +238,10 @@ def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 5
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     dry_restitution = groups["dry_restitution"]
     return {
-        "dry_contact": opening**2*(1 - dry_restitution**2)/2,
+        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -250,14 +250,14 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 37
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     decay = state["decay"]
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
     roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
     return {
-        "restitution": opening,
+        "restitution": normal_velocity,
         "tangential_restitution": slide,
         "final_rotation_rate": 0,
         "final_spin": roll,
@@ -294,7 +294,7 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     decay = state["decay"]
     return {
         "gap": gap,
-        "opening": 0,
+        "normal_velocity": 0,
         "decay": decay,
     }
 
@@ -304,7 +304,7 @@ def escape_energy(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
     Total operations: 2
     """
-    opening = state["opening"]
+    normal_velocity = state["normal_velocity"]
     return {
-        "kinetic": opening**2/2,
+        "kinetic": normal_velocity**2/2,
     }

@@ -12,7 +12,7 @@ from ..physics.mechanics import F_c
 from ..physics.scaling import generalised_centrifugal, group_definitions
 from ..physics.structure import Structure
 from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
-from ..vocabulary.quantities import DIMENSIONS, centrifugal, contact_angle, gap, omega0, opening, x, x0
+from ..vocabulary.quantities import DIMENSIONS, centrifugal, contact_angle, gap, normal_velocity, omega0, x, x0
 from .base import Check, vanishing
 from .closed import opened, slope_along
 
@@ -85,7 +85,7 @@ def slopes() -> Check:
         model = derive(structure)
         outputs, taken = dict(model["effective_potential"].outputs), dict(model["energy_rates"].outputs)
         value, slope = opened(model, outputs["energy"]), opened(model, outputs["slope"])
-        works = [opened(model, taken[name]) / opening for name in ("capillary", "attraction") if name in taken]
+        works = [opened(model, taken[name]) / normal_velocity for name in ("capillary", "attraction") if name in taken]
         left.append(slope - _rises(structure, value) - sum(works))
     return vanishing("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L", left)
 

@@ -10,7 +10,7 @@ from ..equations.invariants import conserved_momentum
 from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import structures
-from ..vocabulary.quantities import aspect, gap, obliquity, opening, orbit, spin
+from ..vocabulary.quantities import aspect, gap, normal_velocity, obliquity, orbital_momentum, spin
 from .base import Check, vanishing
 from .closed import slope_along
 
@@ -29,7 +29,7 @@ def least_energy() -> Check:
         expected: sp.Expr = sp.Integer(0)
         change: sp.Expr = sp.Integer(0)
         if structure.oblique:
-            own = orbit + sp.Rational(32, 5) * spin if not structure.reduced else (4 + aspect) ** 2
+            own = orbital_momentum + sp.Rational(32, 5) * spin if not structure.reduced else (4 + aspect) ** 2
             fixed = momentum**2 * obliquity**2 / (32 * inertia)  # omega0 = v0 tan(theta0)/(4a)
             expected += fixed.subs(momentum, own)
             change += fixed.diff(gap).subs(momentum, own)
@@ -39,7 +39,7 @@ def least_energy() -> Check:
             change += slope_along(stored, gap)
         if structure.bridge:
             work = dict(model["energy_rates"].outputs)["capillary"]
-            change += model.expanded(work) / opening
+            change += model.expanded(work) / normal_velocity
         left += [value - expected, slope - change]
     return vanishing("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L", left)
 
@@ -60,9 +60,9 @@ def least_energy_is_a_minimum() -> Check:
         kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"]).subs(obliquity, tangent)
         least = model.expanded(dict(model["effective_potential"].outputs)["energy"]).subs(obliquity, tangent)
         at_least = {s: model.expanded(dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states}
-        velocities = [opening]
+        velocities = [normal_velocity]
         if structure.oblique:
-            velocities.append(orbit)
+            velocities.append(orbital_momentum)
             left_over = {spin: conserved_momentum(model, {"arm": LAWS["arm"]["midgap"]}).solved(spin, momentum)}
             kinetic, least = kinetic.subs(left_over), sp.factor(least.subs(left_over))
             at_least = {s: sp.factor(value.subs(left_over)) for s, value in at_least.items() if s != spin}

@@ -10,7 +10,7 @@ import sympy as sp
 from ..equations.model import derive
 from ..physics.laws import Law, strings
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import orbit, spin
+from ..vocabulary.quantities import orbital_momentum, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled, slope_along
 
@@ -18,9 +18,9 @@ _FULL = tuple(structure for structure in structures() if not structure.reduced)
 
 
 def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
-    """d/dtau of orbit + (32/5) spin, the angular momentum over m a^2 omega0, along the emitted right-hand side."""
+    """d/dtau of orbital_momentum + (32/5) spin, the angular momentum over m a^2 omega0, along the emitted right-hand side."""
     rates = emitted_rates(derive(structure))
-    return sp.factor(sp.expand(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], laws)))
+    return sp.factor(sp.expand(filled(rates[orbital_momentum] + sp.Rational(32, 5) * rates[spin], laws)))
 
 
 @cache

@@ -29,10 +29,10 @@ from ..vocabulary.quantities import (
     e_dry,
     gap,
     m,
+    normal_velocity,
     omega,
     omega0,
-    opening,
-    orbit,
+    orbital_momentum,
     r,
     spin,
     v0,
@@ -108,7 +108,10 @@ def angular_momentum(lever: Law) -> Check:
         if structure.oblique and not structure.strings and not structure.reduced:
             model = derive(structure)
             rates = emitted_rates(model)
-            left.append(filled(rates[orbit] + sp.Rational(32, 5) * rates[spin], {"arm": lever}) - model.expanded(lost))
+            left.append(
+                filled(rates[orbital_momentum] + sp.Rational(32, 5) * rates[spin], {"arm": lever})
+                - model.expanded(lost)
+            )
     if conserves(lever):
         words = "; ".join(each.describe() for each in found(lever))
         return vanishing(
@@ -176,8 +179,8 @@ def bridge_does_work() -> Check:
             model = derive(structure)
             force = model.expanded(BRIDGE_FORCE)
             power = dict(model["energy_rates"].outputs)["capillary"]
-            left += [force.diff(state) for state in (opening, orbit, spin, beta)]
-            left.append(model.expanded(power) - force * opening)
+            left += [force.diff(state) for state in (normal_velocity, orbital_momentum, spin, beta)]
+            left.append(model.expanded(power) - force * normal_velocity)
     return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
 
 

@@ -20,12 +20,12 @@ from ..vocabulary.quantities import (
     contact_angle,
     gap,
     mu,
+    normal_velocity,
     nu,
     obliquity,
     omega,
     omega0,
-    opening,
-    orbit,
+    orbital_momentum,
     p_gt,
     r,
     spin,
@@ -57,7 +57,7 @@ def resting_is_held() -> Check:
             continue
         model = derive(structure)
         for state, rate in emitted_rates(model).items():
-            flown = sp.Integer(0) if state in (gap, opening) else rate.subs(opening, 0)
+            flown = sp.Integer(0) if state in (gap, normal_velocity) else rate.subs(normal_velocity, 0)
             left.append(_value(model, "resting_rates", state.name) - flown)
     return vanishing("resting contact", "rates at rest = rates in flight with u = 0 and du/dt = 0", left)
 
@@ -67,7 +67,7 @@ def inward_is_minus_the_acceleration() -> Check:
     left = []
     for structure in structures():
         model = derive(structure)
-        inward = -emitted_rates(model)[opening].subs(FILM, 0)
+        inward = -emitted_rates(model)[normal_velocity].subs(FILM, 0)
         left.append(_value(model, "inward_force", "inward_force") - inward)
         if "release" in dict(model["events"].outputs):
             left.append(_value(model, "events", "release") - inward)
@@ -114,13 +114,13 @@ def _si_events() -> dict[str, sp.Expr]:
         "film_edge": (x0 - x) / x0,
         "tangential_edge": (2 * a - x) / x0,
         "half_turn": sp.pi - beta,
-        "unwinding": orbit,
+        "unwinding": orbital_momentum,
     }
 
 
 def events_are_the_definitions() -> Check:
     """Every event function, its groups by their definitions, is the criterion in SI."""
-    back = {gap: x / x0, opening: u / v0, **group_definitions()}
+    back = {gap: x / x0, normal_velocity: u / v0, **group_definitions()}
     laws = {"glass": LAWS["glass"]["literal"], "shear": LAWS["shear"]["immersed"]}
     defined = _si_events()
     left = []

@@ -18,8 +18,8 @@ from ..vocabulary.quantities import (
     e_dry,
     elastic_gap,
     gap,
-    opening,
-    orbit,
+    normal_velocity,
+    orbital_momentum,
     rough_gap,
     rupture_gap,
     spin,
@@ -54,18 +54,20 @@ def margins_are_the_forces() -> Check:
         model = derive(structure)
         emitted = dict(model["inward_force"].outputs)["inward_force"]
         force = model.expanded(emitted).subs(DISTANCE, 4 + aspect * gap)
-        attraction = force.subs({weight: 0, orbit: 0})
-        strings, outward = force.subs(orbit, 0) - attraction, force.subs(orbit, 0) - force
+        attraction = force.subs({weight: 0, orbital_momentum: 0})
+        strings, outward = force.subs(orbital_momentum, 0) - attraction, force.subs(orbital_momentum, 0) - force
         contact, end = sp.Max(elastic_gap, rough_gap), rupture_gap
         share = (4 + aspect * end) ** 2 / ((4 + aspect * end) ** 2 + sp.Rational(32, 5))
-        momentum = orbit + sp.Rational(32, 5) * spin
+        momentum = orbital_momentum + sp.Rational(32, 5) * spin
         least, most = attraction.subs(gap, end), strings.subs({gap: end, beta: sp.pi}, simultaneous=True)
-        away = outward.subs({gap: contact, orbit: sp.Max(orbit, momentum * share)}, simultaneous=True)
+        away = outward.subs(
+            {gap: contact, orbital_momentum: sp.Max(orbital_momentum, momentum * share)}, simultaneous=True
+        )
         hold = least + strings.subs(gap, contact) - away
         found = {name: model.expanded(value) for name, value in model["held"].outputs}
         left += [
             found["hold"] - hold,
-            found["flight"] - (sp.Max(opening, -e_dry * opening) ** 2 / 2 - hold * (end - gap)),
+            found["flight"] - (sp.Max(normal_velocity, -e_dry * normal_velocity) ** 2 / 2 - hold * (end - gap)),
             found["rebound"] - (e_dry**2 * (least + most) - hold),
         ]
     return vanishing("held: margins", "inward force at its least, at J_max and at the rupture distance", left)

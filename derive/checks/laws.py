@@ -16,7 +16,7 @@ from ..physics.laws.strings import offset_squared
 from ..physics.mechanics import F_n, F_t, S_n, S_t
 from ..physics.scaling import DISTANCE
 from ..physics.structure import structures
-from ..vocabulary.quantities import aspect, gap, l_s, omega, orbit, spin, string_ratio, x, x0, xi
+from ..vocabulary.quantities import aspect, gap, l_s, omega, orbital_momentum, spin, string_ratio, x, x0, xi
 from .base import Check, vanishing
 
 
@@ -26,7 +26,7 @@ def rigid_rotation_is_free() -> Check:
     for structure in structures():
         if structure.oblique and not structure.reduced:
             model = derive(structure)
-            rigid = {orbit: spin * model.expanded(DISTANCE) ** 2}
+            rigid = {orbital_momentum: spin * model.expanded(DISTANCE) ** 2}
             left.append(model.expanded(SHEAR_FORCE).subs(rigid))
     return vanishing("rigid rotation", "omega = xi: no tangential force, for every tangential law", left)
 
@@ -89,7 +89,7 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
     for law in laws:
         integral, integrated = film_integral(law)
         speed = -(1 - integral / stokes)
-        rate = filled(model.expanded(dict(model["right_hand_side"].outputs)["opening"]), {"film": law})
+        rate = filled(model.expanded(dict(model["right_hand_side"].outputs)["normal_velocity"]), {"film": law})
         left = [speed * speed.diff(gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(gap, 1) + 1]
         left += [integral - each(gap) for each in law.functions if each.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")

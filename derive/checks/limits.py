@@ -7,7 +7,7 @@ import sympy as sp
 from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import aspect, beta, orbit, spin
+from ..vocabulary.quantities import aspect, beta, orbital_momentum, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 
@@ -21,11 +21,14 @@ def reduced_is_full() -> Check:
             continue
         reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
         initial = (4 + aspect) ** 2  # L/(m a^2 omega0) at initial contact, where nothing spins
-        eliminated = {spin: (initial - orbit) * sp.Rational(5, 32)}
+        eliminated = {spin: (initial - orbital_momentum) * sp.Rational(5, 32)}
         rates, full_rates = emitted_rates(reduced), emitted_rates(full)
         left += [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]
         # the spin eliminated turns as the full equations say it does
-        left.append(eliminated[spin].diff(orbit) * rates[orbit] - filled(full_rates[spin], midgap).subs(eliminated))
+        left.append(
+            eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
+            - filled(full_rates[spin], midgap).subs(eliminated)
+        )
         for name in ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start"):
             of_full = dict(full[name].outputs)
             for key, expression in reduced[name].outputs:
@@ -37,7 +40,7 @@ def reduced_is_full() -> Check:
 
 def head_on_is_oblique_at_rest() -> Check:
     """An oblique doublet that does not rotate is the head-on one, and does not start to rotate."""
-    still = {orbit: 0, spin: 0, beta: 0}
+    still = {orbital_momentum: 0, spin: 0, beta: 0}
     left = []
     for head_on in structures():
         if head_on.oblique:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..equations.certificates.strings import outward_at, pull_at, rigid_orbit
+from ..equations.certificates.strings import outward_at, pull_at, rigid_momentum
 from ..equations.intermediates import CENTRIFUGAL_FORCE, STRING_PULL
 from ..equations.model import derive
 from ..equations.rates import rates
@@ -17,8 +17,8 @@ from ..vocabulary.quantities import (
     elastic_gap,
     gap,
     glass_number,
-    opening,
-    orbit,
+    normal_velocity,
+    orbital_momentum,
     rough_gap,
     spin,
     stokes,
@@ -31,13 +31,13 @@ _TETHERED = Structure(oblique=True, bridge=False, strings=True)
 def _bounds() -> dict[str, tuple[sp.Expr, str]]:
     """Each margin with its lemma put in at the gap, angle and speed where it is worst, and in words."""
     contact, touch = sp.Max(elastic_gap, rough_gap), sp.Integer(1)
-    largest = sp.Max(orbit, rigid_orbit(orbit + sp.Rational(32, 5) * spin, 4 + aspect * touch))
-    fastest = sp.sqrt(sp.Min(opening, 0) ** 2 + 2 * pull_at(touch, sp.pi))
+    largest = sp.Max(orbital_momentum, rigid_momentum(orbital_momentum + sp.Rational(32, 5) * spin, 4 + aspect * touch))
+    fastest = sp.sqrt(sp.Min(normal_velocity, 0) ** 2 + 2 * pull_at(touch, sp.pi))
     reach = sp.Max(contact, slot_call("glass", "reach", fastest, glass_number))
     return {
         "outward": (outward_at(largest, 4 + aspect * contact), "J_max^2/r^3, J_max of r_f, r in contact"),
         "pull": (pull_at(contact, beta), "S_n in contact at the present beta"),
-        "film": (stokes * sp.Max(opening, 0) - slot_call("film", "stopping", gap), "u St/v0 - Lf(x)"),
+        "film": (stokes * sp.Max(normal_velocity, 0) - slot_call("film", "stopping", gap), "u St/v0 - Lf(x)"),
         "recoil": (
             stokes * e_dry * fastest - slot_call("film", "stopping", reach),
             "e_dry u_max St/v0 - Lf(x_R), u_max^2 = min(u, 0)^2 + 2 S_n(x0, pi) x0/m, x_R = max(contact, reach(u_max))",
@@ -67,9 +67,9 @@ def closing_gains_the_pull() -> Check:
     """u_max: nothing but the strings speeds a closing doublet up, by their pull over the gap, which is at most x0."""
     model = derive(_TETHERED)
     left = [
-        rates(_TETHERED)[opening].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
+        rates(_TETHERED)[normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
         model.expanded(STRING_PULL) - pull_at(gap, beta),  # what the lemmas bound is what is emitted
-        model.expanded(CENTRIFUGAL_FORCE) - outward_at(orbit, 4 + aspect * gap),
+        model.expanded(CENTRIFUGAL_FORCE) - outward_at(orbital_momentum, 4 + aspect * gap),
     ]
     return vanishing("closing gains the pull", "d(u^2/2)/dx = -S_n/m + what slows: u_max^2 - u^2 <= 2 S x0/m", left)
 

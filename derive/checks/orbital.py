@@ -18,7 +18,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
-from ..vocabulary.quantities import aspect, gap, obliquity, orbit, spin
+from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 
@@ -36,7 +36,7 @@ def exchange() -> Check:
     rates = emitted_rates(derive(_FULL))
     here = 4 + aspect * gap
     for law in LAWS["arm"].values():
-        to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbit, spin))
+        to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbital_momentum, spin))
         left.append(to_orbit + exchanged(here, law["lever"](here)) * to_spin)
     return vanishing("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi", left)
 
@@ -127,11 +127,11 @@ def as_emitted() -> Check:
         found = {name: model.expanded(value) for name, value in model["orbital"].outputs}
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
-        left.append(found["slip"] - (orbit / here**2 - turning))
-        left.append(found["orbit_energy"] - unit * orbit**2 / (2 * here**2))
-        left.append(found["midgap"] - unit * midgap(here, orbit, turning))
+        left.append(found["slip"] - (orbital_momentum / here**2 - turning))
+        left.append(found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2))
+        left.append(found["midgap"] - unit * midgap(here, orbital_momentum, turning))
         if "surface" in found:
-            own = surface(here, orbit, turning, rigid_share(orbit, turning))
+            own = surface(here, orbital_momentum, turning, rigid_share(orbital_momentum, turning))
             left.append(found["surface"] - unit * own)
     return vanishing("orbital: as emitted", "slip and slip energies over m v0^2", left)
 

@@ -16,8 +16,8 @@ from ..vocabulary.quantities import (
     gap,
     mass_ratio,
     mu,
-    opening,
-    orbit,
+    normal_velocity,
+    orbital_momentum,
     partner_spin,
     radius_ratio,
     roll,
@@ -68,7 +68,9 @@ def angular_momentum_is_kept() -> Check:
     model = derive(_PAIR)
     momentum = opened(model, dict(model["angular_momentum"].outputs)["angular_momentum"])
     rates = opened_rates(model)
-    change = sum((momentum.diff(state) * rates[state] for state in (orbit, spin, partner_spin)), sp.Integer(0))
+    change = sum(
+        (momentum.diff(state) * rates[state] for state in (orbital_momentum, spin, partner_spin)), sp.Integer(0)
+    )
     statement = "dL/dt = 0 along the emitted equations (midgap arm, any law)"
     return vanishing("pair: angular momentum", statement, [filled(change, _MIDGAP)])
 
@@ -160,7 +162,7 @@ def slip_energy_adds() -> Check:
     left = []
     for structure in (_PAIR, replace(_PAIR, partner="")):
         model = derive(structure)
-        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"]).subs(opening, 0)
+        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"]).subs(normal_velocity, 0)
         rigid = {s: opened(model, dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states[2:]}
         least = opened(model, dict(model["effective_potential"].outputs)["energy"])
         apart = kinetic.subs({state: state - value for state, value in rigid.items()}, simultaneous=True)
@@ -176,7 +178,7 @@ def wall_is_head_on() -> Check:
     """
     beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
     rates, expected = emitted_rates(beside), emitted_rates(alone)
-    left = [rates[state] - expected[state] for state in (gap, opening)]
+    left = [rates[state] - expected[state] for state in (gap, normal_velocity)]
     for name in ("events", "inward_force", "effective_potential", "reversal", "reversal_loss"):
         here = dict(beside[name].outputs)
         left += [beside.expanded(here[key]) - alone.expanded(value) for key, value in alone[name].outputs]

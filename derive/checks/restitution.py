@@ -16,9 +16,9 @@ from ..vocabulary.quantities import (
     aspect,
     gap,
     m,
+    normal_velocity,
     obliquity,
     omega,
-    opening,
     r,
     theta0,
     u,
@@ -94,14 +94,14 @@ def decomposition() -> Check:
         start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states}
         jump = {s: dict(model["reversal"].outputs)[s.name] for s in model.states}
         lost = model.expanded(dict(model["reversal_loss"].outputs)["dry_contact"])
-        turning = sp.expand(kinetic - opening**2 / 2)
+        turning = sp.expand(kinetic - normal_velocity**2 / 2)
         released = turning.subs(start, simultaneous=True) - turning
         # opening^2 - 1 - 2 (released - taken), `taken` being the integral of energy_rates and the strings' rise
-        open_by = opening**2 - 1 - 2 * released
+        open_by = normal_velocity**2 - 1 - 2 * released
         left.append(open_by.subs(start, simultaneous=True))
         left.append(open_by.subs(jump, simultaneous=True) + 2 * lost - open_by)
         left.append(energy_balance(structure))  # half its rate, for opening^2/2 + turning is all of `kinetic`
-        left.append(turning.diff(opening))
+        left.append(turning.diff(normal_velocity))
     return vanishing(
         "decomposition of e_n^2 - 1",
         "e_n^2 - 1 = 2 (rotational energy released - D_n - D_t - W_c - D_dry - dU_s)/(m v0^2)",

@@ -9,7 +9,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations.certificates.strings import outward_at, pull_at, rigid_orbit
+from ..equations.certificates.strings import outward_at, pull_at, rigid_momentum
 from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE
 from ..equations.model import Model, derive
 from ..equations.rates import rates
@@ -23,8 +23,8 @@ from ..vocabulary.quantities import (
     beta,
     gap,
     glass_number,
-    opening,
-    orbit,
+    normal_velocity,
+    orbital_momentum,
     spin,
     stokes,
     string_ratio,
@@ -51,7 +51,7 @@ def _midgap(expression: sp.Expr) -> sp.Expr:
 def momentum_falls() -> Check:
     """dL/dt = -r S_t, and S_t has the sign of sin(beta): without the strings nothing turns the doublet."""
     found = emitted_rates(_model())
-    total = _midgap(found[orbit] + sp.Rational(32, 5) * found[spin])
+    total = _midgap(found[orbital_momentum] + sp.Rational(32, 5) * found[spin])
     lever = sp.sin(beta) * sp.Function("strings.stiffness", real=True)(string_ratio, _swing())
     share = sp.simplify(total / lever)
     ok = bool(_positive(-share))
@@ -75,23 +75,26 @@ def _positive(expression: sp.Expr) -> bool | None:
     )
 
 
-def orbit_is_bounded() -> Check:
+def orbital_momentum_is_bounded() -> Check:
     """J falls wherever it exceeds the rigid body's share of L, and that share grows with the gap and with L."""
     model = _model()
-    momentum = orbit + sp.Rational(32, 5) * spin
-    share = rigid_orbit(momentum, DISTANCE)
-    slip = model.expanded(orbit / DISTANCE**2 - spin).subs(DISTANCE, 4 + aspect * gap)
+    momentum = orbital_momentum + sp.Rational(32, 5) * spin
+    share = rigid_momentum(momentum, DISTANCE)
+    slip = model.expanded(orbital_momentum / DISTANCE**2 - spin).subs(DISTANCE, 4 + aspect * gap)
     inverse = (1 / DISTANCE**2 + sp.Rational(5, 32)).subs(DISTANCE, 4 + aspect * gap)
-    identity = slip - (orbit - share.subs(DISTANCE, 4 + aspect * gap)) * inverse
+    identity = slip - (orbital_momentum - share.subs(DISTANCE, 4 + aspect * gap)) * inverse
     # dJ/dt holds nothing but the shear, which has the sign of the slip, and the strings
     log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
-    without = emitted_rates(model)[orbit].subs(log_factor, 0)
-    shear = sp.simplify((emitted_rates(model)[orbit] - without) / (SHEAR * log_factor * slip))
+    without = emitted_rates(model)[orbital_momentum].subs(log_factor, 0)
+    shear = sp.simplify((emitted_rates(model)[orbital_momentum] - without) / (SHEAR * log_factor * slip))
     level = sp.Symbol("momentum", positive=True)
-    slope = sp.together(rigid_orbit(level, DISTANCE).diff(DISTANCE))
+    slope = sp.together(rigid_momentum(level, DISTANCE).diff(DISTANCE))
     rest = vanishing("", "", [identity])
     ok = (
-        rest.ok and bool(_positive(-shear)) and bool(_positive(slope)) and bool(_positive(rigid_orbit(level, DISTANCE)))
+        rest.ok
+        and bool(_positive(-shear))
+        and bool(_positive(slope))
+        and bool(_positive(rigid_momentum(level, DISTANCE)))
     )
     return Check(
         "J stays below J_max",
@@ -140,10 +143,10 @@ def film_stops() -> Check:
     left = [
         law["stopping"].result.diff(gap) + law["resistance"].result,
         law["stopping"].result.subs(gap, 1),
-        rates(_TETHERED)[opening].coeff(FILM_FORCE) + 1,
-        rates(_TETHERED)[opening].coeff(CENTRIFUGAL_FORCE) - 1,
-        rates(_TETHERED)[opening].diff(BRIDGE_FORCE),
-        dict(_model().definitions)[FILM_FORCE].diff(opening) * stokes / sp.Symbol("film", nonnegative=True)
+        rates(_TETHERED)[normal_velocity].coeff(FILM_FORCE) + 1,
+        rates(_TETHERED)[normal_velocity].coeff(CENTRIFUGAL_FORCE) - 1,
+        rates(_TETHERED)[normal_velocity].diff(BRIDGE_FORCE),
+        dict(_model().definitions)[FILM_FORCE].diff(normal_velocity) * stokes / sp.Symbol("film", nonnegative=True)
         - sp.Function("film.resistance", real=True)(gap),
     ]
     return vanishing("the film stops", "d(u St/v0)/dx = -resistance - St (inward)/u <= -resistance", left)
@@ -176,7 +179,7 @@ def tethered() -> tuple[Check, ...]:
     """Every step of the stick proof on strings."""
     return (
         momentum_falls(),
-        orbit_is_bounded(),
+        orbital_momentum_is_bounded(),
         *pull_grows(),
         centrifugal_falls(),
         film_stops(),

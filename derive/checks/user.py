@@ -26,7 +26,7 @@ _TRIED: Mapping[str, tuple[float, ...]] = {
     "gap": (1e-3, 0.01, 0.1, 0.3, 0.7, 0.99),
     "distance": (4.001, 4.1, 4.5, 6.0),
     "approach": (1e-3, 0.1, 1.0),
-    "opening": (-1.0, -0.1, -1e-3, 1e-3, 0.1, 1.0),
+    "normal_velocity": (-1.0, -0.1, -1e-3, 1e-3, 0.1, 1.0),
     "aspect": (1e-3, 0.05, 0.16),
     "volume": (1e-3, 0.01, 0.1),
     "contact_angle": (0.0, 0.5, 1.0),

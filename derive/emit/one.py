@@ -13,7 +13,7 @@ from ..physics.laws.base import Law
 from ..physics.structure import Structure, known
 from ..user_model.modelfile import read
 from ..user_model.structures import UserModel
-from ..vocabulary.quantities import opening
+from ..vocabulary.quantities import normal_velocity
 from .casadi.modules import (
     law_kernel,
     law_module,
@@ -103,7 +103,7 @@ def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
     for each in law.functions:
         passed = model.extra.get(f"{law.slot}.{each.name}", ())
         unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in passed)
-        still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol != opening}
+        still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol != normal_velocity}
         functions.append(replace(each, arguments=(*each.arguments, *unused)))
     return replace(law, functions=tuple(functions)), still
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 _SIGNED = {
-    "opening",
-    "orbit",
+    "normal_velocity",
+    "orbital_momentum",
     "spin",
     "orbital_rate",
     "slip",

@@ -14,8 +14,8 @@ from ..vocabulary.quantities import (
     elastic_gap,
     gap,
     glass_number,
-    opening,
-    orbit,
+    normal_velocity,
+    orbital_momentum,
     rough_gap,
     rupture_gap,
     spin,
@@ -25,11 +25,11 @@ from .rates import inward_force
 
 def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """State at initial contact: closing at v0, the line of centres turning and nothing spinning."""
-    touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), opening: sp.Integer(-1)}
+    touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), normal_velocity: sp.Integer(-1)}
     if structure.partner:
         return touching | dict(rotation(structure.partner).start)
     return touching | {
-        orbit: (4 + aspect) ** 2,
+        orbital_momentum: (4 + aspect) ** 2,
         spin: sp.Integer(0),
         beta: sp.Integer(0),
     }
@@ -38,10 +38,10 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 def events(structure: Structure) -> dict[str, sp.Expr]:
     """Event functions, each positive before its event."""
     functions: dict[str, sp.Expr] = {
-        "glass": glass_number - slot_call("glass", "pressure", gap, -opening),
+        "glass": glass_number - slot_call("glass", "pressure", gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": opening,
+        "turning": normal_velocity,
         "rupture": (rupture_gap if structure.bridge else 1) - gap,
     }
     if structure.bridge and not structure.spread:
@@ -52,15 +52,15 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
         functions["release"] = inward_force(structure)
     if structure.oblique and structure.strings:
         functions["half_turn"] = sp.pi - beta
-        functions["unwinding"] = orbit
+        functions["unwinding"] = orbital_momentum
     return functions
 
 
 def reversal(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
     """State just after a reversal by the solids: u -> -e_dry u, all else continues."""
-    return {state: -e_dry * opening if state == opening else state for state in states}
+    return {state: -e_dry * normal_velocity if state == normal_velocity else state for state in states}
 
 
 def reversal_loss() -> sp.Expr:
     """Energy lost in a reversal, over m v0^2."""
-    return sp.Rational(1, 2) * opening**2 * (1 - e_dry**2)
+    return sp.Rational(1, 2) * normal_velocity**2 * (1 - e_dry**2)

@@ -12,7 +12,7 @@ from ..physics.mechanics import F_c, F_n, F_t, F_w, doublet_inertia, equations_o
 from ..physics.partners import rotation
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import a, aspect, gap, m, omega, omega0, orbit, r, spin
+from ..vocabulary.quantities import a, aspect, gap, m, omega, omega0, orbital_momentum, r, spin
 from .invariants import Invariant
 
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
@@ -72,7 +72,7 @@ def _rotation(conserved: Conserved | None) -> list[Definition]:
 
 def by_orbital_rate(expression: sp.Expr) -> sp.Expr:
     """The nondimensional `expression` in the orbital rate, in place of the orbital angular momentum."""
-    return expression.subs(orbit, ORBITAL_RATE * DISTANCE**2)
+    return expression.subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
 
 def _scaled(force: sp.Expr, scale: sp.Expr) -> sp.Expr:

@@ -74,7 +74,7 @@ class Invariant:
         return sp.solve(sp.Eq(self.expression, value), momentum)[0]
 
     def describe(self) -> str:
-        """In words: `orbit + (32/5) spin: angular momentum L/(m a^2 omega0)`."""
+        """In words: `orbital_momentum + (32/5) spin: angular momentum L/(m a^2 omega0)`."""
         terms = []
         for momentum, factor in self.coefficients:
             plain = factor.is_Symbol or factor.is_Integer

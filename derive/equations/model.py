@@ -27,9 +27,9 @@ from ..vocabulary.quantities import (
     gap,
     glass_number,
     mass_ratio,
+    normal_velocity,
     obliquity,
-    opening,
-    orbit,
+    orbital_momentum,
     radius_ratio,
     rough_gap,
     rupture_gap,
@@ -134,11 +134,11 @@ def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
 
 
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
-    states = [gap, opening]
+    states = [gap, normal_velocity]
     if structure.partner:
         return (*states, *rotation(structure.partner).states)
     if structure.oblique:
-        states += [orbit] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
+        states += [orbital_momentum] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
     return tuple(states)
 
 
@@ -196,7 +196,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         ),
         ModelFunction(
             "events",
-            "Event functions, each positive before its event: the criteria while closing, `turning` the opening "
+            "Event functions, each positive before its event: the criteria while closing, `turning` the normal "
             "velocity (its sign tells closing from opening), `release` in resting contact.",
             tuple(events(structure).items()),
         ),
@@ -257,7 +257,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             ModelFunction(
                 "orbital",
                 "Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for "
-                "either arm: margins of the proof by the orbit's momentum.",
+                "either arm: margins of the proof by the orbital momentum.",
                 tuple(orbital.margins(structure).items()),
             )
         )
@@ -282,7 +282,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             ModelFunction(
                 "escape_energy",
                 "Energy over m v0^2 of the motion along the line of centres, which alone can part the two.",
-                (("kinetic", opening**2 / 2),),
+                (("kinetic", normal_velocity**2 / 2),),
             )
         )
     if not structure.strings and not structure.partner:

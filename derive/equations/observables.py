@@ -17,10 +17,10 @@ from ..vocabulary.quantities import (
     g,
     gap,
     m,
+    normal_velocity,
     omega,
     omega0,
-    opening,
-    orbit,
+    orbital_momentum,
     r,
     spin,
     string_ratio,
@@ -55,7 +55,7 @@ def energies(structure: Structure) -> dict[str, sp.Expr]:
 
 def _kinetic(structure: Structure) -> sp.Expr:
     if structure.partner:
-        return opening**2 / 2 + rotation(structure.partner).kinetic
+        return normal_velocity**2 / 2 + rotation(structure.partner).kinetic
     energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
     if not structure.oblique:
         energy = energy.subs({omega: 0, xi: 0})
@@ -75,11 +75,11 @@ def _lifted() -> sp.Expr:
 
 def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
     """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2."""
-    taken = {"normal_lubrication": FILM_FORCE * opening}
+    taken = {"normal_lubrication": FILM_FORCE * normal_velocity}
     if structure.bridge:
-        taken["capillary"] = BRIDGE_FORCE * opening
+        taken["capillary"] = BRIDGE_FORCE * normal_velocity
     if structure.attraction:
-        taken["attraction"] = ATTRACTION_FORCE * opening
+        taken["attraction"] = ATTRACTION_FORCE * normal_velocity
     if structure.partner:
         taken["tangential_lubrication"] = rotation(structure.partner).power
     elif structure.oblique and not structure.reduced:
@@ -97,7 +97,7 @@ def angular_momentum(structure: Structure) -> sp.Expr | None:
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
     """What a separated doublet shows: restitutions, and rates over omega0."""
-    shown: dict[str, sp.Expr] = {"restitution": opening}
+    shown: dict[str, sp.Expr] = {"restitution": normal_velocity}
     if structure.partner:
         return shown | dict(rotation(structure.partner).outputs)
     if structure.oblique:
@@ -130,9 +130,9 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
 def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
     if structure.partner:
-        return {gap: gap, opening: sp.Integer(0), **rotation(structure.partner).rigid}
+        return {gap: gap, normal_velocity: sp.Integer(0), **rotation(structure.partner).rigid}
     rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
-    return {gap: gap, opening: sp.Integer(0), orbit: DISTANCE**2 * rate, spin: rate}
+    return {gap: gap, normal_velocity: sp.Integer(0), orbital_momentum: DISTANCE**2 * rate, spin: rate}
 
 
 def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
@@ -141,7 +141,11 @@ def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
     Twice the energy at the start less the least rotational energy at this gap for the L of the start.
     """
     first = start(structure)
-    at_start = {ORBITAL_RATE: first[orbit] / DISTANCE**2, opening: first[opening], spin: first[spin]}
+    at_start = {
+        ORBITAL_RATE: first[orbital_momentum] / DISTANCE**2,
+        normal_velocity: first[normal_velocity],
+        spin: first[spin],
+    }
     initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + aspect)
     least = sp.Integer(0)
     if structure.oblique:

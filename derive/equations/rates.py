@@ -11,7 +11,21 @@ from ..physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, equations_of_
 from ..physics.partners import rotation
 from ..physics.scaling import INERTIA, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import a, beta, gap, m, omega, omega0, opening, orbit, r, spin, u, v0, x0
+from ..vocabulary.quantities import (
+    a,
+    beta,
+    gap,
+    m,
+    normal_velocity,
+    omega,
+    omega0,
+    orbital_momentum,
+    r,
+    spin,
+    u,
+    v0,
+    x0,
+)
 from .intermediates import (
     ATTRACTION_FORCE,
     BRIDGE_FORCE,
@@ -41,18 +55,18 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     rate: dict[sp.Symbol, sp.Expr] = {gap: nondimensional(u / v0)}
     acceleration = motion.separation_acceleration.subs(normal)
     if not structure.oblique:
-        rate[opening] = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+        rate[normal_velocity] = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
         return rate
     if structure.partner:
         beside = rotation(structure.partner)
         forces = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
-        return rate | {opening: beside.centrifugal + forces} | dict(beside.rates)
+        return rate | {normal_velocity: beside.centrifugal + forces} | dict(beside.rates)
     # the centrifugal term is named: what is left is minus the forces
     centrifugal = sp.expand(acceleration - acceleration.subs(omega, 0))
     assert sp.expand(centrifugal - r * omega**2) == 0
-    rate[opening] = CENTRIFUGAL_FORCE + sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+    rate[normal_velocity] = CENTRIFUGAL_FORCE + sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
     pull_round = motion.orbital_momentum_rate.subs(tangential) / (m * a**2 * omega0) * x0 / v0
-    rate[orbit] = nondimensional(pull_round)
+    rate[orbital_momentum] = nondimensional(pull_round)
     if not structure.reduced:
         spin_up = motion.spin_acceleration.subs(tangential).subs(arm, a * LEVER)
         rate[spin] = nondimensional(spin_up * x0 / (v0 * omega0))
@@ -63,7 +77,7 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 
 def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """Time derivatives of the states in resting contact: gap held, the rotation goes on."""
-    return {**rates(structure), gap: sp.Integer(0), opening: sp.Integer(0)}
+    return {**rates(structure), gap: sp.Integer(0), normal_velocity: sp.Integer(0)}
 
 
 def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
@@ -75,4 +89,4 @@ def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
 
 def inward_force(structure: Structure) -> sp.Expr:
     """What holds a doublet at rest together: every normal force but the film's, positive inward."""
-    return -(rates(structure)[opening].subs(FILM_FORCE, 0))
+    return -(rates(structure)[normal_velocity].subs(FILM_FORCE, 0))

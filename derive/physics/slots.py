@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..vocabulary.dimensions import ONE, Dimension, dimension_of
-from ..vocabulary.quantities import DIMENSIONS, opening, u, v0, x, x0
+from ..vocabulary.quantities import DIMENSIONS, normal_velocity, u, v0, x, x0
 from .forces import FILM, SHEAR, force_laws
 from .laws import LAWS
 from .laws.base import is_slot_call
@@ -69,5 +69,5 @@ def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
     return found
 
 
-MOTION: dict[str, tuple[sp.Symbol, ...]] = {"film": (opening,), "shear": (opening,)}
+MOTION: dict[str, tuple[sp.Symbol, ...]] = {"film": (normal_velocity,), "shear": (normal_velocity,)}
 """States other than the gap that a slot's law may depend on: what the stick certificates do not need to know."""

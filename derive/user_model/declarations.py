@@ -60,10 +60,10 @@ from ..vocabulary.quantities import (  # fmt: skip
     l_s,
     m,
     mu,
+    normal_velocity,
     nu,
     omega,
     omega0,
-    opening,
     p_gt,
     r,
     rho,
@@ -77,14 +77,15 @@ from ..vocabulary.quantities import (  # fmt: skip
     xi,
 )
 from ..vocabulary.quantities import contact_angle as phi
+from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
 from ..vocabulary.unitnames import UnitError, dimension_of_unit
 
 __all__ = [
     "Abs", "E", "Max", "Min", "Piecewise", "R", "Rational", "V", "a", "acos", "approach", "asin", "aspect", "atan",
     "cos", "cosh", "distance", "e_dry", "exp", "g", "gap", "glass_number", "h", "l_s", "law", "let", "log", "m", "mu",
-    "nu", "offset_squared", "omega", "omega0", "opening", "p_gt", "phi", "pi", "quantity", "r", "rho", "sigma", "sin",
-    "sinh", "sp", "sqrt", "string_ratio", "tan", "tanh", "u", "v0", "x", "x0", "x_b", "xi",
+    "normal_velocity", "nu", "offset_squared", "omega", "omega0", "opening", "p_gt", "phi", "pi", "quantity", "r",
+    "rho", "sigma", "sin", "sinh", "sp", "sqrt", "string_ratio", "tan", "tanh", "u", "v0", "x", "x0", "x_b", "xi",
 ]  # fmt: skip
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")

@@ -14,7 +14,7 @@ from ..physics.laws.base import Definition, Law, LawFunction, is_slot_call
 from ..physics.scaling import ScalingError, dimension_matrix, group_definitions, to_groups
 from ..physics.slots import MOTION, Place, places
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
-from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, opening, u, v0, x, x0
+from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, u, v0, x, x0
 from .declarations import Declarations, Declared, Proposed
 
 _ALWAYS = (a, x0, mu, v0, m)  # what every scene has, in the order in which a scale is looked for
@@ -94,7 +94,7 @@ class UserModel:
 
 def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
     """At rest in the gap nothing opens."""
-    return expression.subs(opening, 0) if (function, key) == ("effective_potential", "slope") else expression
+    return expression.subs(normal_velocity, 0) if (function, key) == ("effective_potential", "slope") else expression
 
 
 def express(name: str, meaning: str, declared: Declarations) -> UserModel:
@@ -127,7 +127,7 @@ class _Extra:
     """The arguments that a slot's functions take beside their own, over all its laws."""
 
     def __init__(self, groups: Mapping[str, Group]) -> None:
-        self.order = (opening, *GROUPS, *(group.symbol for group in groups.values()))
+        self.order = (normal_velocity, *GROUPS, *(group.symbol for group in groups.values()))
         self.found: dict[str, tuple[sp.Symbol, ...]] = {}
 
     def add(self, law: Law, all_places: Mapping[str, Place]) -> None:
@@ -236,7 +236,7 @@ def _function(
     if wrong := sorted(s.name for s in used - allowed):
         own = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
         raise ScalingError(f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {own} and groups")
-    extra = [s for s in (opening, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
+    extra = [s for s in (normal_velocity, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
     arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
     return LawFunction(place.function, arguments, result, place.doc, tuple(parts))
 
@@ -258,7 +258,7 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
         for moving in (x, u):
             if moving in at.free_symbols and moving in expression.free_symbols:
                 expression = expression.subs(moving, sp.solve(sp.Eq(at, argument), moving)[0])
-    expression = expression.subs(u, v0 * opening).subs(own, simultaneous=True)
+    expression = expression.subs(u, v0 * normal_velocity).subs(own, simultaneous=True)
     kept = {s: s for s in place.arguments}
     rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
     for _ in range(3):
@@ -282,7 +282,7 @@ def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place
     functions = []
     for f in law.functions:
         own = all_places[f"{law.slot}.{f.name}"].arguments
-        rules = {s: value for s, value in {**back, opening: u / v0}.items() if s not in own}
+        rules = {s: value for s, value in {**back, normal_velocity: u / v0}.items() if s not in own}
 
         def put(expression: sp.Expr, rules: Mapping[sp.Basic, sp.Basic] = rules) -> sp.Expr:
             return expression.subs(rules, simultaneous=True)

@@ -73,7 +73,7 @@ theta0 = _quantity("angle", r"\theta_0", ONE, "rad", "impact angle, 0 head-on", 
 # Motion
 t = _quantity("time", "t", TIME, "s", "time since initial contact", real=True)
 x = _quantity("separation", "x", LENGTH, "m", "gap between the surfaces")
-u = _quantity("separation_rate", "u", SPEED, "m/s", "opening velocity dx/dt, negative on approach", real=True)
+u = _quantity("separation_rate", "u", SPEED, "m/s", "normal velocity dx/dt, negative on approach", real=True)
 omega = _quantity("rotation_rate", r"\omega", RATE, "rad/s", "angular velocity of the line of centres", real=True)
 xi = _quantity("spin_rate", r"\xi", RATE, "rad/s", "angular velocity of each sphere about its own centre", real=True)
 partner_spin_rate = _quantity(
@@ -104,8 +104,12 @@ attraction = _quantity("attraction_force", "F", FORCE, "N", "all that attracts, 
 
 # Dimensionless states: gap by x0, velocities by v0, angular velocities by omega0, time by x0/v0
 gap = _quantity("gap", "s", ONE, "x0", "gap over film thickness")
-opening = _quantity("opening", "w", ONE, "v0", "opening velocity over impact speed, negative on approach", real=True)
-orbit = _quantity("orbit", "J", ONE, "a^2 omega0", "orbital angular momentum r^2 omega over a^2 omega0", real=True)
+normal_velocity = _quantity(
+    "normal_velocity", "w", ONE, "v0", "normal velocity over impact speed, negative on approach", real=True
+)
+orbital_momentum = _quantity(
+    "orbital_momentum", "J", ONE, "a^2 omega0", "orbital angular momentum r^2 omega over a^2 omega0", real=True
+)
 spin = _quantity("spin", r"\hat\xi", ONE, "omega0", "spin of each sphere over omega0", real=True)
 partner_spin = _quantity(
     "partner_spin", r"\hat\xi_2", ONE, "omega0", "spin of the partner over omega0", PAIR, real=True

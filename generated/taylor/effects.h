@@ -10,7 +10,7 @@ static void act(queue *q, flights *l, fixed *f, int lane, int event)
     case AT_TURNING:
         note(q, l->index[lane], l->closing[lane] ? KIND_TURNED : KIND_FELL_BACK, l->time[lane]);
         new_phase(l, lane);
-        l->y[OPENING][lane] = 0.0;
+        l->y[NORMAL_VELOCITY][lane] = 0.0;
         l->closing[lane] = ~l->closing[lane];
         break;
     case AT_GLASS:

@@ -1,11 +1,11 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5 */
+ * Equations sha256 9d96ea4345e41696ac7f9b0587cb38a4c24920a0f5ca8b7dd20e6d5a11b14940 */
 
 /* Head-on doublet with a film only.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -35,7 +35,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 #if WITH_LEDGER
@@ -45,7 +45,7 @@ enum { GROUPS = 5 };
 
 #if WITH_LEDGER
 typedef struct {
-    vec dry_contact_per_opening_squared;
+    vec dry_contact_per_normal_velocity_squared;
 } ledger_constants;
 
 #endif
@@ -56,7 +56,7 @@ typedef struct {
     vec rough_gap; /* roughness over film thickness */
     vec dry_restitution; /* restitution of the dry contact */
     vec film_force_factor;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     film_resistance_constants film_resistance_law;
     glass_pressure_clearance_constants glass;
 #if WITH_LEDGER
@@ -95,17 +95,17 @@ static inline void scale(constants *c, const vec *q)
 static inline void prepare(constants *c)
 {
     c->film_force_factor = 1.0/c->stokes;
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     film_resistance_prepare(&c->film_resistance_law);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
 #if WITH_LEDGER
-    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.dry_contact_per_normal_velocity_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
 #endif
 }
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
 #endif
@@ -117,7 +117,7 @@ typedef struct {
 #endif
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
-    vec rate_of_opening[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
 #endif
@@ -132,15 +132,15 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 {
     (void)film; (void)shear;
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
-    s->rate_of_opening[PASSING(k)] = -s->film_force[PASSING(k)];
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
+    s->rate_of_normal_velocity[PASSING(k)] = -s->film_force[PASSING(k)];
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
 #endif
 }
@@ -148,13 +148,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -162,16 +162,16 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
 /* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
+    after[NORMAL_VELOCITY] = normal_velocity_2;
 }
 
 /* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
@@ -185,8 +185,8 @@ static inline vec inward_force(const constants *c, const vec *y)
 static inline vec stored_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec energy = 0.5*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec energy = 0.5*normal_velocity_squared;
     return energy;
 }
 
@@ -195,7 +195,7 @@ enum { OUTPUTS = 1 };
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
 }
 
 #define POTENTIAL 1
@@ -235,8 +235,8 @@ enum { ENERGIES = 1 };
 static inline void energies(const constants *c, const vec *y, vec *energy)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec kinetic = 0.5*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec kinetic = 0.5*normal_velocity_squared;
     energy[0] = kinetic;
 }
 
@@ -244,8 +244,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
 static inline vec reversal_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
     return dry_contact;
 }
 

@@ -1,11 +1,11 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 2cd559f275449aa65a42d0a4a5652682b7b959677bd8b8f2fe4054367edc6465 */
+ * Equations sha256 904ade93a46c49575a2a143cdcc95b2cb05508948c8c85d59ad6b9faad9cf8f3 */
 
 /* Head-on doublet with a liquid bridge.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -44,7 +44,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 #if WITH_LEDGER
@@ -54,7 +54,7 @@ enum { GROUPS = 10 };
 
 #if WITH_LEDGER
 typedef struct {
-    vec dry_contact_per_opening_squared;
+    vec dry_contact_per_normal_velocity_squared;
 } ledger_constants;
 
 #endif
@@ -72,7 +72,7 @@ typedef struct {
     vec film_force_factor;
     vec scaled_gap_per_gap;
     vec bridge_force_per_bridge_force_law;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     vec bridge_work_factor;
     film_resistance_constants film_resistance_law;
     bridge_force_constants bridge_force_law;
@@ -129,19 +129,19 @@ static inline void prepare(constants *c)
     c->film_force_factor = 1.0/c->stokes;
     c->scaled_gap_per_gap = 0.5*c->aspect;
     c->bridge_force_per_bridge_force_law = 1.0/(c->capillary*c->stokes);
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     film_resistance_prepare(&c->film_resistance_law);
     bridge_force_prepare(&c->bridge_force_law, c->volume, c->contact_angle);
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
 #if WITH_LEDGER
-    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.dry_contact_per_normal_velocity_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
 #endif
 }
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
 #endif
@@ -156,7 +156,7 @@ typedef struct {
     vec scaled_gap[TERMS];
     bridge_force_series bridge_force_law;
     vec bridge_force[PASSING(ORDER) + 1];
-    vec rate_of_opening[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec rate_of_capillary[PASSING(ORDER) + 1];
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
@@ -172,24 +172,24 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 {
     (void)film; (void)shear;
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
     bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
     s->bridge_force[PASSING(k)] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
-    s->rate_of_opening[PASSING(k)] = -s->bridge_force[PASSING(k)] - s->film_force[PASSING(k)];
+    s->rate_of_normal_velocity[PASSING(k)] = -s->bridge_force[PASSING(k)] - s->film_force[PASSING(k)];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[PASSING(k)] = product(s->opening, s->bridge_force, k);
+    s->rate_of_capillary[PASSING(k)] = product(s->normal_velocity, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
 #if CAPILLARY_STATE
     s->capillary_work[k + 1] = s->rate_of_capillary[PASSING(k)]*next;
 #endif
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
 #endif
 }
@@ -197,13 +197,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -211,16 +211,16 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
 /* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
+    after[NORMAL_VELOCITY] = normal_velocity_2;
 }
 
 /* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
@@ -237,8 +237,8 @@ static inline vec inward_force(const constants *c, const vec *y)
 static inline vec stored_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec energy = 0.5*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec energy = 0.5*normal_velocity_squared;
     return energy;
 }
 
@@ -247,7 +247,7 @@ enum { OUTPUTS = 1 };
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
 }
 
 #define POTENTIAL 1
@@ -284,8 +284,8 @@ enum { ENERGIES = 1 };
 static inline void energies(const constants *c, const vec *y, vec *energy)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec kinetic = 0.5*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec kinetic = 0.5*normal_velocity_squared;
     energy[0] = kinetic;
 }
 
@@ -293,8 +293,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
 static inline vec reversal_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
     return dry_contact;
 }
 

@@ -1,11 +1,11 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 313600c7e7173d8ee00e63eb542f369d16fd93d866f95c0b16097df375939f16 */
+ * Equations sha256 3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a */
 
 /* Head-on doublet with a liquid bridge and pendulum strings.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -46,7 +46,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 #if WITH_LEDGER
@@ -57,7 +57,7 @@ enum { GROUPS = 12 };
 #if WITH_LEDGER
 typedef struct {
     vec strings_per_strings_rise_law;
-    vec dry_contact_per_opening_squared;
+    vec dry_contact_per_normal_velocity_squared;
 } ledger_constants;
 
 #endif
@@ -79,7 +79,7 @@ typedef struct {
     vec bridge_force_per_bridge_force_law;
     vec offset_squared_per_gap_squared;
     vec string_pull_factor;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     vec energy_per_strings_rise_law;
     vec bridge_work_factor;
     film_resistance_constants film_resistance_law;
@@ -145,7 +145,7 @@ static inline void prepare(constants *c)
     c->bridge_force_per_bridge_force_law = 1.0/(c->capillary*c->stokes);
     c->offset_squared_per_gap_squared = 0.25*(c->aspect*c->aspect);
     c->string_pull_factor = c->aspect*c->weight;
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     film_resistance_prepare(&c->film_resistance_law);
@@ -155,13 +155,13 @@ static inline void prepare(constants *c)
     glass_pressure_clearance_prepare(&c->glass, c->glass_number);
 #if WITH_LEDGER
     c->ledger.strings_per_strings_rise_law = 4.0*c->weight/c->aspect;
-    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.dry_contact_per_normal_velocity_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
 #endif
 }
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
 #endif
@@ -180,7 +180,7 @@ typedef struct {
     vec offset_squared[TERMS];
     strings_stiffness_series strings_stiffness_law;
     vec string_pull[PASSING(ORDER) + 1];
-    vec rate_of_opening[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec rate_of_capillary[PASSING(ORDER) + 1];
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
@@ -196,8 +196,8 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 {
     (void)film; (void)shear;
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
     bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
     s->bridge_force[PASSING(k)] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
@@ -205,20 +205,20 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[PASSING(k)];
     strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
     s->string_pull[PASSING(k)] = c->string_pull_factor*product(s->gap, s->strings_stiffness_law.result, k);
-    s->rate_of_opening[PASSING(k)] = -s->bridge_force[PASSING(k)] - s->film_force[PASSING(k)] -
+    s->rate_of_normal_velocity[PASSING(k)] = -s->bridge_force[PASSING(k)] - s->film_force[PASSING(k)] -
         s->string_pull[PASSING(k)];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[PASSING(k)] = product(s->opening, s->bridge_force, k);
+    s->rate_of_capillary[PASSING(k)] = product(s->normal_velocity, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
 #if CAPILLARY_STATE
     s->capillary_work[k + 1] = s->rate_of_capillary[PASSING(k)]*next;
 #endif
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
 #endif
 }
@@ -226,13 +226,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -240,16 +240,16 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
 /* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
+    after[NORMAL_VELOCITY] = normal_velocity_2;
 }
 
 /* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
@@ -273,9 +273,9 @@ static inline vec stored_energy(const constants *c, const vec *y)
     (void)c; (void)y;
     vec gap_squared = y[GAP]*y[GAP];
     vec offset_squared = c->offset_squared_per_gap_squared*gap_squared;
-    vec opening_squared = y[OPENING]*y[OPENING];
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
-    vec energy = 0.5*opening_squared + c->energy_per_strings_rise_law*strings_rise_law;
+    vec energy = 0.5*normal_velocity_squared + c->energy_per_strings_rise_law*strings_rise_law;
     return energy;
 }
 
@@ -284,7 +284,7 @@ enum { OUTPUTS = 1 };
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
 }
 
 #define POTENTIAL 1
@@ -332,8 +332,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     (void)c; (void)y;
     vec gap_squared = y[GAP]*y[GAP];
     vec offset_squared = c->offset_squared_per_gap_squared*gap_squared;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec kinetic = 0.5*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec kinetic = 0.5*normal_velocity_squared;
     vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
     vec strings = c->ledger.strings_per_strings_rise_law*strings_rise_law;
     energy[0] = kinetic;
@@ -344,8 +344,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
 static inline vec reversal_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
     return dry_contact;
 }
 

@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 27ecfd1ceeed8c533d9a794742af99c3644bf01969384e854d6edc0d2e02fa3f */
+ * Equations sha256 086e9f9d9b485ca3952a69793800db1fef580b75e3d815ffd0dbff35e6c5715d */
 
 /* Oblique doublet with a film only.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  * - spin [omega0]: spin of each sphere over omega0
  *
  * Groups:
@@ -39,7 +39,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, ORBIT, SPIN, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 #if WITH_LEDGER
@@ -53,7 +53,7 @@ typedef struct {
     vec rate_of_tangential_loss_factor;
     vec kinetic_per_distance_squared_by_orbital_rate_squared;
     vec kinetic_per_spin_squared;
-    vec dry_contact_per_opening_squared;
+    vec dry_contact_per_normal_velocity_squared;
     vec angular_momentum_per_momentum;
 } ledger_constants;
 
@@ -70,7 +70,7 @@ typedef struct {
     vec centrifugal_force_factor;
     vec film_force_factor;
     vec rate_of_rotation_per_orbital_rate;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     vec energy_per_distance_squared_by_orbital_rate_squared;
     vec energy_per_spin_squared;
     vec tangential_restitution_factor;
@@ -123,7 +123,7 @@ static inline void prepare(constants *c)
     c->centrifugal_force_factor = 0.0625*c->aspect*(c->obliquity*c->obliquity);
     c->film_force_factor = 1.0/c->stokes;
     c->rate_of_rotation_per_orbital_rate = 0.25*c->aspect*c->obliquity;
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
@@ -139,15 +139,15 @@ static inline void prepare(constants *c)
     c->ledger.rate_of_tangential_loss_factor = 0.0625*(c->obliquity*c->obliquity);
     c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->ledger.kinetic_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
-    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.dry_contact_per_normal_velocity_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
     c->ledger.angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
 #endif
 }
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
-    vec orbit[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
+    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
     vec spin[TERMS]; /* spin of each sphere over omega0 */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
@@ -171,8 +171,8 @@ typedef struct {
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
     arm_lever_series arm_lever_law;
-    vec rate_of_opening[PASSING(ORDER) + 1];
-    vec rate_of_orbit[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
+    vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_spin[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
 #if WITH_LEDGER
@@ -194,7 +194,8 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
     s->distance_squared[k] = square(s->distance, k);
-    s->orbital_rate[k] = quotient(s->orbit, s->distance_squared, s->orbital_rate, &s->over_orbital_rate, k);
+    s->orbital_rate[k] = quotient(s->orbital_momentum, s->distance_squared, s->orbital_rate,
+        &s->over_orbital_rate, k);
     s->slip[k] = s->orbital_rate[k] - s->spin[k];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
     s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
@@ -202,24 +203,24 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
         s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
-    s->rate_of_opening[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)];
-    s->rate_of_orbit[PASSING(k)] = -product(s->distance, s->shear_force, k);
+    s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)];
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->shear_force, k);
     s->rate_of_spin[PASSING(k)] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
-    s->orbit[k + 1] = s->rate_of_orbit[PASSING(k)]*next;
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
+    s->orbital_momentum[k + 1] = s->rate_of_orbital_momentum[PASSING(k)]*next;
     s->spin[k + 1] = s->rate_of_spin[PASSING(k)]*next;
 #if TURNING_STATE
     s->turned[k + 1] = s->rate_of_rotation[PASSING(k)]*next;
 #endif
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->distance_by_orbital_rate[k] = product(s->distance, s->orbital_rate, k);
     s->arm_lever_law_by_spin[k] = product(s->arm_lever_law.result, s->spin, k);
     s->combination[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
@@ -233,13 +234,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -247,8 +248,8 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
-    y[ORBIT] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
+    y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
     y[SPIN] = splat(0.0);
 }
 
@@ -256,10 +257,10 @@ static inline void start(const constants *c, vec *y)
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
-    after[ORBIT] = y[ORBIT];
+    after[NORMAL_VELOCITY] = normal_velocity_2;
+    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
     after[SPIN] = y[SPIN];
 }
 
@@ -269,7 +270,7 @@ static inline vec inward_force(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
     vec inward_force = -centrifugal_force;
@@ -282,14 +283,14 @@ static inline vec stored_energy(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec spin_squared = y[SPIN]*y[SPIN];
-    vec opening_squared = y[OPENING]*y[OPENING];
     vec energy =
         c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        c->energy_per_spin_squared*spin_squared + 0.5*opening_squared;
+        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared;
     return energy;
 }
 
@@ -300,9 +301,9 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec tangential_restitution = c->tangential_restitution_factor*distance*orbital_rate;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
     shown[1] = tangential_restitution;
     shown[2] = orbital_rate;
     shown[3] = y[SPIN];
@@ -315,7 +316,7 @@ static inline vec potential_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec distance_squared = distance*distance;
     vec inertia_ratio = distance_squared + 6.4;
     vec momentum_squared = momentum*momentum;
@@ -330,7 +331,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec distance_squared = distance*distance;
     vec inertia_ratio = distance_squared + 6.4;
     vec momentum_squared = momentum*momentum;
@@ -344,16 +345,16 @@ static inline vec potential_slope(const constants *c, const vec *y)
 }
 
 /* The state that has this least energy: at rest in the gap, turning as one body. */
-static inline vec rigid_orbit(const constants *c, const vec *y)
+static inline vec rigid_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec distance_squared = distance*distance;
     vec inertia_ratio = distance_squared + 6.4;
     vec distance_squared_by_momentum = distance_squared*momentum;
-    vec orbit_2 = distance_squared_by_momentum/inertia_ratio;
-    return orbit_2;
+    vec orbital_momentum_2 = distance_squared_by_momentum/inertia_ratio;
+    return orbital_momentum_2;
 }
 
 /* The state that has this least energy: at rest in the gap, turning as one body. */
@@ -361,13 +362,13 @@ static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec distance_squared = distance*distance;
     vec inertia_ratio = distance_squared + 6.4;
     vec distance_squared_by_momentum = distance_squared*momentum;
-    vec orbit_2 = distance_squared_by_momentum/inertia_ratio;
+    vec orbital_momentum_2 = distance_squared_by_momentum/inertia_ratio;
     vec spin_2 = momentum/inertia_ratio;
-    rigid[ORBIT] = orbit_2;
+    rigid[ORBITAL_MOMENTUM] = orbital_momentum_2;
     rigid[SPIN] = spin_2;
 }
 
@@ -375,7 +376,7 @@ static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
 static inline vec angular_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec angular_momentum = c->angular_momentum_per_momentum*momentum;
     return angular_momentum;
 }
@@ -388,14 +389,14 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec spin_squared = y[SPIN]*y[SPIN];
-    vec opening_squared = y[OPENING]*y[OPENING];
     vec kinetic =
         c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared
-        + c->ledger.kinetic_per_spin_squared*spin_squared + 0.5*opening_squared;
+        + 0.5*normal_velocity_squared + c->ledger.kinetic_per_spin_squared*spin_squared;
     energy[0] = kinetic;
 }
 
@@ -403,8 +404,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
 static inline vec reversal_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
     return dry_contact;
 }
 
@@ -412,7 +413,7 @@ static inline vec reversal_loss(const constants *c, const vec *y)
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec angular_momentum = c->ledger.angular_momentum_per_momentum*momentum;
     return angular_momentum;
 }

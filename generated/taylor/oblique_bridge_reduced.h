@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2 */
+ * Equations sha256 76ccc66b98e94149296a7288db9e39959d01d019875df3d951caf158dc6cf689 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -42,7 +42,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, ORBIT, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 enum { GROUPS = 11 };
@@ -67,7 +67,7 @@ typedef struct {
     vec scaled_gap_per_gap;
     vec bridge_force_per_bridge_force_law;
     vec rate_of_rotation_per_orbital_rate;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     vec energy_per_distance_squared_by_orbital_rate_squared;
     vec energy_per_spin_squared;
     vec tangential_restitution_factor;
@@ -139,7 +139,7 @@ static inline void prepare(constants *c)
     c->scaled_gap_per_gap = 0.5*c->aspect;
     c->bridge_force_per_bridge_force_law = 1.0/(c->capillary*c->stokes);
     c->rate_of_rotation_per_orbital_rate = 0.25*c->aspect*c->obliquity;
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
@@ -160,8 +160,8 @@ static inline void prepare(constants *c)
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
-    vec orbit[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
+    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
 #endif
@@ -183,8 +183,8 @@ typedef struct {
     vec scaled_gap[TERMS];
     bridge_force_series bridge_force_law;
     vec bridge_force[PASSING(ORDER) + 1];
-    vec rate_of_opening[PASSING(ORDER) + 1];
-    vec rate_of_orbit[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
+    vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
     vec rate_of_capillary[PASSING(ORDER) + 1];
     vec acceleration[TERMS]; /* of the gap, were it not held */
@@ -199,8 +199,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
     s->distance_squared[k] = square(s->distance, k);
-    s->orbital_rate[k] = quotient(s->orbit, s->distance_squared, s->orbital_rate, &s->over_orbital_rate, k);
-    s->spin[PASSING(k)] = k == 0 ? -0.15625*s->orbit[k] + c->spin_offset : -0.15625*s->orbit[k];
+    s->orbital_rate[k] = quotient(s->orbital_momentum, s->distance_squared, s->orbital_rate,
+        &s->over_orbital_rate, k);
+    s->spin[PASSING(k)] = k == 0 ? -0.15625*s->orbital_momentum[k] + c->spin_offset :
+        -0.15625*s->orbital_momentum[k];
     s->slip[k] = s->orbital_rate[k] - s->spin[PASSING(k)];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
     s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
@@ -208,23 +210,23 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
         s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
     bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
     s->bridge_force[PASSING(k)] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
-    s->rate_of_opening[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->bridge_force[PASSING(k)] -
+    s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->bridge_force[PASSING(k)] -
         s->film_force[PASSING(k)];
-    s->rate_of_orbit[PASSING(k)] = -product(s->distance, s->shear_force, k);
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->shear_force, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[PASSING(k)] = product(s->opening, s->bridge_force, k);
+    s->rate_of_capillary[PASSING(k)] = product(s->normal_velocity, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
-    s->orbit[k + 1] = s->rate_of_orbit[PASSING(k)]*next;
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
+    s->orbital_momentum[k + 1] = s->rate_of_orbital_momentum[PASSING(k)]*next;
 #if CAPILLARY_STATE
     s->capillary_work[k + 1] = s->rate_of_capillary[PASSING(k)]*next;
 #endif
@@ -236,13 +238,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -250,18 +252,18 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
-    y[ORBIT] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
+    y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
 }
 
 /* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
-    after[ORBIT] = y[ORBIT];
+    after[NORMAL_VELOCITY] = normal_velocity_2;
+    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
 }
 
 /* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
@@ -270,7 +272,7 @@ static inline vec inward_force(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
     vec scaled_gap = c->scaled_gap_per_gap*y[GAP];
@@ -286,15 +288,15 @@ static inline vec stored_energy(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
-    vec spin = -0.15625*y[ORBIT] + c->spin_offset;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec spin_squared = spin*spin;
-    vec opening_squared = y[OPENING]*y[OPENING];
     vec energy =
         c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        c->energy_per_spin_squared*spin_squared + 0.5*opening_squared;
+        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared;
     return energy;
 }
 
@@ -305,10 +307,10 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
-    vec spin = -0.15625*y[ORBIT] + c->spin_offset;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
     vec tangential_restitution = c->tangential_restitution_factor*distance*orbital_rate;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
     shown[1] = tangential_restitution;
     shown[2] = orbital_rate;
     shown[3] = spin;
@@ -347,15 +349,15 @@ static inline vec potential_slope(const constants *c, const vec *y)
 }
 
 /* The state that has this least energy: at rest in the gap, turning as one body. */
-static inline vec rigid_orbit(const constants *c, const vec *y)
+static inline vec rigid_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
     vec inertia_ratio = distance_squared + 6.4;
     vec distance_squared_over_inertia_ratio = distance_squared/inertia_ratio;
-    vec orbit_2 = c->momentum*distance_squared_over_inertia_ratio;
-    return orbit_2;
+    vec orbital_momentum_2 = c->momentum*distance_squared_over_inertia_ratio;
+    return orbital_momentum_2;
 }
 
 #if defined(BRIDGE_FORCE_FALLS)
@@ -363,14 +365,15 @@ static inline vec rigid_orbit(const constants *c, const vec *y)
 /* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
 static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
 {
-    vec largest_orbit = vec_larger(y[ORBIT], c->spun_up);
+    vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], c->spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
         0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
     vec hold = least_attraction -
-        0.0625*c->aspect*(largest_orbit*largest_orbit)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+        0.0625*c->aspect*(largest_momentum*largest_momentum)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
     *hold_margin = hold;
-    *flight = 0.5*(vec_larger(y[OPENING], -c->dry_restitution*y[OPENING])*vec_larger(y[OPENING],
-        -c->dry_restitution*y[OPENING])) - hold*(c->rupture_gap - y[GAP]);
+    *flight = 0.5*(vec_larger(y[NORMAL_VELOCITY],
+        -c->dry_restitution*y[NORMAL_VELOCITY])*vec_larger(y[NORMAL_VELOCITY],
+        -c->dry_restitution*y[NORMAL_VELOCITY])) - hold*(c->rupture_gap - y[GAP]);
     *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;
 }
 #else

@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 43bbfe28583dbe897a21ae79b4f34ff2ec5f7a579d0052649c2d9582e9c5706e */
+ * Equations sha256 6040cb6b6d0eef607e55ac8e8534fbc2c5758054c22d4d79031f9b61ca6f5607 */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  * - spin [omega0]: spin of each sphere over omega0
  * - rotation [rad]: angle turned by the line of centres
  *
@@ -50,7 +50,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, ORBIT, SPIN, ROTATION, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, ROTATION, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 #if WITH_LEDGER
@@ -65,7 +65,7 @@ typedef struct {
     vec kinetic_per_distance_squared_by_orbital_rate_squared;
     vec kinetic_per_spin_squared;
     vec strings_per_strings_rise_law;
-    vec dry_contact_per_opening_squared;
+    vec dry_contact_per_normal_velocity_squared;
     vec angular_momentum_per_momentum;
 } ledger_constants;
 
@@ -92,13 +92,13 @@ typedef struct {
     vec offset_squared_per_gap_squared;
     vec string_sideways_factor;
     vec rate_of_rotation_per_orbital_rate;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     vec energy_per_distance_squared_by_orbital_rate_squared;
     vec energy_per_spin_squared;
     vec energy_per_strings_rise_law;
     vec tangential_restitution_factor;
     vec rotation_energy_unit;
-    vec orbit_energy_per_orbit_squared_over_distance_squared;
+    vec orbital_energy_per_orbital_momentum_squared_over_distance_squared;
     vec contact;
     vec nearest;
     vec farthest;
@@ -174,13 +174,13 @@ static inline void prepare(constants *c)
     c->offset_squared_per_gap_squared = 0.25*(c->aspect*c->aspect);
     c->string_sideways_factor = 16.0*c->weight/c->obliquity;
     c->rate_of_rotation_per_orbital_rate = 0.25*c->aspect*c->obliquity;
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
     c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
-    c->orbit_energy_per_orbit_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
+    c->orbital_energy_per_orbital_momentum_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
@@ -198,15 +198,15 @@ static inline void prepare(constants *c)
     c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->ledger.kinetic_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->ledger.strings_per_strings_rise_law = 4.0*c->weight/c->aspect;
-    c->ledger.dry_contact_per_opening_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
+    c->ledger.dry_contact_per_normal_velocity_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
     c->ledger.angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
 #endif
 }
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
-    vec orbit[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
+    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
     vec spin[TERMS]; /* spin of each sphere over omega0 */
     vec rotation[TERMS]; /* angle turned by the line of centres */
 #if CAPILLARY_STATE
@@ -246,9 +246,9 @@ typedef struct {
     vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_sideways[PASSING(ORDER) + 1];
     arm_lever_series arm_lever_law;
-    vec rate_of_opening[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec combination_2[TERMS];
-    vec rate_of_orbit[PASSING(ORDER) + 1];
+    vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_spin[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
     vec rate_of_capillary[PASSING(ORDER) + 1];
@@ -271,7 +271,8 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
     s->distance_squared[k] = square(s->distance, k);
-    s->orbital_rate[k] = quotient(s->orbit, s->distance_squared, s->orbital_rate, &s->over_orbital_rate, k);
+    s->orbital_rate[k] = quotient(s->orbital_momentum, s->distance_squared, s->orbital_rate,
+        &s->over_orbital_rate, k);
     s->slip[k] = s->orbital_rate[k] - s->spin[k];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
     s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
@@ -279,8 +280,8 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
         s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
     bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
     s->bridge_force[PASSING(k)] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
@@ -302,27 +303,27 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->string_sideways[PASSING(k)] = c->string_sideways_factor*product(s->strings_stiffness_law.result,
         s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
     arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
-    s->rate_of_opening[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->bridge_force[PASSING(k)] -
+    s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->bridge_force[PASSING(k)] -
         s->film_force[PASSING(k)] - s->string_pull[PASSING(k)];
     s->combination_2[k] = s->shear_force[k] + s->string_sideways[PASSING(k)];
-    s->rate_of_orbit[PASSING(k)] = -product(s->distance, s->combination_2, k);
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->combination_2, k);
     s->rate_of_spin[PASSING(k)] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[PASSING(k)] = product(s->opening, s->bridge_force, k);
+    s->rate_of_capillary[PASSING(k)] = product(s->normal_velocity, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
-    s->orbit[k + 1] = s->rate_of_orbit[PASSING(k)]*next;
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
+    s->orbital_momentum[k + 1] = s->rate_of_orbital_momentum[PASSING(k)]*next;
     s->spin[k + 1] = s->rate_of_spin[PASSING(k)]*next;
     s->rotation[k + 1] = s->rate_of_rotation[PASSING(k)]*next;
 #if CAPILLARY_STATE
     s->capillary_work[k + 1] = s->rate_of_capillary[PASSING(k)]*next;
 #endif
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product(s->film_force, s->opening, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->distance_by_orbital_rate[k] = product(s->distance, s->orbital_rate, k);
     s->arm_lever_law_by_spin[k] = product(s->arm_lever_law.result, s->spin, k);
     s->combination_3[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
@@ -336,13 +337,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -350,8 +351,8 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
-    y[ORBIT] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
+    y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
     y[SPIN] = splat(0.0);
     y[ROTATION] = splat(0.0);
 }
@@ -360,10 +361,10 @@ static inline void start(const constants *c, vec *y)
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
-    after[ORBIT] = y[ORBIT];
+    after[NORMAL_VELOCITY] = normal_velocity_2;
+    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
     after[SPIN] = y[SPIN];
     after[ROTATION] = y[ROTATION];
 }
@@ -374,7 +375,7 @@ static inline vec inward_force(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
     vec scaled_gap = c->scaled_gap_per_gap*y[GAP];
@@ -400,7 +401,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec gap_squared = y[GAP]*y[GAP];
     vec scaled_rotation = 0.5*y[ROTATION];
     vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
@@ -410,12 +411,12 @@ static inline vec stored_energy(const constants *c, const vec *y)
         4.0*distance_by_sine_of_scaled_rotation_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec spin_squared = y[SPIN]*y[SPIN];
-    vec opening_squared = y[OPENING]*y[OPENING];
     vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
     vec energy =
         c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        c->energy_per_spin_squared*spin_squared + 0.5*opening_squared +
+        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared +
         c->energy_per_strings_rise_law*strings_rise_law;
     return energy;
 }
@@ -427,16 +428,16 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec tangential_restitution = c->tangential_restitution_factor*distance*orbital_rate;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
     shown[1] = tangential_restitution;
     shown[2] = orbital_rate;
     shown[3] = y[SPIN];
 }
 
-#define BY_ORBIT LIBRARY_LAWS
-enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };
+#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS
+enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py). */
 static inline void orbital(const constants *c, const vec *y, vec *found)
@@ -444,16 +445,16 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec slip = orbital_rate - y[SPIN];
     vec root_of_spin = vec_sqrt(y[SPIN]);
-    vec root_of_orbit = vec_sqrt(y[ORBIT]);
-    vec combination = root_of_orbit + 1.6*root_of_spin;
+    vec root_of_orbital_momentum = vec_sqrt(y[ORBITAL_MOMENTUM]);
+    vec combination = root_of_orbital_momentum + 1.6*root_of_spin;
     vec rigid_share = root_of_spin/combination;
-    vec orbit_squared = y[ORBIT]*y[ORBIT];
-    vec orbit_squared_over_distance_squared = orbit_squared/distance_squared;
-    vec orbit_energy =
-        c->orbit_energy_per_orbit_squared_over_distance_squared*orbit_squared_over_distance_squared;
+    vec orbital_momentum_squared = y[ORBITAL_MOMENTUM]*y[ORBITAL_MOMENTUM];
+    vec orbital_momentum_squared_over_distance_squared = orbital_momentum_squared/distance_squared;
+    vec orbital_energy =
+        c->orbital_energy_per_orbital_momentum_squared_over_distance_squared*orbital_momentum_squared_over_distance_squared;
     vec combination_squared = combination*combination;
     vec combination_squared_squared = combination_squared*combination_squared;
     vec combination_2 = distance + 1.6;
@@ -470,11 +471,11 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
         1.28*rigid_share_squared_squared + 1.0666666666666667*inverse_combination_2_squared_by_combination_2 -
         1.0666666666666667*rigid_share_squared_by_rigid_share - 1.28*inverse_combination_2_squared_squared;
     vec combination_squared_squared_by_combination_3 = combination_squared_squared*combination_3;
-    vec combination_4 = 0.5*orbit_squared_over_distance_squared -
+    vec combination_4 = 0.5*orbital_momentum_squared_over_distance_squared -
         combination_squared_squared_by_combination_3;
     vec surface = c->rotation_energy_unit*combination_4;
     found[SLIP_RATE] = slip;
-    found[ORBIT_ENERGY] = orbit_energy;
+    found[ORBITAL_ENERGY] = orbital_energy;
     found[SLIP_ENERGY] = surface;
 }
 
@@ -483,22 +484,23 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
 /* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
 static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
 {
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
-    vec largest_orbit = vec_larger(y[ORBIT], spun_up);
+    vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
         0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
     vec hold = least_attraction + c->weight*(c->aspect*c->contact +
         8.0*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])))*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
         4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION]))) -
-        0.0625*c->aspect*(largest_orbit*largest_orbit)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+        0.0625*c->aspect*(largest_momentum*largest_momentum)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
     vec largest_pull = c->weight*(c->aspect*c->rupture_gap +
         8.0)*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect)*(c->rupture_gap*c->rupture_gap) + 4.0*c->aspect*c->rupture_gap + 16.0);
     *hold_margin = hold;
-    *flight = 0.5*(vec_larger(y[OPENING], -c->dry_restitution*y[OPENING])*vec_larger(y[OPENING],
-        -c->dry_restitution*y[OPENING])) - hold*(c->rupture_gap - y[GAP]);
+    *flight = 0.5*(vec_larger(y[NORMAL_VELOCITY],
+        -c->dry_restitution*y[NORMAL_VELOCITY])*vec_larger(y[NORMAL_VELOCITY],
+        -c->dry_restitution*y[NORMAL_VELOCITY])) - hold*(c->rupture_gap - y[GAP]);
     *rebound = (c->dry_restitution*c->dry_restitution)*(largest_pull + least_attraction) - hold;
 }
 #else
@@ -521,7 +523,7 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec gap_squared = y[GAP]*y[GAP];
     vec scaled_rotation = 0.5*y[ROTATION];
     vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
@@ -531,11 +533,11 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
         4.0*distance_by_sine_of_scaled_rotation_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec spin_squared = y[SPIN]*y[SPIN];
-    vec opening_squared = y[OPENING]*y[OPENING];
     vec kinetic =
         c->ledger.kinetic_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared
-        + c->ledger.kinetic_per_spin_squared*spin_squared + 0.5*opening_squared;
+        + 0.5*normal_velocity_squared + c->ledger.kinetic_per_spin_squared*spin_squared;
     vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
     vec strings = c->ledger.strings_per_strings_rise_law*strings_rise_law;
     energy[0] = kinetic;
@@ -546,8 +548,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
 static inline vec reversal_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec opening_squared = y[OPENING]*y[OPENING];
-    vec dry_contact = c->ledger.dry_contact_per_opening_squared*opening_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
     return dry_contact;
 }
 
@@ -555,7 +557,7 @@ static inline vec reversal_loss(const constants *c, const vec *y)
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
-    vec momentum = y[ORBIT] + 6.4*y[SPIN];
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec angular_momentum = c->ledger.angular_momentum_per_momentum*momentum;
     return angular_momentum;
 }

@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 d0205c577f23f4804710ce0711e24dab988a41fdb475d9c183971d384367236a */
+ * Equations sha256 92a4d2622ca085d9738a66034cbb5acc3212a1f240370b64d4225047af79a249 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -34,7 +34,7 @@
 /* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
-enum { GAP, OPENING, ORBIT, MODEL_STATES };
+enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 enum { GROUPS = 7 };
@@ -53,7 +53,7 @@ typedef struct {
     vec centrifugal_force_factor;
     vec film_force_factor;
     vec rate_of_rotation_per_orbital_rate;
-    vec opening_2_per_opening;
+    vec normal_velocity_2_per_normal_velocity;
     vec energy_per_distance_squared_by_orbital_rate_squared;
     vec energy_per_spin_squared;
     vec tangential_restitution_factor;
@@ -104,7 +104,7 @@ static inline void prepare(constants *c)
     c->centrifugal_force_factor = 0.0625*c->aspect*(c->obliquity*c->obliquity);
     c->film_force_factor = 1.0/c->stokes;
     c->rate_of_rotation_per_orbital_rate = 0.25*c->aspect*c->obliquity;
-    c->opening_2_per_opening = -c->dry_restitution;
+    c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
@@ -119,8 +119,8 @@ static inline void prepare(constants *c)
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
-    vec opening[TERMS]; /* opening velocity over impact speed, negative on approach */
-    vec orbit[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
+    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
 #endif
@@ -139,8 +139,8 @@ typedef struct {
     vec centrifugal_force[PASSING(ORDER) + 1];
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
-    vec rate_of_opening[PASSING(ORDER) + 1];
-    vec rate_of_orbit[PASSING(ORDER) + 1];
+    vec rate_of_normal_velocity[PASSING(ORDER) + 1];
+    vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
     vec acceleration[TERMS]; /* of the gap, were it not held */
     vec approach[TERMS];
@@ -154,8 +154,10 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
     s->distance_squared[k] = square(s->distance, k);
-    s->orbital_rate[k] = quotient(s->orbit, s->distance_squared, s->orbital_rate, &s->over_orbital_rate, k);
-    s->spin[PASSING(k)] = k == 0 ? -0.15625*s->orbit[k] + c->spin_offset : -0.15625*s->orbit[k];
+    s->orbital_rate[k] = quotient(s->orbital_momentum, s->distance_squared, s->orbital_rate,
+        &s->over_orbital_rate, k);
+    s->spin[PASSING(k)] = k == 0 ? -0.15625*s->orbital_momentum[k] + c->spin_offset :
+        -0.15625*s->orbital_momentum[k];
     s->slip[k] = s->orbital_rate[k] - s->spin[PASSING(k)];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
     s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
@@ -163,16 +165,16 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
         s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->opening, s->film_resistance_law.result,
-        k);
-    s->rate_of_opening[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)];
-    s->rate_of_orbit[PASSING(k)] = -product(s->distance, s->shear_force, k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
+    s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)];
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->shear_force, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
-    s->gap[k + 1] = s->opening[k]*next;
-    s->acceleration[k] = s->rate_of_opening[PASSING(k)];
-    s->opening[k + 1] = only(moving, s->acceleration[k]*next);
-    s->orbit[k + 1] = s->rate_of_orbit[PASSING(k)]*next;
+    s->gap[k + 1] = s->normal_velocity[k]*next;
+    s->acceleration[k] = s->rate_of_normal_velocity[PASSING(k)];
+    s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);
+    s->orbital_momentum[k + 1] = s->rate_of_orbital_momentum[PASSING(k)]*next;
 #if TURNING_STATE
     s->turned[k + 1] = s->rate_of_rotation[PASSING(k)]*next;
 #endif
@@ -181,13 +183,13 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 /* Coefficient k of the glass criterion's clearance. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
-    s->approach[k] = -s->opening[k];
+    s->approach[k] = -s->normal_velocity[k];
     glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);
 }
 
 static inline vec glass_clearance(const constants *c, const vec *y)
 {
-    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);
+    return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
 /* State at initial contact. */
@@ -195,18 +197,18 @@ static inline void start(const constants *c, vec *y)
 {
     (void)c; (void)y;
     y[GAP] = splat(1.0);
-    y[OPENING] = splat((-1.0));
-    y[ORBIT] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[NORMAL_VELOCITY] = splat((-1.0));
+    y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
 }
 
 /* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
 static inline void reversal(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
-    vec opening_2 = c->opening_2_per_opening*y[OPENING];
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
     after[GAP] = y[GAP];
-    after[OPENING] = opening_2;
-    after[ORBIT] = y[ORBIT];
+    after[NORMAL_VELOCITY] = normal_velocity_2;
+    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
 }
 
 /* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
@@ -215,7 +217,7 @@ static inline vec inward_force(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
     vec inward_force = -centrifugal_force;
@@ -228,15 +230,15 @@ static inline vec stored_energy(const constants *c, const vec *y)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
-    vec spin = -0.15625*y[ORBIT] + c->spin_offset;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
     vec orbital_rate_squared = orbital_rate*orbital_rate;
     vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
     vec spin_squared = spin*spin;
-    vec opening_squared = y[OPENING]*y[OPENING];
     vec energy =
         c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        c->energy_per_spin_squared*spin_squared + 0.5*opening_squared;
+        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared;
     return energy;
 }
 
@@ -247,10 +249,10 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBIT]/distance_squared;
-    vec spin = -0.15625*y[ORBIT] + c->spin_offset;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
     vec tangential_restitution = c->tangential_restitution_factor*distance*orbital_rate;
-    shown[0] = y[OPENING];
+    shown[0] = y[NORMAL_VELOCITY];
     shown[1] = tangential_restitution;
     shown[2] = orbital_rate;
     shown[3] = spin;
@@ -285,15 +287,15 @@ static inline vec potential_slope(const constants *c, const vec *y)
 }
 
 /* The state that has this least energy: at rest in the gap, turning as one body. */
-static inline vec rigid_orbit(const constants *c, const vec *y)
+static inline vec rigid_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
     vec distance_squared = distance*distance;
     vec inertia_ratio = distance_squared + 6.4;
     vec distance_squared_over_inertia_ratio = distance_squared/inertia_ratio;
-    vec orbit_2 = c->momentum*distance_squared_over_inertia_ratio;
-    return orbit_2;
+    vec orbital_momentum_2 = c->momentum*distance_squared_over_inertia_ratio;
+    return orbital_momentum_2;
 }
 
 /* Gap beyond which there is no tangential force. */

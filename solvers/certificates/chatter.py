@@ -72,7 +72,7 @@ class ChatterProof:
     def _held(self, y: np.ndarray) -> bool:
         gaps = float(y[0]) + (self.end - float(y[0])) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
         at_end = np.array([self.end, *y[1:]])
-        if y[2] < self.model.values("rigid_rotation", at_end, self.p)["orbit"]:
+        if y[2] < self.model.values("rigid_rotation", at_end, self.p)["orbital_momentum"]:
             return False
         pull = np.cumsum(panels(lambda x: self._inward(x, y), gaps))
         weight = np.cumsum(panels(lambda x: self._size(x, y), gaps))

@@ -69,26 +69,27 @@ class BarrierProof:
         their deviation from it (`derive.checks.partners.slip_energy_adds`): an orbit that exceeds the rigid one by
         more than the slip energy would take never comes. Where angular momentum drifts, twice that.
         """
-        model, margin, orbit = self.model, SAFETY * self.rtol, self._rigid(y, float(y[0]))
+        model, margin, orbital_momentum = self.model, SAFETY * self.rtol, self._rigid(y, float(y[0]))
         if model.reduced:  # one slip, which falls without changing sign
-            orbit = max(float(y[2]), orbit)
+            orbital_momentum = max(float(y[2]), orbital_momentum)
         else:
             rigid = list(model.values("rigid_rotation", y, self.p).values())
             deviation = np.array([y[0], 0.0, *(y[2 : len(model.state)] - rigid[2:])])
             excess = float(np.sqrt(self._kinetic(deviation) / self._kinetic(self._turning(y, 1.0))))
-            orbit += excess if self.theorem else 2 * excess
+            orbital_momentum += excess if self.theorem else 2 * excess
         held, still = (
-            model.values("inward_force", self._turning(y, each), self.p)["inward_force"] for each in (orbit, 0.0)
+            model.values("inward_force", self._turning(y, each), self.p)["inward_force"]
+            for each in (orbital_momentum, 0.0)
         )
         return bool(held > margin * still)
 
     def _kinetic(self, y: np.ndarray) -> float:
         return self.model.values("energies", y, self.p)["kinetic"]
 
-    def _turning(self, y: np.ndarray, orbit: float) -> np.ndarray:
+    def _turning(self, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
         """A state at rest in this gap whose orbit alone has momentum."""
         state = np.zeros(len(self.model.state))
-        state[[0, 2]] = y[0], orbit
+        state[[0, 2]] = y[0], orbital_momentum
         return state
 
     def energy(self, y: np.ndarray) -> float:
@@ -116,21 +117,21 @@ class BarrierProof:
         """
         if self.theorem:
             return 0.0
-        orbit = y[list(self.model.state).index("orbit")]
+        orbital_momentum = y[list(self.model.state).index("orbital_momentum")]
         rigid = self._rigid(y, float(y[0]))
-        change, reach = abs(orbit - rigid), float(y[0])
+        change, reach = abs(orbital_momentum - rigid), float(y[0])
         if not phase.resting:
             change += self._rigid(y, barrier) - self._rigid(y, 0.0)
             reach = barrier
         lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
         energy = self.model.values("effective_potential", y, self.p)["energy"]
         # initial contact is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
-        whole = self._momentum(y) * self.model.values("start", y, self.p)["orbit"]
-        return float(4 * energy * max(orbit / rigid, 1.0) * lost / whole)
+        whole = self._momentum(y) * self.model.values("start", y, self.p)["orbital_momentum"]
+        return float(4 * energy * max(orbital_momentum / rigid, 1.0) * lost / whole)
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:
         """Orbital angular momentum of rigid rotation at this gap, with the total angular momentum of `y`."""
-        return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbit"]
+        return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbital_momentum"]
 
     def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)

@@ -32,14 +32,14 @@ class FilmProof:
         return None
 
     def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        gap, opening = float(y[0]), float(y[1])
+        gap, normal_velocity = float(y[0]), float(y[1])
         if phase.resting:
             return True
         if phase.motion != CLOSING:
-            return self.held(gap, opening)
+            return self.held(gap, normal_velocity)
         # closing: neither the solids nor the glass pressure are met before the film stops the motion
         grid = self.approach(gap, FILM_DEPTHS)
-        speed = self.slowed(-opening, grid)
+        speed = self.slowed(-normal_velocity, grid)
         if speed[-1] > -self.margin:
             return False
         # from one depth to the next the speed falls and the pressure per speed rises: their ends bound the pressure
@@ -50,12 +50,12 @@ class FilmProof:
         deepest = max(self.contact, gap * LEAST_DEPTH)
         return np.geomspace(gap, deepest, depths * PARTS + 1)
 
-    def held(self, gap: float, opening: float) -> bool:
+    def held(self, gap: float, normal_velocity: float) -> bool:
         """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""
-        if opening == 0.0:
+        if normal_velocity == 0.0:
             return True  # at rest nothing moves it
         loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
-        return bool(opening - loss < -self.margin)
+        return bool(normal_velocity - loss < -self.margin)
 
     def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
         """Closing speed along a falling gap; losses are negative there. Below zero: it has been stopped before."""

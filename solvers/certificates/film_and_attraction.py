@@ -36,16 +36,16 @@ class AttractedProof(BarrierProof):
         return all(barrier.height - touch < _WEAK for barrier in self.barriers(y))
 
     def _stopped(self, y: np.ndarray, phase: Phase) -> bool:
-        film, gap, opening = self._film, float(y[0]), float(y[1])
+        film, gap, normal_velocity = self._film, float(y[0]), float(y[1])
         if gap > 1:
             return False
         closing = phase.motion == CLOSING
         grid = film.approach(gap if closing else 1.0, ATTRACTED_FILM_DEPTHS)  # what opens may rise up to x0 and fall
         if closing:
-            speed = film.slowed(-opening, grid)
+            speed = film.slowed(-normal_velocity, grid)
             if speed[-1] > -film.margin:
                 return False
-        elif film.held(gap, opening):
+        elif film.held(gap, normal_velocity):
             speed = np.zeros(grid.size)
         else:
             return False

@@ -83,19 +83,19 @@ class OrbitalProof:
         Arguments:
             settled: count on omega = xi at the edge of the shear with the surface arm as well.
         """
-        gap, opening, orbit = map(float, y[:3])
+        gap, normal_velocity, orbital_momentum = map(float, y[:3])
         if not gap < self.end:
             return False
-        turning = orbit / (4 + self.aspect * gap) ** 2 - self.model.values("orbital", y, self.p)["slip"]
-        if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbit:
+        turning = orbital_momentum / (4 + self.aspect * gap) ** 2 - self.model.values("orbital", y, self.p)["slip"]
+        if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbital_momentum:
             return False  # beyond what is proved of the surface arm's exchange: rho < 4 a
         edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
-        inward, attraction = self._work(edges, y, orbit), self._work(edges, y, 0.0)
-        found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbit), self.p).full())
+        inward, attraction = self._work(edges, y, orbital_momentum), self._work(edges, y, 0.0)
+        found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbital_momentum), self.p).full())
         slips = found[self.model.names("orbital").index("slip")]
-        needed = opening**2 / 2 - inward + self._exchange(edges[1:], y, found, settled or not self._drifts)
-        turned = (self.obliquity**2 / 16) * abs(orbit) * np.maximum(-slips, 0.0)
-        error = opening**2 + abs(opening) + 2 * np.abs(attraction) + np.abs(inward) + turned
+        needed = normal_velocity**2 / 2 - inward + self._exchange(edges[1:], y, found, settled or not self._drifts)
+        turned = (self.obliquity**2 / 16) * abs(orbital_momentum) * np.maximum(-slips, 0.0)
+        error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
         return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
 
     def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray, settled: bool) -> np.ndarray:
@@ -110,21 +110,23 @@ class OrbitalProof:
         if not settled or self.model.strings or not beyond.any():
             return possible
         rigid = self.model.values("rigid_rotation", np.array([self.edge, *y[1:]]), self.p)
-        if y[2] >= rigid["orbit"]:
+        if y[2] >= rigid["orbital_momentum"]:
             return np.where(beyond, 0.0, possible)
         at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbit, and spin where it is a state
-        left = np.asarray(self.model.function("orbital")(self._states(gaps, at_edge, rigid["orbit"]), self.p).full())
+        left = np.asarray(
+            self.model.function("orbital")(self._states(gaps, at_edge, rigid["orbital_momentum"]), self.p).full()
+        )
         return np.where(beyond, energy - left[names.index(self.lever)], possible)
 
-    def _work(self, edges: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
+    def _work(self, edges: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
         """Work against what pulls inward from the first gap to each of the others, the orbit's momentum as given."""
         force = self.model.function("inward_force")
         work: np.ndarray = np.cumsum(
-            panels(lambda gaps: np.asarray(force(self._states(gaps, y, orbit), self.p).full()), edges)
+            panels(lambda gaps: np.asarray(force(self._states(gaps, y, orbital_momentum), self.p).full()), edges)
         )
         return work
 
-    def _states(self, gaps: np.ndarray, y: np.ndarray, orbit: float) -> np.ndarray:
+    def _states(self, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
-        states[0], states[2] = gaps, orbit
+        states[0], states[2] = gaps, orbital_momentum
         return states

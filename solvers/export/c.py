@@ -11,7 +11,7 @@ from ..scene.scene import Scene
 from .equations import file_name
 
 _REGIONS = (("", 1, 1), ("_beyond_film", 0, 1), ("_beyond_shear", 1, 0), ("_beyond_both", 0, 0))
-_UNITS = {"gap": "x0", "opening": "v0", "orbit": "a^2 omega0", "spin": "omega0", "rotation": "rad"}
+_UNITS = {"gap": "x0", "normal_velocity": "v0", "orbital_momentum": "a^2 omega0", "spin": "omega0", "rotation": "rad"}
 
 
 def texts(scene: Scene) -> dict[str, str]:

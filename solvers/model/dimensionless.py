@@ -42,11 +42,11 @@ class DimensionlessGroups:
         state = dict(error.state)
         shown: dict[str, float] = {}
         if "gap" in state:
-            shown |= {"gap": state["gap"] * self.length, "opening velocity": state["opening"] * self.speed}
-        if "orbit" in state:
+            shown |= {"gap": state["gap"] * self.length, "normal velocity": state["normal_velocity"] * self.speed}
+        if "orbital_momentum" in state:
             ratio = self.groups.get("radius_ratio", 1.0)
             distance = (1 + ratio) ** 2 / ratio + self.groups["aspect"] * state["gap"]
-            shown["rotation rate"] = state["orbit"] / distance**2 * self.rate
+            shown["rotation rate"] = state["orbital_momentum"] / distance**2 * self.rate
         for name, label in (("spin", "spin"), ("partner_spin", "partner's spin")):
             if name in state:
                 shown[label] = state[name] * self.rate

@@ -124,7 +124,7 @@ class Model:
 
     @property
     def oblique(self) -> bool:
-        return "orbit" in self.state or self.wall
+        return "orbital_momentum" in self.state or self.wall
 
     @property
     def wall(self) -> bool:
@@ -132,7 +132,7 @@ class Model:
 
     @property
     def reduced(self) -> bool:
-        return "orbit" in self.state and "spin" not in self.state
+        return "orbital_momentum" in self.state and "spin" not in self.state
 
     @property
     def cavitates(self) -> bool:

@@ -89,7 +89,7 @@ def expressions(flow: Flow) -> Expressions:
     """Variables and rates of a flow, in time x0/v0."""
     model, region = flow.model, flow.region
     flags = region.flags
-    state = {**model.guarded, "opening": SX(0)} if region.resting else model.guarded
+    state = {**model.guarded, "normal_velocity": SX(0)} if region.resting else model.guarded
     rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, flags)
     if region.resting and not model.oblique:
         rates = dict.fromkeys(rates, SX(0))  # head-on nothing moves in resting contact

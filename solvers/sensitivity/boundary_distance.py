@@ -159,11 +159,11 @@ def _criteria(
             peak = peak - first[k] ** 2 / (2 * second[k])
         if peak > 0:
             yield Near(GLASS, abs(math.log(glass / peak)), _P_GT)
-    gap, opening = y[0, -1], y[1, -1]
+    gap, normal_velocity = y[0, -1], y[1, -1]
     if met in ("elastic", "rough") and step.duration > 0:
         slowing = float(model.function("right_hand_side", *_region(step))(y[: len(model.state), -1], path.p)[1])
         if slowing > 0:
-            yield Near(CONTACT, opening**2 / (2 * slowing * contact), f"the gap of {met} contact")
+            yield Near(CONTACT, normal_velocity**2 / (2 * slowing * contact), f"the gap of {met} contact")
     elif contact > 0 and met not in CRITERIA[1:]:
         yield Near(CONTACT, abs(math.log(gap / contact)), "the gap of contact")
 
@@ -206,8 +206,12 @@ def _leaving(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Ne
     if model.strings and model.oblique:
         names = list(model.state)
         yield Near("half turn at separation", 1 - float(y[names.index("rotation"), -1]) / math.pi, "rotation")
-        orbit = y[names.index("orbit")]
-        yield Near("reversal of the rotation", float(orbit.min() / np.abs(orbit).max()), "angular momentum")
+        orbital_momentum = y[names.index("orbital_momentum")]
+        yield Near(
+            "reversal of the rotation",
+            float(orbital_momentum.min() / np.abs(orbital_momentum).max()),
+            "angular momentum",
+        )
 
 
 def _region(step: PhaseRun) -> tuple[int, int]:

@@ -37,7 +37,7 @@ _GRID = tuple(float(part) for part in (_PART**3 * (10 - 15 * _PART + 6 * _PART**
 _TIME, _RATE = 1, 2  # places of the scales
 _VARIABLES = {
     "gap": ("m", "gap between the surfaces"),
-    "opening_velocity": ("m/s", "opening velocity, negative on approach"),
+    "normal_velocity": ("m/s", "normal velocity, negative on approach"),
     "rotation_rate": ("rad/s", "angular velocity of the line of centres"),
     "spin": ("rad/s", "angular velocity of each sphere about its own centre"),
     "rotation": ("rad", "angle turned by the line of centres"),
@@ -63,7 +63,7 @@ def trajectory_sensitivities(
 
     Returns:
         Dataset over `time` (s; 65 points a phase, an event's time twice: before and after it) and `parameter`:
-        gap, opening_velocity, rotation_rate, spin, rotation (SI), each with a `d_NAME` of the same unit per the
+        gap, normal_velocity, rotation_rate, spin, rotation (SI), each with a `d_NAME` of the same unit per the
         parameter's (`time`, `parameter`), and `event_time`, `d_event_time` over `event`.
 
     Raises:
@@ -187,13 +187,13 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
 
 @own_cache(64)
 def _shown(flow: Flow, offset: float) -> Function:
-    """(state with extras, groups) -> gap, opening velocity, rotation rate, spin, rotation; and their rates."""
+    """(state with extras, groups) -> gap, normal velocity, rotation rate, spin, rotation; and their rates."""
     model, parts = flow.model, expressions(flow)
     outputs: dict[str, Any] = model("outputs") if model.oblique else {}
     turned = parts.extras["rotation"] - offset if "rotation" in parts.extras else model.state.get("rotation", SX(0))
     column = vertcat(
         model.state["gap"],
-        model.state["opening"],
+        model.state["normal_velocity"],
         outputs.get("final_rotation_rate", SX(0)),
         outputs.get("final_spin", SX(0)),
         turned,

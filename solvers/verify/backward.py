@@ -172,7 +172,7 @@ def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float
 def _scale(flow: Flow, p: np.ndarray) -> np.ndarray:
     """Typical sizes of the states: 1 but for the orbital momentum, which starts at (4 + aspect)^2."""
     groups = dict(zip(flow.model.groups, p, strict=True))
-    sizes = {"orbit": (4 + groups.get("aspect", 0.0)) ** 2}
+    sizes = {"orbital_momentum": (4 + groups.get("aspect", 0.0)) ** 2}
     return np.array([sizes.get(name, 1.0) for name in flow.model.state])
 
 

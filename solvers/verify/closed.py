@@ -116,9 +116,9 @@ def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tu
     flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
     contact, errors = max(n.groups["elastic_gap"], n.groups["rough_gap"]), [0.0]
     for time in _INSTANTS.tolist():
-        gap, opening = _flown(plain, flow, engine, n, start, time)
+        gap, normal_velocity = _flown(plain, flow, engine, n, start, time)
         if gap > contact:  # no flight goes further
-            errors.append(abs(-opening - (1 - film_loss(gap) / stokes)))
+            errors.append(abs(-normal_velocity - (1 - film_loss(gap) / stokes)))
     return max(errors), place(stokes, 0.0, engine, "approach")
 
 

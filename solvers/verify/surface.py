@@ -68,7 +68,7 @@ def _torque(flow: Flow, relative: float, absolute: float) -> Function:
     """Integrator of a flow and of -x F_t: F_t = 8 pi mu a^2 (omega - xi) times the law's logarithm, in the groups."""
     parts, model = expressions(flow), flow.model
     gap, aspect = model.state["gap"], model.groups["aspect"]
-    slip = model.state["orbit"] / (4 + aspect * gap) ** 2 - model.state["spin"]
+    slip = model.state["orbital_momentum"] / (4 + aspect * gap) ** 2 - model.state["spin"]
     # 8 pi mu a^2 = (4/3) m v0/St, and rates of L are over m a^2 omega0 v0/x0
     force = flow.region.shear * 4 * aspect / (3 * model.groups["stokes"]) * slip
     force *= model.laws.shear.log_factor(gap, aspect)

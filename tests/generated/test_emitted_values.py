@@ -28,8 +28,8 @@ DIGITS = 30
 REGIONS = ((1, 1), (0, 1), (0, 0))
 RANGES = {
     "gap": (0.02, 0.98),
-    "opening": (-1.5, 1.5),
-    "orbit": (6.0, 18.0),
+    "normal_velocity": (-1.5, 1.5),
+    "orbital_momentum": (6.0, 18.0),
     "spin": (-0.5, 1.0),
     "rotation": (0.3, 3.0),
     "stokes": (0.02, 3.0),

@@ -19,7 +19,7 @@ Event = Callable[[float, np.ndarray], float]
 
 @dataclass
 class Flight:
-    """How an independent flight ended: state is gap, opening velocity, omega, xi, beta (SI)."""
+    """How an independent flight ended: state is gap, normal velocity, omega, xi, beta (SI)."""
 
     separated: bool = False
     time: float = 0.0
@@ -89,7 +89,7 @@ class Spheres:
         return math.pi * radius * bridge.surface_tension * shape
 
     def rates(self, y: np.ndarray, film: bool, shear: bool) -> list[float]:
-        """Rates of gap, opening velocity, omega, xi, beta."""
+        """Rates of gap, normal velocity, omega, xi, beta."""
         x, u, omega, xi, beta = y.tolist()
         a, m, mu, x0 = self.a, self.m, self.scene.liquid.viscosity, self.scene.liquid.film_thickness
         r = 4 * a + x

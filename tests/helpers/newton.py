@@ -71,7 +71,7 @@ class Bodies:
 
 @dataclass
 class End:
-    """How it ended: `separated`, gap, opening velocity, rates of the line of centres and both spins, momenta."""
+    """How it ended: `separated`, gap, normal velocity, rates of the line of centres and both spins, momenta."""
 
     separated: bool
     time: float

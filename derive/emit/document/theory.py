@@ -37,9 +37,9 @@ from ...vocabulary.quantities import (
     centrifugal,
     gap,
     m,
+    normal_velocity,
     omega,
     omega0,
-    opening,
     p_gt,
     r,
     stokes,
@@ -200,8 +200,8 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
 def _flight(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, start = "Start, reversal, rupture", start_values()
     # the criterion is scaled with v0: put the gap and the velocity back
-    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -opening)))
-    pressure = sp.factor(pressure.subs({gap: x / x0, opening: u / v0}, simultaneous=True))
+    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -normal_velocity)))
+    pressure = sp.factor(pressure.subs({gap: x / x0, normal_velocity: u / v0}, simultaneous=True))
     length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
     cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
     yield Equation(group, f"{latex(x)}(0)", start[x], "initial contact")
@@ -211,7 +211,13 @@ def _flight(laws: Mapping[str, Law]) -> Iterator[Equation]:
     yield Equation(group, latex(x), sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False), "(ii) elastic length", r"\leq")
     yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
     yield Equation(group, latex(x), x_b, "(iii) roughness", r"\leq")
-    yield Equation(group, latex(u), reversal((opening,))[opening].subs(opening, u), "if any of these is met", r"\to")
+    yield Equation(
+        group,
+        latex(u),
+        reversal((normal_velocity,))[normal_velocity].subs(normal_velocity, u),
+        "if any of these is met",
+        r"\to",
+    )
     yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(x0)}$ without a bridge)")
 
 

@@ -16,7 +16,7 @@ _STATEMENTS = {
     "gap = film edge": ("l->y[GAP][lane] = 1.0;",),
     "gap = tangential edge": ("l->y[GAP][lane] = f->edge[lane];",),
     "gap = rupture": ("l->y[GAP][lane] = f->end[lane];",),
-    "velocity = 0": ("l->y[OPENING][lane] = 0.0;",),
+    "velocity = 0": ("l->y[NORMAL_VELOCITY][lane] = 0.0;",),
     "turn": ("l->closing[lane] = ~l->closing[lane];",),
     "cross film edge": (
         "l->film[lane] = 1.0 - l->film[lane];",

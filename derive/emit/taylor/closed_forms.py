@@ -8,7 +8,7 @@ from sympy.core.function import AppliedUndef
 from ...equations.model import Model
 from ...physics.forces import FILM
 from ...physics.laws.base import is_slot_call
-from ...vocabulary.quantities import opening
+from ...vocabulary.quantities import normal_velocity
 from .c_text import Constants
 from .layout import comment, function
 
@@ -55,13 +55,13 @@ def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]
 
 
 def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list[str]:
-    """What the film takes of the opening velocity along a gap: du/dx is minus its force over the velocity."""
+    """What the film takes of the normal velocity along a gap: du/dx is minus its force over the velocity."""
     force = next(value for symbol, value in model.definitions if symbol.name == "film_force").subs(FILM, 1)
     call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
     name = next(name for name, (slot, _, _) in calls.items() if slot == "film")
-    if call.has(opening):
+    if call.has(normal_velocity):
         return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
-    factor = constants.factor(sp.cancel(force / call / opening), "film_momentum_factor")
+    factor = constants.factor(sp.cancel(force / call / normal_velocity), "film_momentum_factor")
     return [
         "#define FILM_MOMENTUM 1",
         *comment("Velocity over v0 that the film takes per gap."),

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import is_slot_call
-from ...vocabulary.quantities import VOCABULARY, opening
+from ...vocabulary.quantities import VOCABULARY, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
 from .certificates import held_functions, tethered_functions
@@ -191,9 +191,9 @@ class Header:
         body.append("double next = 1.0/(k + 1);")
         for name in states:
             rate = self.rates[name]
-            if name == opening.name:
+            if name == normal_velocity.name:
                 body.append(f"s->acceleration[k] = {self._rate(rate)};")
-                body.append("s->opening[k + 1] = only(moving, s->acceleration[k]*next);")
+                body.append("s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);")
             else:
                 body.append(f"s->{name}[k + 1] = {self._rate(rate)}*next;")
         if self.work_rate is not None:
@@ -210,7 +210,7 @@ class Header:
         glass = function(
             "INLINE void glass_coefficients(series *s, const constants *c, int k)",
             [
-                "s->approach[k] = -s->opening[k];",
+                "s->approach[k] = -s->normal_velocity[k];",
                 "glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);",
             ],
         )
@@ -219,7 +219,7 @@ class Header:
             *comment("Coefficient k of the glass criterion's clearance."), *glass, "",
             *function(
                 "static inline vec glass_clearance(const constants *c, const vec *y)",
-                ["return glass_pressure_clearance_value(&c->glass, y[GAP], -y[OPENING]);"],
+                ["return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);"],
             ), "",
         ]  # fmt: skip
 
@@ -299,17 +299,26 @@ class Header:
                     {key: "return"},
                 )
         if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
-            lines += ["#define BY_ORBIT LIBRARY_LAWS", "enum { SLIP_RATE, ORBIT_ENERGY, SLIP_ENERGY, ORBITAL };"]
+            lines += [
+                "#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS",
+                "enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };",
+            ]
             lines += self._value(
                 "orbital",
                 "static inline void orbital(const constants *c, const vec *y, vec *found)",
-                {"slip": "found[SLIP_RATE]", "orbit_energy": "found[ORBIT_ENERGY]", "surface": "found[SLIP_ENERGY]"},
+                {
+                    "slip": "found[SLIP_RATE]",
+                    "orbital_energy": "found[ORBITAL_ENERGY]",
+                    "surface": "found[SLIP_ENERGY]",
+                },
                 "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
                 "(surface arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py).",
             )
         if shape.oblique and not shape.strings and shape.partner != "wall":
             lines += self._value(
-                "rigid_rotation", "static inline vec rigid_orbit(const constants *c, const vec *y)", {"orbit": "return"}
+                "rigid_rotation",
+                "static inline vec rigid_momentum(const constants *c, const vec *y)",
+                {"orbital_momentum": "return"},
             )
         if shape.oblique and not shape.strings and shape.partner != "wall" and not shape.reduced:
             lines += self._value(

@@ -25,8 +25,8 @@ from ...vocabulary.quantities import (
     e_dry,
     elastic_gap,
     gap,
-    opening,
-    orbit,
+    normal_velocity,
+    orbital_momentum,
     rough_gap,
     rupture_gap,
 )
@@ -34,13 +34,13 @@ from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermedia
 from .strings import (
     CONTACT,
     FARTHEST,
-    LARGEST_ORBIT,
+    LARGEST_MOMENTUM,
     LARGEST_PULL,
     NEAREST,
     SPUN_UP,
     outward_at,
     pull_at,
-    rigid_orbit,
+    rigid_momentum,
 )
 
 LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
@@ -77,10 +77,10 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
         (CONTACT, sp.Max(elastic_gap, rough_gap)),
         (NEAREST, 4 + aspect * CONTACT),
         (FARTHEST, 4 + aspect * end),
-        (SPUN_UP, rigid_orbit(MOMENTUM, FARTHEST)),
-        (LARGEST_ORBIT, sp.Max(orbit, SPUN_UP)),
+        (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
+        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, SPUN_UP)),
         (LEAST, _least(structure)),
-        (HOLD, LEAST + pull - outward_at(LARGEST_ORBIT, NEAREST)),
+        (HOLD, LEAST + pull - outward_at(LARGEST_MOMENTUM, NEAREST)),
     ]
     return (*found, (LARGEST_PULL, largest)) if structure.strings else tuple(found)
 
@@ -88,7 +88,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 def margins(structure: Structure) -> dict[str, sp.Expr]:
     """A stick is proved where `hold` > 0, `flight` < 0 and `rebound` < 0; forces over m v0^2/x0, energy over m v0^2."""
     end = rupture_gap if structure.bridge else sp.Integer(1)
-    outward = sp.Max(opening, -e_dry * opening)
+    outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
     pulled = LEAST + (LARGEST_PULL if structure.strings else 0)
     return {
         "hold": HOLD,

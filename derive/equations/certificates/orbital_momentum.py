@@ -26,7 +26,7 @@ import sympy as sp
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure
-from ...vocabulary.quantities import a, m, omega0, orbit, spin, v0, x
+from ...vocabulary.quantities import a, m, omega0, orbital_momentum, spin, v0, x
 from ..intermediates import SLIP
 
 RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), rho the distance at which omega = xi for this J
@@ -93,14 +93,14 @@ def admits(structure: Structure) -> bool:
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
     found: list[tuple[sp.Symbol, sp.Expr]] = [(UNIT, nondimensional(a**2 * omega0**2 / v0**2))]
-    return tuple(found if structure.reduced else [*found, (RIGID, rigid_share(orbit, spin))])
+    return tuple(found if structure.reduced else [*found, (RIGID, rigid_share(orbital_momentum, spin))])
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
     """Omega - xi and J^2/(2 r^2) at the state's gap; the slip energy for either arm; energies over m v0^2."""
     found = {
         "slip": SLIP,
-        "orbit_energy": UNIT * orbit**2 / (2 * DISTANCE**2),
-        "midgap": UNIT * midgap(DISTANCE, orbit, spin),
+        "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),
+        "midgap": UNIT * midgap(DISTANCE, orbital_momentum, spin),
     }
-    return found if structure.reduced else {**found, "surface": UNIT * surface(DISTANCE, orbit, spin, RIGID)}
+    return found if structure.reduced else {**found, "surface": UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)}

@@ -32,9 +32,9 @@ from ...vocabulary.quantities import (
     gap,
     glass_number,
     m,
+    normal_velocity,
     omega,
-    opening,
-    orbit,
+    orbital_momentum,
     r,
     rough_gap,
     stokes,
@@ -43,11 +43,11 @@ from ..intermediates import MOMENTUM
 
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
 NEAREST, FARTHEST = sp.symbols("nearest farthest", positive=True)  # smallest and largest centre distance over a
-SPUN_UP, LARGEST_ORBIT = sp.symbols("spun_up largest_orbit", real=True)
+SPUN_UP, LARGEST_MOMENTUM = sp.symbols("spun_up largest_momentum", real=True)
 LARGEST_PULL = sp.Symbol("largest_pull", positive=True)
 
 
-def rigid_orbit(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
+def rigid_momentum(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """r^2 omega over a^2 omega0 of a doublet that turns as one body with this angular momentum."""
     inertia = nondimensional(doublet_inertia() / (m * a**2)).subs(DISTANCE, distance)
     return momentum * distance**2 / inertia
@@ -63,18 +63,18 @@ def pull_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
 def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """Centrifugal force over m v0^2/x0 of this orbital momentum at this centre distance."""
     force = nondimensional(m * r * omega**2 / INERTIA)
-    return force.subs({orbit: momentum, DISTANCE: distance}, simultaneous=True)
+    return force.subs({orbital_momentum: momentum, DISTANCE: distance}, simultaneous=True)
 
 
 def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    closing = sp.Min(opening, 0)
+    closing = sp.Min(normal_velocity, 0)
     return (
         (CONTACT, sp.Max(elastic_gap, rough_gap)),
         (NEAREST, 4 + aspect * CONTACT),
         (FARTHEST, 4 + aspect),
-        (SPUN_UP, rigid_orbit(MOMENTUM, FARTHEST)),
-        (LARGEST_ORBIT, sp.Max(orbit, SPUN_UP)),
+        (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
+        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, SPUN_UP)),
         (LARGEST_PULL, pull_at(sp.Integer(1), sp.pi)),
         (FASTEST, sp.sqrt(closing**2 + 2 * LARGEST_PULL)),
         (REACH, sp.Max(CONTACT, slot_call("glass", "reach", FASTEST, glass_number))),
@@ -84,8 +84,8 @@ def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 def margins() -> dict[str, sp.Expr]:
     """A stick is proved where `outward` < `pull`, `film` < 0 and `recoil` < 0."""
     return {
-        "outward": outward_at(LARGEST_ORBIT, NEAREST),
+        "outward": outward_at(LARGEST_MOMENTUM, NEAREST),
         "pull": pull_at(CONTACT, beta),
-        "film": stokes * sp.Max(opening, 0) - slot_call("film", "stopping", gap),
+        "film": stokes * sp.Max(normal_velocity, 0) - slot_call("film", "stopping", gap),
         "recoil": stokes * e_dry * FASTEST - slot_call("film", "stopping", REACH),
     }

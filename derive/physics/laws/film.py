@@ -50,8 +50,8 @@ def sustained_force() -> sp.Expr:
 
     With u > 0 the pressure is proportional to -(1/h^2 - 1/x0^2) < 0 all over the disc, so nothing is left.
     """
-    opening, inside = sp.Symbol("opening_speed", positive=True), sp.Symbol("inside", positive=True)
-    at = sp.factor(pressure().subs(u, opening).subs(x0, _h + inside))  # anywhere in the disc, h < x0
+    speed, inside = sp.Symbol("speed", positive=True), sp.Symbol("inside", positive=True)
+    at = sp.factor(pressure().subs(u, speed).subs(x0, _h + inside))  # anywhere in the disc, h < x0
     return _over_disc(-sp.Max(at, 0), x0)
 
 

@@ -15,7 +15,7 @@ class Rotation:
     """States and expressions of all that is not along the line of centres.
 
     Arguments:
-        states: the states beside gap and opening velocity.
+        states: the states beside gap and normal velocity.
         definitions: named intermediates, in order.
         centrifugal: what opens the gap, over m v0^2/x0; 0 if nothing turns.
         rates: of the states, per v0/x0.

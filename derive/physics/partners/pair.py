@@ -14,7 +14,7 @@ from ...vocabulary.quantities import (
     mu,
     omega,
     omega0,
-    orbit,
+    orbital_momentum,
     partner_spin,
     partner_spin_rate,
     spin,
@@ -45,7 +45,7 @@ def scaled(expression: sp.Expr) -> sp.Expr:
 
 
 def _turned(expression: sp.Expr) -> sp.Expr:
-    return scaled(expression).subs(orbit, ORBITAL_RATE * DISTANCE**2)
+    return scaled(expression).subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
 
 def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
@@ -85,7 +85,7 @@ def _definitions() -> tuple[Definition, ...]:
         (PARTNER_RADIUS, sp.factor(partner_radius / a)),
         (SPIN_INERTIA, sp.factor(inertia / (m * a**2))),
         (PARTNER_INERTIA, sp.factor(partner_inertia / (m * a**2))),
-        (MOMENTUM, orbit + SPIN_INERTIA * spin + PARTNER_INERTIA * partner_spin),
+        (MOMENTUM, orbital_momentum + SPIN_INERTIA * spin + PARTNER_INERTIA * partner_spin),
         (INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA),
         (SLIP, ORBITAL_RATE - spin),
         (PARTNER_SLIP, ORBITAL_RATE - partner_spin),
@@ -117,11 +117,11 @@ def rotation() -> Rotation:
     centrifugal = sp.expand(opened - opened.subs(omega, 0))
     assert sp.expand(centrifugal - r * omega**2) == 0
     return Rotation(
-        states=(orbit, spin, partner_spin),
+        states=(orbital_momentum, spin, partner_spin),
         definitions=_definitions(),
         centrifugal=_turned(m * r * omega**2 / INERTIA),
         rates={
-            orbit: rate("beta"),
+            orbital_momentum: rate("beta"),
             spin: rate("alpha_1") / SPIN_INERTIA,
             partner_spin: rate("alpha_2") / PARTNER_INERTIA,
         },
@@ -136,6 +136,6 @@ def rotation() -> Rotation:
             "final_spin_partner": partner_spin,
         },
         least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
-        rigid={orbit: DISTANCE**2 * rigid, spin: rigid, partner_spin: rigid},
-        start={orbit: (CENTRES + aspect) ** 2, spin: sp.Integer(0), partner_spin: sp.Integer(0)},
+        rigid={orbital_momentum: DISTANCE**2 * rigid, spin: rigid, partner_spin: rigid},
+        start={orbital_momentum: (CENTRES + aspect) ** 2, spin: sp.Integer(0), partner_spin: sp.Integer(0)},
     )

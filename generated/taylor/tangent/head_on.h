@@ -1,11 +1,11 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a6d20359f969c5a02d47d0a86896ba5114643b38ffdd68aa48fbe65a03ac75f5 */
+ * Equations sha256 9d96ea4345e41696ac7f9b0587cb38a4c24920a0f5ca8b7dd20e6d5a11b14940 */
 
 /* Head-on doublet with a film only.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -31,7 +31,7 @@ static const unsigned char FLOWS[GROUPS] = { 1, 0, 0, 0, 0 };
 
 typedef struct {
     vec film_force_by_gap_factor;
-    vec opening_by_opening_per_film_resistance_law;
+    vec normal_velocity_by_normal_velocity_per_film_resistance_law;
     film_resistance_slope_constants film_resistance_law;
 } slope_constants;
 
@@ -39,15 +39,15 @@ typedef struct {
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->film_force_by_gap_factor = 1.0/v->stokes;
-    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
+    c->normal_velocity_by_normal_velocity_per_film_resistance_law = -1.0/v->stokes;
     film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
 }
 
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
-    vec opening_by_stokes[TERMS];
+    vec normal_velocity_by_gap[TERMS];
+    vec normal_velocity_by_normal_velocity[TERMS];
+    vec normal_velocity_by_stokes[TERMS];
 } slopes;
 
 /* What the rates change by with the states, and with the groups that are asked for. */
@@ -60,12 +60,12 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
     EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->opening, k);)
-    EACH_TERM(s->opening_by_gap[k] = -film_force_by_gap[k];)
-    EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
+        of->normal_velocity, k);)
+    EACH_TERM(s->normal_velocity_by_gap[k] = -film_force_by_gap[k];)
+    EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
+        film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
+        EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
     }
 }
 
@@ -75,9 +75,10 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 {
     double next = 1.0/(k + 1);
     (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[OPENING][k])*next;
-    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
-        + source[OPENING][k])*next;
+    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
+    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
+        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
+        source[NORMAL_VELOCITY][k])*next;
 }
 
 /* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
@@ -86,8 +87,9 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
     (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k);
-    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k);
+    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
+        after[NORMAL_VELOCITY], k);
 }
 
 /* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
@@ -103,7 +105,7 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     (void)s; (void)of;
     switch (group) {
     case BY_STOKES:
-        source[OPENING] = s->opening_by_stokes;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_stokes;
         break;
     }
 }
@@ -113,7 +115,7 @@ static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
     after[GAP] = splat(0.0);
-    after[OPENING] = splat(0.0);
+    after[NORMAL_VELOCITY] = splat(0.0);
     (void)group;
 }
 
@@ -123,10 +125,10 @@ static inline void reversal_along(const constants *v, const vec *y, const vec *t
     (void)v;
     (void)y;
     after[GAP] = t[GAP];
-    after[OPENING] = -v->dry_restitution*t[OPENING];
+    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
     switch (group) {
     case BY_DRY_RESTITUTION:
-        after[OPENING] += -y[OPENING];
+        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
         break;
     }
 }
@@ -136,7 +138,7 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
 {
     (void)v;
     (void)y;
-    shown[0] = t[OPENING];
+    shown[0] = t[NORMAL_VELOCITY];
     (void)group;
 }
 

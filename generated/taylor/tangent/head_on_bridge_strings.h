@@ -1,11 +1,11 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 313600c7e7173d8ee00e63eb542f369d16fd93d866f95c0b16097df375939f16 */
+ * Equations sha256 3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a */
 
 /* Head-on doublet with a liquid bridge and pendulum strings.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -49,11 +49,11 @@ typedef struct {
     vec string_pull_by_gap_per_strings_stiffness_law;
     vec strings_stiffness_by_aspect_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
     vec string_pull_by_aspect_per_string_pull;
-    vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
-    vec opening_by_opening_per_film_resistance_law;
-    vec opening_by_aspect_per_bridge_force_by_aspect;
-    vec opening_by_capillary_per_bridge_force;
-    vec opening_by_weight_per_string_pull;
+    vec normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius;
+    vec normal_velocity_by_normal_velocity_per_film_resistance_law;
+    vec normal_velocity_by_aspect_per_bridge_force_by_aspect;
+    vec normal_velocity_by_capillary_per_bridge_force;
+    vec normal_velocity_by_weight_per_string_pull;
     film_resistance_slope_constants film_resistance_law;
     bridge_force_slope_constants bridge_force_law;
     strings_stiffness_slope_constants strings_stiffness_law;
@@ -69,11 +69,12 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     c->strings_stiffness_by_aspect_per_offset_squared_by_strings_stiffness_law_by_offset_squared =
         2.0/v->aspect;
     c->string_pull_by_aspect_per_string_pull = 1.0/v->aspect;
-    c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
-    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
-    c->opening_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
-    c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
-    c->opening_by_weight_per_string_pull = -1.0/v->weight;
+    c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius =
+        -0.5*v->aspect/(v->capillary*v->stokes);
+    c->normal_velocity_by_normal_velocity_per_film_resistance_law = -1.0/v->stokes;
+    c->normal_velocity_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
+    c->normal_velocity_by_capillary_per_bridge_force = 1.0/v->capillary;
+    c->normal_velocity_by_weight_per_string_pull = -1.0/v->weight;
     film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
     bridge_force_slope_prepare(&c->bridge_force_law, &v->bridge_force_law);
     strings_stiffness_slope_prepare(&c->strings_stiffness_law, &v->strings_stiffness_law);
@@ -81,15 +82,15 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
-    vec opening_by_stokes[TERMS];
-    vec opening_by_aspect[TERMS];
-    vec opening_by_capillary[TERMS];
-    vec opening_by_volume[TERMS];
-    vec opening_by_contact_angle[TERMS];
-    vec opening_by_weight[TERMS];
-    vec opening_by_string_ratio[TERMS];
+    vec normal_velocity_by_gap[TERMS];
+    vec normal_velocity_by_normal_velocity[TERMS];
+    vec normal_velocity_by_stokes[TERMS];
+    vec normal_velocity_by_aspect[TERMS];
+    vec normal_velocity_by_capillary[TERMS];
+    vec normal_velocity_by_volume[TERMS];
+    vec normal_velocity_by_contact_angle[TERMS];
+    vec normal_velocity_by_weight[TERMS];
+    vec normal_velocity_by_string_ratio[TERMS];
 } slopes;
 
 /* What the rates change by with the states, and with the groups that are asked for. */
@@ -115,17 +116,17 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     strings_stiffness_slopes_of(&strings_stiffness_law, &c->strings_stiffness_law, &of->strings_stiffness_law,
         &v->strings_stiffness_law, of->offset_squared);
     EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->opening, k);)
+        of->normal_velocity, k);)
     EACH_TERM(offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
         strings_stiffness_law.by_offset_squared, k);)
     EACH_TERM(string_pull_by_gap[k] =
         c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*offset_squared_by_strings_stiffness_law_by_offset_squared[k]
         + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];)
-    EACH_TERM(s->opening_by_gap[k] =
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] -
-        film_force_by_gap[k] - string_pull_by_gap[k];)
-    EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
+    EACH_TERM(s->normal_velocity_by_gap[k] =
+        c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k]
+        - film_force_by_gap[k] - string_pull_by_gap[k];)
+    EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
+        film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
         EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
         EACH_TERM(strings_stiffness_by_aspect[k] =
@@ -134,32 +135,35 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         EACH_TERM(string_pull_by_aspect[k] =
         c->string_pull_by_gap_per_strings_stiffness_law*gap_by_strings_stiffness_by_aspect[k] +
         c->string_pull_by_aspect_per_string_pull*of->string_pull[k];)
-        EACH_TERM(s->opening_by_aspect[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] - string_pull_by_aspect[k];)
+        EACH_TERM(s->normal_velocity_by_aspect[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] -
+        string_pull_by_aspect[k];)
     }
     if (asked & (1u << BY_CAPILLARY)) {
-        EACH_TERM(s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];)
+        EACH_TERM(s->normal_velocity_by_capillary[k] =
+        c->normal_velocity_by_capillary_per_bridge_force*of->bridge_force[k];)
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
-        EACH_TERM(s->opening_by_contact_angle[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
+        EACH_TERM(s->normal_velocity_by_contact_angle[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
+        EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
         c->film_force_by_gap_factor*of->film_force[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
         EACH_TERM(string_pull_by_string_ratio[k] =
         c->string_pull_by_gap_per_strings_stiffness_law*product(of->gap,
         strings_stiffness_law.by_string_ratio, k);)
-        EACH_TERM(s->opening_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
+        EACH_TERM(s->normal_velocity_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
     }
     if (asked & (1u << BY_VOLUME)) {
-        EACH_TERM(s->opening_by_volume[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
+        EACH_TERM(s->normal_velocity_by_volume[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
     }
     if (asked & (1u << BY_WEIGHT)) {
-        EACH_TERM(s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];)
+        EACH_TERM(s->normal_velocity_by_weight[k] =
+        c->normal_velocity_by_weight_per_string_pull*of->string_pull[k];)
     }
 }
 
@@ -169,9 +173,10 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 {
     double next = 1.0/(k + 1);
     (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[OPENING][k])*next;
-    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
-        + source[OPENING][k])*next;
+    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
+    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
+        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
+        source[NORMAL_VELOCITY][k])*next;
 }
 
 /* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
@@ -180,8 +185,9 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
     (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k);
-    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
+    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k);
+    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
+        after[NORMAL_VELOCITY], k);
 }
 
 /* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
@@ -197,25 +203,25 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     (void)s; (void)of;
     switch (group) {
     case BY_STOKES:
-        source[OPENING] = s->opening_by_stokes;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_stokes;
         break;
     case BY_ASPECT:
-        source[OPENING] = s->opening_by_aspect;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_aspect;
         break;
     case BY_CAPILLARY:
-        source[OPENING] = s->opening_by_capillary;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_capillary;
         break;
     case BY_VOLUME:
-        source[OPENING] = s->opening_by_volume;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_volume;
         break;
     case BY_CONTACT_ANGLE:
-        source[OPENING] = s->opening_by_contact_angle;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_contact_angle;
         break;
     case BY_WEIGHT:
-        source[OPENING] = s->opening_by_weight;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_weight;
         break;
     case BY_STRING_RATIO:
-        source[OPENING] = s->opening_by_string_ratio;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_string_ratio;
         break;
     }
 }
@@ -225,7 +231,7 @@ static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
     after[GAP] = splat(0.0);
-    after[OPENING] = splat(0.0);
+    after[NORMAL_VELOCITY] = splat(0.0);
     (void)group;
 }
 
@@ -235,10 +241,10 @@ static inline void reversal_along(const constants *v, const vec *y, const vec *t
     (void)v;
     (void)y;
     after[GAP] = t[GAP];
-    after[OPENING] = -v->dry_restitution*t[OPENING];
+    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
     switch (group) {
     case BY_DRY_RESTITUTION:
-        after[OPENING] += -y[OPENING];
+        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
         break;
     }
 }
@@ -248,7 +254,7 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
 {
     (void)v;
     (void)y;
-    shown[0] = t[OPENING];
+    shown[0] = t[NORMAL_VELOCITY];
     (void)group;
 }
 

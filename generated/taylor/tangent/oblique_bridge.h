@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 8cf569f8d1325f5c4f77980f2b79e06807d92f95b1751050a00368c78e3e48bc */
+ * Equations sha256 1ad8bce18d91d08c7f462a8ea21912f5fd40dad3f715ff49eeeed89c34336351 */
 
 /* Oblique doublet with a liquid bridge.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  * - spin [omega0]: spin of each sphere over omega0
  *
  * Groups:
@@ -51,19 +51,19 @@ typedef struct {
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec opening_by_gap_per_orbital_rate_squared;
-    vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
-    vec opening_by_opening_per_film_resistance_law;
-    vec opening_by_orbit_per_orbital_rate_over_distance;
-    vec opening_by_aspect_per_bridge_force_by_aspect;
-    vec opening_by_capillary_per_bridge_force;
-    vec orbit_by_gap_per_shear_force;
-    vec orbit_by_orbit_per_shear_log_factor_law_over_distance;
+    vec normal_velocity_by_gap_per_orbital_rate_squared;
+    vec normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius;
+    vec normal_velocity_by_normal_velocity_per_film_resistance_law;
+    vec normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance;
+    vec normal_velocity_by_aspect_per_bridge_force_by_aspect;
+    vec normal_velocity_by_capillary_per_bridge_force;
+    vec orbital_momentum_by_gap_per_shear_force;
+    vec orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance;
     vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
-    vec spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
+    vec spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
     vec spin_by_spin_per_arm_lever_law_by_shear_log_factor_law;
     vec turned_by_gap_per_orbital_rate_over_distance;
-    vec turned_by_orbit_per_inverse_distance_squared;
+    vec turned_by_orbital_momentum_per_inverse_distance_squared;
     vec turned_by_aspect_per_gap_by_orbital_rate_over_distance;
     vec turned_by_aspect_per_orbital_rate;
     vec turned_by_obliquity_per_orbital_rate;
@@ -86,20 +86,24 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
     c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*v->aspect/v->stokes;
-    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
-    c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
-    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
-    c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
-    c->opening_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
-    c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
-    c->orbit_by_gap_per_shear_force = -v->aspect;
-    c->orbit_by_orbit_per_shear_log_factor_law_over_distance = -1.3333333333333333*v->aspect/v->stokes;
+    c->normal_velocity_by_gap_per_orbital_rate_squared =
+        -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
+    c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius =
+        -0.5*v->aspect/(v->capillary*v->stokes);
+    c->normal_velocity_by_normal_velocity_per_film_resistance_law = -1.0/v->stokes;
+    c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance =
+        0.125*v->aspect*(v->obliquity*v->obliquity);
+    c->normal_velocity_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
+    c->normal_velocity_by_capillary_per_bridge_force = 1.0/v->capillary;
+    c->orbital_momentum_by_gap_per_shear_force = -v->aspect;
+    c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance =
+        -1.3333333333333333*v->aspect/v->stokes;
     c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
-    c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
+    c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
         0.4166666666666667*v->aspect/v->stokes;
     c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law = -0.4166666666666667*v->aspect/v->stokes;
     c->turned_by_gap_per_orbital_rate_over_distance = -0.5*(v->aspect*v->aspect)*v->obliquity;
-    c->turned_by_orbit_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
+    c->turned_by_orbital_momentum_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
     c->turned_by_aspect_per_gap_by_orbital_rate_over_distance = -0.5*v->aspect*v->obliquity;
     c->turned_by_aspect_per_orbital_rate = 0.25*v->obliquity;
     c->turned_by_obliquity_per_orbital_rate = 0.25*v->aspect;
@@ -112,26 +116,26 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
     vec centrifugal_force_by_obliquity[TERMS];
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
-    vec opening_by_orbit[TERMS];
-    vec opening_by_stokes[TERMS];
-    vec opening_by_aspect[TERMS];
-    vec opening_by_capillary[TERMS];
-    vec opening_by_volume[TERMS];
-    vec opening_by_contact_angle[TERMS];
-    vec orbit_by_gap[TERMS];
-    vec orbit_by_orbit[TERMS];
-    vec orbit_by_spin[TERMS];
-    vec orbit_by_stokes[TERMS];
-    vec orbit_by_aspect[TERMS];
+    vec normal_velocity_by_gap[TERMS];
+    vec normal_velocity_by_normal_velocity[TERMS];
+    vec normal_velocity_by_orbital_momentum[TERMS];
+    vec normal_velocity_by_stokes[TERMS];
+    vec normal_velocity_by_aspect[TERMS];
+    vec normal_velocity_by_capillary[TERMS];
+    vec normal_velocity_by_volume[TERMS];
+    vec normal_velocity_by_contact_angle[TERMS];
+    vec orbital_momentum_by_gap[TERMS];
+    vec orbital_momentum_by_orbital_momentum[TERMS];
+    vec orbital_momentum_by_spin[TERMS];
+    vec orbital_momentum_by_stokes[TERMS];
+    vec orbital_momentum_by_aspect[TERMS];
     vec spin_by_gap[TERMS];
-    vec spin_by_orbit[TERMS];
+    vec spin_by_orbital_momentum[TERMS];
     vec spin_by_spin[TERMS];
     vec spin_by_stokes[TERMS];
     vec spin_by_aspect[TERMS];
     vec turned_by_gap[TERMS];
-    vec turned_by_orbit[TERMS];
+    vec turned_by_orbital_momentum[TERMS];
     vec turned_by_aspect[TERMS];
     vec turned_by_obliquity[TERMS];
 } slopes;
@@ -187,7 +191,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
     EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->opening, k);)
+        of->normal_velocity, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
         of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -199,23 +203,24 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] -
-        film_force_by_gap[k];)
-    EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
+    EACH_TERM(s->normal_velocity_by_gap[k] =
+        c->normal_velocity_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
+        c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k]
+        - film_force_by_gap[k];)
+    EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
+        film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
         orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
-    EACH_TERM(s->opening_by_orbit[k] =
-        c->opening_by_orbit_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+    EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
+        c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
-    EACH_TERM(s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
+    EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] -
         distance_by_shear_force_by_gap[k];)
     EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
         shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
-    EACH_TERM(s->orbit_by_orbit[k] =
-        shear*c->orbit_by_orbit_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
-    EACH_TERM(s->orbit_by_spin[k] =
+    EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] =
+        shear*c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
+    EACH_TERM(s->orbital_momentum_by_spin[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
         of->shear_log_factor_law.result, k);)
     EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product(arm_lever_law.by_distance,
@@ -231,8 +236,8 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         quotient(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
         arm_lever_law_by_shear_log_factor_law_over_distance_squared,
         &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
-    EACH_TERM(s->spin_by_orbit[k] =
-        shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
+    EACH_TERM(s->spin_by_orbital_momentum[k] =
+        shear*c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
     EACH_TERM(s->spin_by_spin[k] =
         shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*arm_lever_law_by_shear_log_factor_law[k];)
 #if TURNING_STATE
@@ -241,8 +246,8 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 #endif
     EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
 #if TURNING_STATE
-    EACH_TERM(s->turned_by_orbit[k] =
-        c->turned_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
+    EACH_TERM(s->turned_by_orbital_momentum[k] =
+        c->turned_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
 #endif
     if (asked & (1u << BY_ASPECT)) {
         EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
@@ -265,12 +270,13 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
         EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
-        EACH_TERM(s->opening_by_aspect[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
+        EACH_TERM(s->normal_velocity_by_aspect[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
         centrifugal_force_by_aspect[k];)
         EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
         EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
-        EACH_TERM(s->orbit_by_aspect[k] = -distance_by_shear_force_by_aspect[k] - gap_by_shear_force[k];)
+        EACH_TERM(s->orbital_momentum_by_aspect[k] = -distance_by_shear_force_by_aspect[k] -
+        gap_by_shear_force[k];)
         EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
         EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
         shear_force_by_aspect, k);)
@@ -285,11 +291,12 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 #endif
     }
     if (asked & (1u << BY_CAPILLARY)) {
-        EACH_TERM(s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];)
+        EACH_TERM(s->normal_velocity_by_capillary[k] =
+        c->normal_velocity_by_capillary_per_bridge_force*of->bridge_force[k];)
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
-        EACH_TERM(s->opening_by_contact_angle[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
+        EACH_TERM(s->normal_velocity_by_contact_angle[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
         EACH_TERM(s->centrifugal_force_by_obliquity[k] =
@@ -299,14 +306,16 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 #endif
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
+        EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
         c->film_force_by_gap_factor*of->film_force[k];)
-        EACH_TERM(s->orbit_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_orbit[k];)
-        EACH_TERM(s->spin_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_spin[k];)
+        EACH_TERM(s->orbital_momentum_by_stokes[k] =
+        c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->rate_of_orbital_momentum[k];)
+        EACH_TERM(s->spin_by_stokes[k] =
+        c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_VOLUME)) {
-        EACH_TERM(s->opening_by_volume[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
+        EACH_TERM(s->normal_velocity_by_volume[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
     }
 }
 
@@ -316,16 +325,19 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 {
     double next = 1.0/(k + 1);
     (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[OPENING][k])*next;
-    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
-        + product(s->opening_by_orbit, t[ORBIT], k) + source[OPENING][k])*next;
-    t[ORBIT][k + 1] = (product(s->orbit_by_gap, t[GAP], k) + product(s->orbit_by_orbit, t[ORBIT], k) +
-        product(s->orbit_by_spin, t[SPIN], k) + source[ORBIT][k])*next;
-    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbit, t[ORBIT], k) +
-        product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
+    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
+    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
+        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
+        product(s->normal_velocity_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        source[NORMAL_VELOCITY][k])*next;
+    t[ORBITAL_MOMENTUM][k + 1] = (product(s->orbital_momentum_by_gap, t[GAP], k) +
+        product(s->orbital_momentum_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        product(s->orbital_momentum_by_spin, t[SPIN], k) + source[ORBITAL_MOMENTUM][k])*next;
+    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
 #if TURNING_STATE
-    t[TURNED][k + 1] = (product(s->turned_by_gap, t[GAP], k) + product(s->turned_by_orbit, t[ORBIT], k) +
-        source[TURNED][k])*next;
+    t[TURNED][k + 1] = (product(s->turned_by_gap, t[GAP], k) + product(s->turned_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + source[TURNED][k])*next;
 #endif
 }
 
@@ -335,18 +347,22 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
     (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k) + correlated(s->orbit_by_gap, after[ORBIT],
-        k) + correlated(s->spin_by_gap, after[SPIN], k);
+    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_gap, after[ORBITAL_MOMENTUM], k) + correlated(s->spin_by_gap,
+        after[SPIN], k);
 #if TURNING_STATE
     w[GAP][k] += correlated(s->turned_by_gap, after[TURNED], k);
 #endif
-    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
-    w[ORBIT][k] += correlated(s->opening_by_orbit, after[OPENING], k) + correlated(s->orbit_by_orbit,
-        after[ORBIT], k) + correlated(s->spin_by_orbit, after[SPIN], k);
+    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
+        after[NORMAL_VELOCITY], k);
+    w[ORBITAL_MOMENTUM][k] += correlated(s->normal_velocity_by_orbital_momentum, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_orbital_momentum, after[ORBITAL_MOMENTUM], k) +
+        correlated(s->spin_by_orbital_momentum, after[SPIN], k);
 #if TURNING_STATE
-    w[ORBIT][k] += correlated(s->turned_by_orbit, after[TURNED], k);
+    w[ORBITAL_MOMENTUM][k] += correlated(s->turned_by_orbital_momentum, after[TURNED], k);
 #endif
-    w[SPIN][k] += correlated(s->orbit_by_spin, after[ORBIT], k) + correlated(s->spin_by_spin, after[SPIN], k);
+    w[SPIN][k] += correlated(s->orbital_momentum_by_spin, after[ORBITAL_MOMENTUM], k) +
+        correlated(s->spin_by_spin, after[SPIN], k);
 }
 
 /* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
@@ -364,32 +380,32 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     (void)s; (void)of;
     switch (group) {
     case BY_STOKES:
-        source[OPENING] = s->opening_by_stokes;
-        source[ORBIT] = s->orbit_by_stokes;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_stokes;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_stokes;
         source[SPIN] = s->spin_by_stokes;
         break;
     case BY_ASPECT:
-        source[OPENING] = s->opening_by_aspect;
-        source[ORBIT] = s->orbit_by_aspect;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_aspect;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_aspect;
         source[SPIN] = s->spin_by_aspect;
 #if TURNING_STATE
         source[TURNED] = s->turned_by_aspect;
 #endif
         break;
     case BY_OBLIQUITY:
-        source[OPENING] = s->centrifugal_force_by_obliquity;
+        source[NORMAL_VELOCITY] = s->centrifugal_force_by_obliquity;
 #if TURNING_STATE
         source[TURNED] = s->turned_by_obliquity;
 #endif
         break;
     case BY_CAPILLARY:
-        source[OPENING] = s->opening_by_capillary;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_capillary;
         break;
     case BY_VOLUME:
-        source[OPENING] = s->opening_by_volume;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_volume;
         break;
     case BY_CONTACT_ANGLE:
-        source[OPENING] = s->opening_by_contact_angle;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_contact_angle;
         break;
     }
 }
@@ -399,12 +415,12 @@ static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
     after[GAP] = splat(0.0);
-    after[OPENING] = splat(0.0);
-    after[ORBIT] = splat(0.0);
+    after[NORMAL_VELOCITY] = splat(0.0);
+    after[ORBITAL_MOMENTUM] = splat(0.0);
     after[SPIN] = splat(0.0);
     switch (group) {
     case BY_ASPECT:
-        after[ORBIT] += 2.0*(v->aspect + 4.0);
+        after[ORBITAL_MOMENTUM] += 2.0*(v->aspect + 4.0);
         break;
     }
 }
@@ -415,12 +431,12 @@ static inline void reversal_along(const constants *v, const vec *y, const vec *t
     (void)v;
     (void)y;
     after[GAP] = t[GAP];
-    after[OPENING] = -v->dry_restitution*t[OPENING];
-    after[ORBIT] = t[ORBIT];
+    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
+    after[ORBITAL_MOMENTUM] = t[ORBITAL_MOMENTUM];
     after[SPIN] = t[SPIN];
     switch (group) {
     case BY_DRY_RESTITUTION:
-        after[OPENING] += -y[OPENING];
+        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
         break;
     }
 }
@@ -430,18 +446,19 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
 {
     (void)v;
     (void)y;
-    shown[0] = t[OPENING];
-    shown[1] = -v->aspect*y[ORBIT]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
-    shown[2] = -2.0*v->aspect*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
+    shown[0] = t[NORMAL_VELOCITY];
+    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBITAL_MOMENTUM];
+    shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0))*t[ORBITAL_MOMENTUM];
     shown[3] = t[SPIN];
     switch (group) {
     case BY_ASPECT:
-        shown[1] += -2.0*y[ORBIT]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect + 4.0)*(v->aspect +
-        4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
-        shown[2] += -2.0*y[GAP]*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP]
-        + 4.0));
+        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect +
+        4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
+        shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0));
         break;
     }
 }

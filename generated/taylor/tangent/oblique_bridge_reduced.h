@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 45cc8a3a6ae691ce60129fc329539db78e2767e29d4700efac49c8b077b7afa2 */
+ * Equations sha256 76ccc66b98e94149296a7288db9e39959d01d019875df3d951caf158dc6cf689 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
@@ -51,15 +51,15 @@ typedef struct {
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec slip_by_aspect_offset;
-    vec opening_by_gap_per_orbital_rate_squared;
-    vec opening_by_gap_per_bridge_force_law_by_gap_over_radius;
-    vec opening_by_opening_per_film_resistance_law;
-    vec opening_by_orbit_per_orbital_rate_over_distance;
-    vec opening_by_aspect_per_bridge_force_by_aspect;
-    vec opening_by_capillary_per_bridge_force;
-    vec orbit_by_gap_per_shear_force;
+    vec normal_velocity_by_gap_per_orbital_rate_squared;
+    vec normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius;
+    vec normal_velocity_by_normal_velocity_per_film_resistance_law;
+    vec normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance;
+    vec normal_velocity_by_aspect_per_bridge_force_by_aspect;
+    vec normal_velocity_by_capillary_per_bridge_force;
+    vec orbital_momentum_by_gap_per_shear_force;
     vec turned_by_gap_per_orbital_rate_over_distance;
-    vec turned_by_orbit_per_inverse_distance_squared;
+    vec turned_by_orbital_momentum_per_inverse_distance_squared;
     vec turned_by_aspect_per_gap_by_orbital_rate_over_distance;
     vec turned_by_aspect_per_orbital_rate;
     vec turned_by_obliquity_per_orbital_rate;
@@ -81,15 +81,18 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
         -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
     c->slip_by_aspect_offset = -0.15625*c->momentum_by_aspect;
-    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
-    c->opening_by_gap_per_bridge_force_law_by_gap_over_radius = -0.5*v->aspect/(v->capillary*v->stokes);
-    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
-    c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
-    c->opening_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
-    c->opening_by_capillary_per_bridge_force = 1.0/v->capillary;
-    c->orbit_by_gap_per_shear_force = -v->aspect;
+    c->normal_velocity_by_gap_per_orbital_rate_squared =
+        -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
+    c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius =
+        -0.5*v->aspect/(v->capillary*v->stokes);
+    c->normal_velocity_by_normal_velocity_per_film_resistance_law = -1.0/v->stokes;
+    c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance =
+        0.125*v->aspect*(v->obliquity*v->obliquity);
+    c->normal_velocity_by_aspect_per_bridge_force_by_aspect = -1.0/(v->capillary*v->stokes);
+    c->normal_velocity_by_capillary_per_bridge_force = 1.0/v->capillary;
+    c->orbital_momentum_by_gap_per_shear_force = -v->aspect;
     c->turned_by_gap_per_orbital_rate_over_distance = -0.5*(v->aspect*v->aspect)*v->obliquity;
-    c->turned_by_orbit_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
+    c->turned_by_orbital_momentum_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
     c->turned_by_aspect_per_gap_by_orbital_rate_over_distance = -0.5*v->aspect*v->obliquity;
     c->turned_by_aspect_per_orbital_rate = 0.25*v->obliquity;
     c->turned_by_obliquity_per_orbital_rate = 0.25*v->aspect;
@@ -101,20 +104,20 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
     vec centrifugal_force_by_obliquity[TERMS];
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
-    vec opening_by_orbit[TERMS];
-    vec opening_by_stokes[TERMS];
-    vec opening_by_aspect[TERMS];
-    vec opening_by_capillary[TERMS];
-    vec opening_by_volume[TERMS];
-    vec opening_by_contact_angle[TERMS];
-    vec orbit_by_gap[TERMS];
-    vec orbit_by_orbit[TERMS];
-    vec orbit_by_stokes[TERMS];
-    vec orbit_by_aspect[TERMS];
+    vec normal_velocity_by_gap[TERMS];
+    vec normal_velocity_by_normal_velocity[TERMS];
+    vec normal_velocity_by_orbital_momentum[TERMS];
+    vec normal_velocity_by_stokes[TERMS];
+    vec normal_velocity_by_aspect[TERMS];
+    vec normal_velocity_by_capillary[TERMS];
+    vec normal_velocity_by_volume[TERMS];
+    vec normal_velocity_by_contact_angle[TERMS];
+    vec orbital_momentum_by_gap[TERMS];
+    vec orbital_momentum_by_orbital_momentum[TERMS];
+    vec orbital_momentum_by_stokes[TERMS];
+    vec orbital_momentum_by_aspect[TERMS];
     vec turned_by_gap[TERMS];
-    vec turned_by_orbit[TERMS];
+    vec turned_by_orbital_momentum[TERMS];
     vec turned_by_aspect[TERMS];
     vec turned_by_obliquity[TERMS];
 } slopes;
@@ -136,8 +139,8 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
     vec shear_force_by_gap[TERMS];
     vec inverse_distance_squared[TERMS];
-    vec slip_by_orbit[TERMS];
-    vec shear_force_by_orbit[TERMS];
+    vec slip_by_orbital_momentum[TERMS];
+    vec shear_force_by_orbital_momentum[TERMS];
     vec gap_by_orbital_rate[TERMS];
     vec gap_by_orbital_rate_over_distance[TERMS];
     vec over_gap_by_orbital_rate_over_distance;
@@ -158,7 +161,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     bridge_force_slopes_of(&bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
         &v->bridge_force_law, of->scaled_gap);
     EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->opening, k);)
+        of->normal_velocity, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
         of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -171,31 +174,33 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
     EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
-    EACH_TERM(slip_by_orbit[k] = k == 0 ? inverse_distance_squared[k] + 0.15625 :
+    EACH_TERM(slip_by_orbital_momentum[k] = k == 0 ? inverse_distance_squared[k] + 0.15625 :
         inverse_distance_squared[k];)
-    EACH_TERM(shear_force_by_orbit[k] =
+    EACH_TERM(shear_force_by_orbital_momentum[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->shear_log_factor_law.result,
-        slip_by_orbit, k);)
-    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
-        c->opening_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k] -
-        film_force_by_gap[k];)
-    EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
+        slip_by_orbital_momentum, k);)
+    EACH_TERM(s->normal_velocity_by_gap[k] =
+        c->normal_velocity_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
+        c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k]
+        - film_force_by_gap[k];)
+    EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
+        film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
         orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
-    EACH_TERM(s->opening_by_orbit[k] =
-        c->opening_by_orbit_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+    EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
+        c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
-    EACH_TERM(s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] -
+    EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] -
         distance_by_shear_force_by_gap[k];)
-    EACH_TERM(s->orbit_by_orbit[k] = -product(of->distance, shear_force_by_orbit, k);)
+    EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] = -product(of->distance,
+        shear_force_by_orbital_momentum, k);)
 #if TURNING_STATE
     EACH_TERM(s->turned_by_gap[k] =
         c->turned_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
 #endif
 #if TURNING_STATE
-    EACH_TERM(s->turned_by_orbit[k] =
-        c->turned_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
+    EACH_TERM(s->turned_by_orbital_momentum[k] =
+        c->turned_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
 #endif
     if (asked & (1u << BY_ASPECT)) {
         EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
@@ -217,12 +222,13 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*slip_by_aspect_by_shear_log_factor_law[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
-        EACH_TERM(s->opening_by_aspect[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
+        EACH_TERM(s->normal_velocity_by_aspect[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
         centrifugal_force_by_aspect[k];)
         EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
         EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
-        EACH_TERM(s->orbit_by_aspect[k] = -distance_by_shear_force_by_aspect[k] - gap_by_shear_force[k];)
+        EACH_TERM(s->orbital_momentum_by_aspect[k] = -distance_by_shear_force_by_aspect[k] -
+        gap_by_shear_force[k];)
 #if TURNING_STATE
         EACH_TERM(s->turned_by_aspect[k] =
         c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*gap_by_orbital_rate_over_distance[k] +
@@ -230,11 +236,12 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 #endif
     }
     if (asked & (1u << BY_CAPILLARY)) {
-        EACH_TERM(s->opening_by_capillary[k] = c->opening_by_capillary_per_bridge_force*of->bridge_force[k];)
+        EACH_TERM(s->normal_velocity_by_capillary[k] =
+        c->normal_velocity_by_capillary_per_bridge_force*of->bridge_force[k];)
     }
     if (asked & (1u << BY_CONTACT_ANGLE)) {
-        EACH_TERM(s->opening_by_contact_angle[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
+        EACH_TERM(s->normal_velocity_by_contact_angle[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_contact_angle[k];)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
         EACH_TERM(s->centrifugal_force_by_obliquity[k] =
@@ -244,13 +251,14 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
 #endif
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
+        EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
         c->film_force_by_gap_factor*of->film_force[k];)
-        EACH_TERM(s->orbit_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_orbit[k];)
+        EACH_TERM(s->orbital_momentum_by_stokes[k] =
+        c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->rate_of_orbital_momentum[k];)
     }
     if (asked & (1u << BY_VOLUME)) {
-        EACH_TERM(s->opening_by_volume[k] =
-        c->opening_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
+        EACH_TERM(s->normal_velocity_by_volume[k] =
+        c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_law.by_volume[k];)
     }
 }
 
@@ -260,14 +268,17 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 {
     double next = 1.0/(k + 1);
     (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[OPENING][k])*next;
-    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
-        + product(s->opening_by_orbit, t[ORBIT], k) + source[OPENING][k])*next;
-    t[ORBIT][k + 1] = (product(s->orbit_by_gap, t[GAP], k) + product(s->orbit_by_orbit, t[ORBIT], k) +
-        source[ORBIT][k])*next;
+    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
+    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
+        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
+        product(s->normal_velocity_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        source[NORMAL_VELOCITY][k])*next;
+    t[ORBITAL_MOMENTUM][k + 1] = (product(s->orbital_momentum_by_gap, t[GAP], k) +
+        product(s->orbital_momentum_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        source[ORBITAL_MOMENTUM][k])*next;
 #if TURNING_STATE
-    t[TURNED][k + 1] = (product(s->turned_by_gap, t[GAP], k) + product(s->turned_by_orbit, t[ORBIT], k) +
-        source[TURNED][k])*next;
+    t[TURNED][k + 1] = (product(s->turned_by_gap, t[GAP], k) + product(s->turned_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + source[TURNED][k])*next;
 #endif
 }
 
@@ -277,16 +288,17 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
     (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k) + correlated(s->orbit_by_gap, after[ORBIT],
-        k);
+    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_gap, after[ORBITAL_MOMENTUM], k);
 #if TURNING_STATE
     w[GAP][k] += correlated(s->turned_by_gap, after[TURNED], k);
 #endif
-    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
-    w[ORBIT][k] += correlated(s->opening_by_orbit, after[OPENING], k) + correlated(s->orbit_by_orbit,
-        after[ORBIT], k);
+    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
+        after[NORMAL_VELOCITY], k);
+    w[ORBITAL_MOMENTUM][k] += correlated(s->normal_velocity_by_orbital_momentum, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_orbital_momentum, after[ORBITAL_MOMENTUM], k);
 #if TURNING_STATE
-    w[ORBIT][k] += correlated(s->turned_by_orbit, after[TURNED], k);
+    w[ORBITAL_MOMENTUM][k] += correlated(s->turned_by_orbital_momentum, after[TURNED], k);
 #endif
 }
 
@@ -304,30 +316,30 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     (void)s; (void)of;
     switch (group) {
     case BY_STOKES:
-        source[OPENING] = s->opening_by_stokes;
-        source[ORBIT] = s->orbit_by_stokes;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_stokes;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_stokes;
         break;
     case BY_ASPECT:
-        source[OPENING] = s->opening_by_aspect;
-        source[ORBIT] = s->orbit_by_aspect;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_aspect;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_aspect;
 #if TURNING_STATE
         source[TURNED] = s->turned_by_aspect;
 #endif
         break;
     case BY_OBLIQUITY:
-        source[OPENING] = s->centrifugal_force_by_obliquity;
+        source[NORMAL_VELOCITY] = s->centrifugal_force_by_obliquity;
 #if TURNING_STATE
         source[TURNED] = s->turned_by_obliquity;
 #endif
         break;
     case BY_CAPILLARY:
-        source[OPENING] = s->opening_by_capillary;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_capillary;
         break;
     case BY_VOLUME:
-        source[OPENING] = s->opening_by_volume;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_volume;
         break;
     case BY_CONTACT_ANGLE:
-        source[OPENING] = s->opening_by_contact_angle;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_contact_angle;
         break;
     }
 }
@@ -337,11 +349,11 @@ static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
     after[GAP] = splat(0.0);
-    after[OPENING] = splat(0.0);
-    after[ORBIT] = splat(0.0);
+    after[NORMAL_VELOCITY] = splat(0.0);
+    after[ORBITAL_MOMENTUM] = splat(0.0);
     switch (group) {
     case BY_ASPECT:
-        after[ORBIT] += 2.0*(v->aspect + 4.0);
+        after[ORBITAL_MOMENTUM] += 2.0*(v->aspect + 4.0);
         break;
     }
 }
@@ -352,11 +364,11 @@ static inline void reversal_along(const constants *v, const vec *y, const vec *t
     (void)v;
     (void)y;
     after[GAP] = t[GAP];
-    after[OPENING] = -v->dry_restitution*t[OPENING];
-    after[ORBIT] = t[ORBIT];
+    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
+    after[ORBITAL_MOMENTUM] = t[ORBITAL_MOMENTUM];
     switch (group) {
     case BY_DRY_RESTITUTION:
-        after[OPENING] += -y[OPENING];
+        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
         break;
     }
 }
@@ -366,18 +378,19 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
 {
     (void)v;
     (void)y;
-    shown[0] = t[OPENING];
-    shown[1] = -v->aspect*y[ORBIT]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
-    shown[2] = -2.0*v->aspect*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
-    shown[3] = (-0.15625)*t[ORBIT];
+    shown[0] = t[NORMAL_VELOCITY];
+    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBITAL_MOMENTUM];
+    shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0))*t[ORBITAL_MOMENTUM];
+    shown[3] = (-0.15625)*t[ORBITAL_MOMENTUM];
     switch (group) {
     case BY_ASPECT:
-        shown[1] += -2.0*y[ORBIT]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect + 4.0)*(v->aspect +
-        4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
-        shown[2] += -2.0*y[GAP]*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP]
-        + 4.0));
+        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect +
+        4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
+        shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0));
         shown[3] += 0.3125*(v->aspect + 4.0);
         break;
     }

@@ -1,12 +1,12 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f3a01cf791d429399e062b7337c5ca807169f2c95c143da4673d3d442fc3cc9f */
+ * Equations sha256 e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c */
 
 /* Oblique doublet with pendulum strings.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
- * - opening [v0]: opening velocity over impact speed, negative on approach
- * - orbit [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
+ * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
  * - spin [omega0]: spin of each sphere over omega0
  * - rotation [rad]: angle turned by the line of centres
  *
@@ -55,17 +55,17 @@ typedef struct {
     vec string_sideways_by_gap_factor;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec string_sideways_by_obliquity_factor;
-    vec opening_by_gap_per_orbital_rate_squared;
-    vec opening_by_opening_per_film_resistance_law;
-    vec opening_by_orbit_per_orbital_rate_over_distance;
-    vec opening_by_weight_per_string_pull;
-    vec orbit_by_gap_per_shear_force;
-    vec orbit_by_orbit_per_shear_log_factor_law_over_distance;
+    vec normal_velocity_by_gap_per_orbital_rate_squared;
+    vec normal_velocity_by_normal_velocity_per_film_resistance_law;
+    vec normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance;
+    vec normal_velocity_by_weight_per_string_pull;
+    vec orbital_momentum_by_gap_per_shear_force;
+    vec orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance;
     vec spin_by_gap_per_arm_lever_law_by_distance_by_shear_force;
-    vec spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
+    vec spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
     vec spin_by_spin_per_arm_lever_law_by_shear_log_factor_law;
     vec rotation_by_gap_per_orbital_rate_over_distance;
-    vec rotation_by_orbit_per_inverse_distance_squared;
+    vec rotation_by_orbital_momentum_per_inverse_distance_squared;
     vec rotation_by_aspect_per_gap_by_orbital_rate_over_distance;
     vec rotation_by_aspect_per_orbital_rate;
     vec rotation_by_obliquity_per_orbital_rate;
@@ -95,18 +95,21 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*v->aspect/v->stokes;
     c->string_sideways_by_obliquity_factor = -16.0*v->weight/(v->obliquity*v->obliquity);
-    c->opening_by_gap_per_orbital_rate_squared = -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
-    c->opening_by_opening_per_film_resistance_law = -1.0/v->stokes;
-    c->opening_by_orbit_per_orbital_rate_over_distance = 0.125*v->aspect*(v->obliquity*v->obliquity);
-    c->opening_by_weight_per_string_pull = -1.0/v->weight;
-    c->orbit_by_gap_per_shear_force = -v->aspect;
-    c->orbit_by_orbit_per_shear_log_factor_law_over_distance = -1.3333333333333333*v->aspect/v->stokes;
+    c->normal_velocity_by_gap_per_orbital_rate_squared =
+        -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
+    c->normal_velocity_by_normal_velocity_per_film_resistance_law = -1.0/v->stokes;
+    c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance =
+        0.125*v->aspect*(v->obliquity*v->obliquity);
+    c->normal_velocity_by_weight_per_string_pull = -1.0/v->weight;
+    c->orbital_momentum_by_gap_per_shear_force = -v->aspect;
+    c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance =
+        -1.3333333333333333*v->aspect/v->stokes;
     c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force = 0.3125*v->aspect;
-    c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
+    c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared =
         0.4166666666666667*v->aspect/v->stokes;
     c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law = -0.4166666666666667*v->aspect/v->stokes;
     c->rotation_by_gap_per_orbital_rate_over_distance = -0.5*(v->aspect*v->aspect)*v->obliquity;
-    c->rotation_by_orbit_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
+    c->rotation_by_orbital_momentum_per_inverse_distance_squared = 0.25*v->aspect*v->obliquity;
     c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance = -0.5*v->aspect*v->obliquity;
     c->rotation_by_aspect_per_orbital_rate = 0.25*v->obliquity;
     c->rotation_by_obliquity_per_orbital_rate = 0.25*v->aspect;
@@ -119,30 +122,30 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 /* What the rates change by: entries of the matrix, and what drives a direction. */
 typedef struct {
     vec centrifugal_force_by_obliquity[TERMS];
-    vec opening_by_gap[TERMS];
-    vec opening_by_opening[TERMS];
-    vec opening_by_orbit[TERMS];
-    vec opening_by_rotation[TERMS];
-    vec opening_by_stokes[TERMS];
-    vec opening_by_aspect[TERMS];
-    vec opening_by_weight[TERMS];
-    vec opening_by_string_ratio[TERMS];
-    vec orbit_by_gap[TERMS];
-    vec orbit_by_orbit[TERMS];
-    vec orbit_by_spin[TERMS];
-    vec orbit_by_rotation[TERMS];
-    vec orbit_by_stokes[TERMS];
-    vec orbit_by_aspect[TERMS];
-    vec orbit_by_obliquity[TERMS];
-    vec orbit_by_weight[TERMS];
-    vec orbit_by_string_ratio[TERMS];
+    vec normal_velocity_by_gap[TERMS];
+    vec normal_velocity_by_normal_velocity[TERMS];
+    vec normal_velocity_by_orbital_momentum[TERMS];
+    vec normal_velocity_by_rotation[TERMS];
+    vec normal_velocity_by_stokes[TERMS];
+    vec normal_velocity_by_aspect[TERMS];
+    vec normal_velocity_by_weight[TERMS];
+    vec normal_velocity_by_string_ratio[TERMS];
+    vec orbital_momentum_by_gap[TERMS];
+    vec orbital_momentum_by_orbital_momentum[TERMS];
+    vec orbital_momentum_by_spin[TERMS];
+    vec orbital_momentum_by_rotation[TERMS];
+    vec orbital_momentum_by_stokes[TERMS];
+    vec orbital_momentum_by_aspect[TERMS];
+    vec orbital_momentum_by_obliquity[TERMS];
+    vec orbital_momentum_by_weight[TERMS];
+    vec orbital_momentum_by_string_ratio[TERMS];
     vec spin_by_gap[TERMS];
-    vec spin_by_orbit[TERMS];
+    vec spin_by_orbital_momentum[TERMS];
     vec spin_by_spin[TERMS];
     vec spin_by_stokes[TERMS];
     vec spin_by_aspect[TERMS];
     vec rotation_by_gap[TERMS];
-    vec rotation_by_orbit[TERMS];
+    vec rotation_by_orbital_momentum[TERMS];
     vec rotation_by_aspect[TERMS];
     vec rotation_by_obliquity[TERMS];
 } slopes;
@@ -229,7 +232,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
     EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->opening, k);)
+        of->normal_velocity, k);)
     EACH_TERM(offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
         c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];)
     EACH_TERM(strings_stiffness_by_gap[k] = product(strings_stiffness_law.by_offset_squared,
@@ -276,27 +279,28 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     EACH_TERM(string_sideways_by_rotation[k] =
         c->string_sideways_by_gap_factor*strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
         + c->string_sideways_by_gap_factor*strings_stiffness_law_by_cosine_of_rotation[k];)
-    EACH_TERM(s->opening_by_gap[k] = c->opening_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] -
-        film_force_by_gap[k] - string_pull_by_gap[k];)
-    EACH_TERM(s->opening_by_opening[k] =
-        film*c->opening_by_opening_per_film_resistance_law*of->film_resistance_law.result[k];)
+    EACH_TERM(s->normal_velocity_by_gap[k] =
+        c->normal_velocity_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] - film_force_by_gap[k]
+        - string_pull_by_gap[k];)
+    EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
+        film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
         orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
-    EACH_TERM(s->opening_by_orbit[k] =
-        c->opening_by_orbit_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
-    EACH_TERM(s->opening_by_rotation[k] = -string_pull_by_rotation[k];)
+    EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
+        c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
+    EACH_TERM(s->normal_velocity_by_rotation[k] = -string_pull_by_rotation[k];)
     EACH_TERM(combination_5[k] = -shear_force_by_gap[k] - string_sideways_by_gap[k];)
     EACH_TERM(distance_by_combination_5[k] = product(of->distance, combination_5, k);)
-    EACH_TERM(s->orbit_by_gap[k] = c->orbit_by_gap_per_shear_force*of->shear_force[k] +
-        c->orbit_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_5[k];)
+    EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] +
+        c->orbital_momentum_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_5[k];)
     EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
         shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
-    EACH_TERM(s->orbit_by_orbit[k] =
-        shear*c->orbit_by_orbit_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
-    EACH_TERM(s->orbit_by_spin[k] =
+    EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] =
+        shear*c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
+    EACH_TERM(s->orbital_momentum_by_spin[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
         of->shear_log_factor_law.result, k);)
-    EACH_TERM(s->orbit_by_rotation[k] = -product(of->distance, string_sideways_by_rotation, k);)
+    EACH_TERM(s->orbital_momentum_by_rotation[k] = -product(of->distance, string_sideways_by_rotation, k);)
     EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product(arm_lever_law.by_distance,
         of->shear_force, k);)
     EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, shear_force_by_gap,
@@ -310,15 +314,15 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         quotient(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
         arm_lever_law_by_shear_log_factor_law_over_distance_squared,
         &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
-    EACH_TERM(s->spin_by_orbit[k] =
-        shear*c->spin_by_orbit_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
+    EACH_TERM(s->spin_by_orbital_momentum[k] =
+        shear*c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
     EACH_TERM(s->spin_by_spin[k] =
         shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*arm_lever_law_by_shear_log_factor_law[k];)
     EACH_TERM(s->rotation_by_gap[k] =
         c->rotation_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
-    EACH_TERM(s->rotation_by_orbit[k] =
-        c->rotation_by_orbit_per_inverse_distance_squared*inverse_distance_squared[k];)
+    EACH_TERM(s->rotation_by_orbital_momentum[k] =
+        c->rotation_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
     if (asked & (1u << BY_ASPECT)) {
         EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
         EACH_TERM(centrifugal_force_by_aspect[k] =
@@ -354,12 +358,13 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         EACH_TERM(string_sideways_by_aspect[k] =
         c->string_sideways_by_gap_factor*product(strings_stiffness_by_aspect, sine_of_rotation, k);)
         EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
-        EACH_TERM(s->opening_by_aspect[k] = centrifugal_force_by_aspect[k] - string_pull_by_aspect[k];)
+        EACH_TERM(s->normal_velocity_by_aspect[k] = centrifugal_force_by_aspect[k] -
+        string_pull_by_aspect[k];)
         EACH_TERM(combination_6[k] = -shear_force_by_aspect[k] - string_sideways_by_aspect[k];)
         EACH_TERM(distance_by_combination_6[k] = product(of->distance, combination_6, k);)
         EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
         EACH_TERM(gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);)
-        EACH_TERM(s->orbit_by_aspect[k] = distance_by_combination_6[k] - gap_by_shear_force[k] -
+        EACH_TERM(s->orbital_momentum_by_aspect[k] = distance_by_combination_6[k] - gap_by_shear_force[k] -
         gap_by_string_sideways[k];)
         EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
         EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
@@ -378,28 +383,32 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         EACH_TERM(string_sideways_by_obliquity[k] =
         c->string_sideways_by_obliquity_factor*product(of->strings_stiffness_law.result, sine_of_rotation,
         k);)
-        EACH_TERM(s->orbit_by_obliquity[k] = -product(of->distance, string_sideways_by_obliquity, k);)
+        EACH_TERM(s->orbital_momentum_by_obliquity[k] = -product(of->distance, string_sideways_by_obliquity,
+        k);)
         EACH_TERM(s->rotation_by_obliquity[k] =
         c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
     }
     if (asked & (1u << BY_STOKES)) {
-        EACH_TERM(s->opening_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
-        EACH_TERM(s->orbit_by_stokes[k] = c->film_force_by_gap_factor*product(of->distance, of->shear_force,
-        k);)
-        EACH_TERM(s->spin_by_stokes[k] = c->opening_by_opening_per_film_resistance_law*of->rate_of_spin[k];)
+        EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->film_force[k];)
+        EACH_TERM(s->orbital_momentum_by_stokes[k] = c->film_force_by_gap_factor*product(of->distance,
+        of->shear_force, k);)
+        EACH_TERM(s->spin_by_stokes[k] =
+        c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
         EACH_TERM(string_pull_by_string_ratio[k] = v->weight*product(strings_stiffness_law.by_string_ratio,
         of->combination, k);)
         EACH_TERM(string_sideways_by_string_ratio[k] =
         c->string_sideways_by_gap_factor*product(strings_stiffness_law.by_string_ratio, sine_of_rotation, k);)
-        EACH_TERM(s->opening_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
-        EACH_TERM(s->orbit_by_string_ratio[k] = -product(of->distance, string_sideways_by_string_ratio, k);)
+        EACH_TERM(s->normal_velocity_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
+        EACH_TERM(s->orbital_momentum_by_string_ratio[k] = -product(of->distance,
+        string_sideways_by_string_ratio, k);)
     }
     if (asked & (1u << BY_WEIGHT)) {
-        EACH_TERM(s->opening_by_weight[k] = c->opening_by_weight_per_string_pull*of->string_pull[k];)
-        EACH_TERM(s->orbit_by_weight[k] = c->opening_by_weight_per_string_pull*product(of->distance,
-        of->string_sideways, k);)
+        EACH_TERM(s->normal_velocity_by_weight[k] =
+        c->normal_velocity_by_weight_per_string_pull*of->string_pull[k];)
+        EACH_TERM(s->orbital_momentum_by_weight[k] =
+        c->normal_velocity_by_weight_per_string_pull*product(of->distance, of->string_sideways, k);)
     }
 }
 
@@ -409,17 +418,19 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 {
     double next = 1.0/(k + 1);
     (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[OPENING][k])*next;
-    t[OPENING][k + 1] = (product(s->opening_by_gap, t[GAP], k) + product(s->opening_by_opening, t[OPENING], k)
-        + product(s->opening_by_orbit, t[ORBIT], k) + product(s->opening_by_rotation, t[ROTATION], k) +
-        source[OPENING][k])*next;
-    t[ORBIT][k + 1] = (product(s->orbit_by_gap, t[GAP], k) + product(s->orbit_by_orbit, t[ORBIT], k) +
-        product(s->orbit_by_spin, t[SPIN], k) + product(s->orbit_by_rotation, t[ROTATION], k) +
-        source[ORBIT][k])*next;
-    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbit, t[ORBIT], k) +
-        product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
-    t[ROTATION][k + 1] = (product(s->rotation_by_gap, t[GAP], k) + product(s->rotation_by_orbit, t[ORBIT], k)
-        + source[ROTATION][k])*next;
+    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
+    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
+        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
+        product(s->normal_velocity_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        product(s->normal_velocity_by_rotation, t[ROTATION], k) + source[NORMAL_VELOCITY][k])*next;
+    t[ORBITAL_MOMENTUM][k + 1] = (product(s->orbital_momentum_by_gap, t[GAP], k) +
+        product(s->orbital_momentum_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        product(s->orbital_momentum_by_spin, t[SPIN], k) + product(s->orbital_momentum_by_rotation,
+        t[ROTATION], k) + source[ORBITAL_MOMENTUM][k])*next;
+    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
+    t[ROTATION][k + 1] = (product(s->rotation_by_gap, t[GAP], k) + product(s->rotation_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + source[ROTATION][k])*next;
 }
 
 /* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
@@ -428,15 +439,19 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
     (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->opening_by_gap, after[OPENING], k) + correlated(s->orbit_by_gap, after[ORBIT],
-        k) + correlated(s->spin_by_gap, after[SPIN], k) + correlated(s->rotation_by_gap, after[ROTATION], k);
-    w[OPENING][k] += after[GAP][k] + correlated(s->opening_by_opening, after[OPENING], k);
-    w[ORBIT][k] += correlated(s->opening_by_orbit, after[OPENING], k) + correlated(s->orbit_by_orbit,
-        after[ORBIT], k) + correlated(s->spin_by_orbit, after[SPIN], k) + correlated(s->rotation_by_orbit,
+    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_gap, after[ORBITAL_MOMENTUM], k) + correlated(s->spin_by_gap,
+        after[SPIN], k) + correlated(s->rotation_by_gap, after[ROTATION], k);
+    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
+        after[NORMAL_VELOCITY], k);
+    w[ORBITAL_MOMENTUM][k] += correlated(s->normal_velocity_by_orbital_momentum, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_orbital_momentum, after[ORBITAL_MOMENTUM], k) +
+        correlated(s->spin_by_orbital_momentum, after[SPIN], k) + correlated(s->rotation_by_orbital_momentum,
         after[ROTATION], k);
-    w[SPIN][k] += correlated(s->orbit_by_spin, after[ORBIT], k) + correlated(s->spin_by_spin, after[SPIN], k);
-    w[ROTATION][k] += correlated(s->opening_by_rotation, after[OPENING], k) + correlated(s->orbit_by_rotation,
-        after[ORBIT], k);
+    w[SPIN][k] += correlated(s->orbital_momentum_by_spin, after[ORBITAL_MOMENTUM], k) +
+        correlated(s->spin_by_spin, after[SPIN], k);
+    w[ROTATION][k] += correlated(s->normal_velocity_by_rotation, after[NORMAL_VELOCITY], k) +
+        correlated(s->orbital_momentum_by_rotation, after[ORBITAL_MOMENTUM], k);
 }
 
 /* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
@@ -454,28 +469,28 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     (void)s; (void)of;
     switch (group) {
     case BY_STOKES:
-        source[OPENING] = s->opening_by_stokes;
-        source[ORBIT] = s->orbit_by_stokes;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_stokes;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_stokes;
         source[SPIN] = s->spin_by_stokes;
         break;
     case BY_ASPECT:
-        source[OPENING] = s->opening_by_aspect;
-        source[ORBIT] = s->orbit_by_aspect;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_aspect;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_aspect;
         source[SPIN] = s->spin_by_aspect;
         source[ROTATION] = s->rotation_by_aspect;
         break;
     case BY_OBLIQUITY:
-        source[OPENING] = s->centrifugal_force_by_obliquity;
-        source[ORBIT] = s->orbit_by_obliquity;
+        source[NORMAL_VELOCITY] = s->centrifugal_force_by_obliquity;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_obliquity;
         source[ROTATION] = s->rotation_by_obliquity;
         break;
     case BY_WEIGHT:
-        source[OPENING] = s->opening_by_weight;
-        source[ORBIT] = s->orbit_by_weight;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_weight;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_weight;
         break;
     case BY_STRING_RATIO:
-        source[OPENING] = s->opening_by_string_ratio;
-        source[ORBIT] = s->orbit_by_string_ratio;
+        source[NORMAL_VELOCITY] = s->normal_velocity_by_string_ratio;
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_string_ratio;
         break;
     }
 }
@@ -485,13 +500,13 @@ static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
     after[GAP] = splat(0.0);
-    after[OPENING] = splat(0.0);
-    after[ORBIT] = splat(0.0);
+    after[NORMAL_VELOCITY] = splat(0.0);
+    after[ORBITAL_MOMENTUM] = splat(0.0);
     after[SPIN] = splat(0.0);
     after[ROTATION] = splat(0.0);
     switch (group) {
     case BY_ASPECT:
-        after[ORBIT] += 2.0*(v->aspect + 4.0);
+        after[ORBITAL_MOMENTUM] += 2.0*(v->aspect + 4.0);
         break;
     }
 }
@@ -502,13 +517,13 @@ static inline void reversal_along(const constants *v, const vec *y, const vec *t
     (void)v;
     (void)y;
     after[GAP] = t[GAP];
-    after[OPENING] = -v->dry_restitution*t[OPENING];
-    after[ORBIT] = t[ORBIT];
+    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
+    after[ORBITAL_MOMENTUM] = t[ORBITAL_MOMENTUM];
     after[SPIN] = t[SPIN];
     after[ROTATION] = t[ROTATION];
     switch (group) {
     case BY_DRY_RESTITUTION:
-        after[OPENING] += -y[OPENING];
+        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
         break;
     }
 }
@@ -518,18 +533,19 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
 {
     (void)v;
     (void)y;
-    shown[0] = t[OPENING];
-    shown[1] = -v->aspect*y[ORBIT]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
-    shown[2] = -2.0*v->aspect*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBIT];
+    shown[0] = t[NORMAL_VELOCITY];
+    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBITAL_MOMENTUM];
+    shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0))*t[ORBITAL_MOMENTUM];
     shown[3] = t[SPIN];
     switch (group) {
     case BY_ASPECT:
-        shown[1] += -2.0*y[ORBIT]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect + 4.0)*(v->aspect +
-        4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
-        shown[2] += -2.0*y[GAP]*y[ORBIT]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP]
-        + 4.0));
+        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect +
+        4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
+        shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0));
         break;
     }
 }

@@ -120,7 +120,7 @@ class _Flight:
     slid: np.ndarray  # past a wall
     first: Frame  # at initial contact
     approach: Vector  # relative velocity at initial contact
-    parting: tuple[float, float]  # opening velocity and velocity across the line of centres at the end
+    parting: tuple[float, float]  # normal velocity and velocity across the line of centres at the end
     spins: tuple[float, float]  # at the end
 
     @classmethod
@@ -137,7 +137,7 @@ class _Flight:
         approach = (-collision.speed, sideways * (1.0 if first.wall else first.distance / (first.distance - gap[0])))
         sliding = np.asarray(data["sliding_velocity"]) if first.wall and collision.angle else np.zeros(time.size)
         across = float(sliding[-1]) if first.wall else float(rate[-1]) * (first.distance - gap[0] + gap[-1])
-        parting = float(data["opening_velocity"][-1]), across
+        parting = float(data["normal_velocity"][-1]), across
         spins = float(spin[-1]), float(other[-1])
         return cls(time, gap, rotation, turned, _integral(time, sliding), first, approach, parting, spins)
 
@@ -164,10 +164,10 @@ class _Flight:
 
     def apart(self, wait: float) -> Frame:
         """The pair on straight lines, a time after rupture."""
-        last, (opening, across) = self.last, self.parting
-        x, y = last.distance + opening * wait, across * wait * (not last.wall)
+        last, (normal_velocity, across) = self.last, self.parting
+        x, y = last.distance + normal_velocity * wait, across * wait * (not last.wall)
         along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
-        relative = (opening * along[0] + across * side[0], opening * along[1] + across * side[1])
+        relative = (normal_velocity * along[0] + across * side[0], normal_velocity * along[1] + across * side[1])
         gap, angle = math.hypot(x, y) - (last.distance - last.gap), last.angle + math.atan2(y, x)
         turned, other = last.turned + self.spins[0] * wait, (last.partner_turned or 0.0) + self.spins[1] * wait
         return replace(
@@ -185,12 +185,12 @@ def _first(scene: Scene, gap: float) -> Frame:
     return Frame(0.0, gap, 0.0, 0.0, radius, partner=radii * radius, share=masses / (1 + masses), partner_turned=0.0)
 
 
-def _wait(last: Frame, opening: float, across: float) -> float:
+def _wait(last: Frame, normal_velocity: float, across: float) -> float:
     """Time after rupture until the pair is as far apart as shows: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
     across *= not last.wall
-    speed = math.hypot(opening, across)
+    speed = math.hypot(normal_velocity, across)
     goal = last.distance + _APART * last.radius
-    lead = last.distance * opening
+    lead = last.distance * normal_velocity
     return (math.sqrt(lead**2 + speed**2 * (goal**2 - last.distance**2)) - lead) / speed**2
 
 

@@ -31,7 +31,7 @@ _MANY, _LABELS = 50, 6  # lines and labels of events in a column, at most
 
 @dataclass(frozen=True)
 class Column:
-    """A stretch of time and its panels: gap, opening velocity and, oblique, rotation rates and angle."""
+    """A stretch of time and its panels: gap, normal velocity and, oblique, rotation rates and angle."""
 
     start: float
     end: float
@@ -63,7 +63,7 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
     for column in columns:
         _fill(column, collision, rows, last=column is whole)
         _events(column, collision)
-    _match(columns, time, np.asarray(data["opening_velocity"]))
+    _match(columns, time, np.asarray(data["normal_velocity"]))
     for row, text in ((0, "a"), (2, "b")):
         if row < rows:
             letter(panels[0][row], text, -46)
@@ -92,8 +92,8 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
     time = np.asarray(data["time"]) / factor
     _gap(column.panels[0], time, np.asarray(data["gap"]), collision, last)
     velocity = column.panels[1]
-    size, name = prefix(float(np.max(np.abs(data["opening_velocity"]))))
-    velocity.plot(time, np.asarray(data["opening_velocity"]) / size, color=ORANGE)
+    size, name = prefix(float(np.max(np.abs(data["normal_velocity"]))))
+    velocity.plot(time, np.asarray(data["normal_velocity"]) / size, color=ORANGE)
     velocity.axhline(0, color=GREY, linewidth=0.6)
     velocity.set_ylabel(f"opening\nvelocity ({micro(name + 'm/s')})")
     if rows == 4:

@@ -49,7 +49,7 @@ class PhaseRun:
         event: name of the event function to land on; None if the flight stops inside the phase.
         kinds: events reported at its end, in order.
         reverses: the solids reverse the motion at its end.
-        holds: the opening velocity is zero from here on, or until release.
+        holds: the normal velocity is zero from here on, or until release.
     """
 
     phase: Phase
@@ -362,7 +362,7 @@ class EventLocator:
             self._next(PhaseRun(self.phase, flown, event, kinds, reverses=True), self._opening(self.phase))
             return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
-        holds = inward > 0 and self._too_weak(after["opening"], inward)
+        holds = inward > 0 and self._too_weak(after["normal_velocity"], inward)
         if holds:
             kinds += (KINDS[EventKind.RESTS],)
             self.path.dry_loss += float(self.y[1]) ** 2 / 2

@@ -23,7 +23,7 @@ _GRID = _PART**3 * (10 - 15 * _PART + 6 * _PART**2)
 
 _VARIABLES: dict[str, tuple[str, str]] = {
     "gap": ("m", "gap between the surfaces"),
-    "opening_velocity": ("m/s", "opening velocity, negative on approach"),
+    "normal_velocity": ("m/s", "normal velocity, negative on approach"),
     "rotation_rate": ("rad/s", "angular velocity of the line of centres"),
     "spin": ("rad/s", "angular velocity of each sphere (of a pair: the first) about its own centre"),
     "spin_partner": ("rad/s", "angular velocity of the partner about its own centre"),
@@ -106,7 +106,7 @@ def dataset(
         angles = [np.zeros(1)]
     y, time = np.hstack(columns), np.concatenate(times) * n.time
     zero = np.zeros(time.size)
-    values = {"gap": y[0] * n.length, "opening_velocity": y[1] * n.speed}
+    values = {"gap": y[0] * n.length, "normal_velocity": y[1] * n.speed}
     if model.oblique:
         outputs = dict(zip(model.names("outputs"), np.asarray(model.function("outputs")(y, p).full()), strict=True))
         values |= {

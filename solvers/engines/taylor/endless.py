@@ -17,7 +17,7 @@ def decide(
     """Make sticks of the collisions among `answers` whose last state is held by the momentum of the orbit.
 
     A doublet that circles in and out of its film loses less with every turn: thousands of turns decide nothing that
-    the last state does not. `shown` has that state from the opening velocity on.
+    the last state does not. `shown` has that state from the normal velocity on.
     """
     for k in np.flatnonzero(answers["status"] == Status.CHATTER).tolist():
         told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)

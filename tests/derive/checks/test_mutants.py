@@ -169,15 +169,18 @@ def test_shear_in_rigid_rotation(mutate: Mutate, healthy: Healthy):
 
 def test_a_reversal_that_gains_energy(mutate: Mutate, healthy: Healthy):
     """U -> -(2 - e) u gains what it is charged as a loss; if the gain is booked, the booking is negative."""
-    wrong = {True: -(2 - q.e_dry) * q.opening}
-    mutate(reversal, lambda states: {s: wrong.get(s == q.opening, s) for s in states})
+    wrong = {True: -(2 - q.e_dry) * q.normal_velocity}
+    mutate(reversal, lambda states: {s: wrong.get(s == q.normal_velocity, s) for s in states})
     caught(reversal_dissipates(), healthy, "reversal's energy")
 
 
 def test_a_reversal_that_books_its_gain(mutate: Mutate, healthy: Healthy):
     """A gain that the ledger knows of balances, and is still a gain."""
-    mutate(reversal, lambda states: {s: -(2 - q.e_dry) * q.opening if s == q.opening else s for s in states})
-    mutate(reversal_loss, lambda *_: q.opening**2 * (1 - (2 - q.e_dry) ** 2) / 2)
+    mutate(
+        reversal,
+        lambda states: {s: -(2 - q.e_dry) * q.normal_velocity if s == q.normal_velocity else s for s in states},
+    )
+    mutate(reversal_loss, lambda *_: q.normal_velocity**2 * (1 - (2 - q.e_dry) ** 2) / 2)
     caught(reversal_dissipates(), healthy, "reversal dissipates")
 
 

@@ -58,13 +58,13 @@ def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
     [
         (tethered.NEAREST, 4 + q.aspect, "outward"),
         (tethered.FARTHEST, 4 + q.aspect * tethered.CONTACT, "outward"),
-        (tethered.LARGEST_ORBIT, q.orbit, "outward"),
+        (tethered.LARGEST_MOMENTUM, q.orbital_momentum, "outward"),
         (tethered.CONTACT, q.rough_gap, "outward, pull, recoil"),
         (tethered.LARGEST_PULL, tethered.pull_at(sp.Integer(1), q.beta), "recoil"),
-        (tethered.FASTEST, sp.sqrt(sp.Min(q.opening, 0) ** 2 + tethered.LARGEST_PULL), "recoil"),
+        (tethered.FASTEST, sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + tethered.LARGEST_PULL), "recoil"),
         (tethered.FASTEST, sp.sqrt(2 * tethered.LARGEST_PULL), "recoil"),
     ],
-    ids=["nearest", "farthest", "orbit", "contact", "pull at beta", "half the pull", "from rest"],
+    ids=["nearest", "farthest", "orbital_momentum", "contact", "pull at beta", "half the pull", "from rest"],
 )
 def test_a_bound_taken_elsewhere(mutate: Mutate, healthy: Healthy, name, wrong, margin):
     """Least and largest distance, orbit, contact, pull and speed taken where they are not the worst."""
@@ -94,8 +94,8 @@ def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.E
 @pytest.mark.parametrize(
     ("right", "name", "change", "check", "caught_by"),
     [
-        (rates.resting_rates, q.orbit, lambda e: -e, resting_is_held, "resting contact"),
-        (rates.resting_rates, q.opening, lambda e: e + 1, resting_is_held, "resting contact"),
+        (rates.resting_rates, q.orbital_momentum, lambda e: -e, resting_is_held, "resting contact"),
+        (rates.resting_rates, q.normal_velocity, lambda e: e + 1, resting_is_held, "resting contact"),
         (observables.outputs, "tangential_restitution", lambda e: 2 * e, outputs_are_the_definitions, "outputs"),
         (observables.outputs, "final_spin", lambda e: -e, outputs_are_the_definitions, "outputs"),
         (observables.outputs, "restitution", lambda e: -e, outputs_are_the_definitions, "outputs"),
@@ -105,7 +105,7 @@ def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.E
         (
             events.events,
             "glass",
-            lambda e: q.glass_number + slot_call("glass", "pressure", q.gap, -q.opening),
+            lambda e: q.glass_number + slot_call("glass", "pressure", q.gap, -q.normal_velocity),
             events_are_the_definitions,
             "events",
         ),
@@ -154,5 +154,5 @@ def test_a_decomposition_with_half_the_shear(mutate: Mutate, healthy: Healthy):
 
 def test_a_decomposition_with_another_dry_loss(mutate: Mutate, healthy: Healthy):
     """A reversal charged with half its loss leaves the other half unaccounted for."""
-    mutate(reversal_loss, lambda: q.opening**2 * (1 - q.e_dry**2) / 4)
+    mutate(reversal_loss, lambda: q.normal_velocity**2 * (1 - q.e_dry**2) / 4)
     caught(decomposition(), healthy, "decomposition of e_n^2 - 1")

@@ -214,8 +214,8 @@ def test_emitted_equations_are_the_si_equations(structure: Structure):
             si = {"x": x, "u": draw.uniform(-1.5, 1.5) * v0, "omega": omega, "xi": xi, "beta": beta}
             state = {
                 "gap": x / x0,
-                "opening": si["u"] / v0,
-                "orbit": r * r * omega / (a * a * omega0),
+                "normal_velocity": si["u"] / v0,
+                "orbital_momentum": r * r * omega / (a * a * omega0),
                 "spin": xi / omega0,
                 "rotation": beta,
             }
@@ -232,8 +232,8 @@ def test_emitted_equations_are_the_si_equations(structure: Structure):
                 expected = {key: (value, terms * (1 + magnitude / abs(xi))) for key, (value, terms) in expected.items()}
             scales = {
                 "gap": ("x", v0),
-                "opening": ("u", v0**2 / x0),
-                "orbit": ("r2omega", a * a * omega0 * v0 / x0),
+                "normal_velocity": ("u", v0**2 / x0),
+                "orbital_momentum": ("r2omega", a * a * omega0 * v0 / x0),
                 "spin": ("xi", omega0 * v0 / x0),
                 "rotation": ("beta", v0 / x0),
             }

@@ -126,7 +126,7 @@ def test_margins_of_the_stick_proof_hand_nan_on():
     """Rotating strings with a film alone have the proof's margins, by maxima that are NaN where either argument is."""
     text = structure_header(derive(Structure(oblique=True, bridge=False, strings=True)), "0", "by a test", "")
     assert "#if defined(FILM_STOPPING) && defined(GLASS_REACH)" in text
-    assert "vec_larger(y[ORBIT], spun_up)" in text
+    assert "vec_larger(y[ORBITAL_MOMENTUM], spun_up)" in text
     assert not re.search(r"vec_(max|min)\(", text)
     without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)), "0", "by a test", "")
     assert "tethered" not in without

@@ -37,8 +37,8 @@ def test_checks_of_a_scenes_laws_are_those_laws_alone(healthy):
 def test_midgap_conserves_angular_momentum_and_nothing_else(models, name: str, others):
     """The search finds L = m (r^2 omega + (32/5) a^2 xi) over m a^2 omega0, whatever the other laws are."""
     (found,) = invariants(models[name], MIDGAP | others)
-    assert found.expression == q.orbit + sp.Rational(32, 5) * q.spin
-    assert found.describe() == "orbit + (32/5) spin: angular momentum L/(m a^2 omega0)"
+    assert found.expression == q.orbital_momentum + sp.Rational(32, 5) * q.spin
+    assert found.describe() == "orbital_momentum + (32/5) spin: angular momentum L/(m a^2 omega0)"
     assert found.is_angular_momentum
 
 
@@ -60,8 +60,13 @@ def test_strings_and_head_on_conserve_nothing(models, name: str):
 
 def test_without_shear_each_momentum_is_its_own():
     """A user's model without tangential force conserves the orbit's and the spins' momentum separately."""
-    rates = {q.gap: q.opening, q.opening: -q.opening / q.gap, q.orbit: sp.Integer(0), q.spin: sp.Integer(0)}
-    assert [each.expression for each in invariants(rates)] == [q.orbit, q.spin]
+    rates = {
+        q.gap: q.normal_velocity,
+        q.normal_velocity: -q.normal_velocity / q.gap,
+        q.orbital_momentum: sp.Integer(0),
+        q.spin: sp.Integer(0),
+    }
+    assert [each.expression for each in invariants(rates)] == [q.orbital_momentum, q.spin]
 
 
 def test_a_coefficient_may_depend_on_the_gap():
@@ -69,9 +74,9 @@ def test_a_coefficient_may_depend_on_the_gap():
     omega, xi, torque = sp.symbols("omega xi torque", real=True)
     distance = 4 + q.aspect * q.gap
     rates = {
-        q.gap: q.opening,
-        q.opening: sp.Symbol("force", real=True),
-        omega: -torque / distance - 2 * q.aspect * q.opening * omega / distance,
+        q.gap: q.normal_velocity,
+        q.normal_velocity: sp.Symbol("force", real=True),
+        omega: -torque / distance - 2 * q.aspect * q.normal_velocity * omega / distance,
         xi: torque * distance * sp.Rational(5, 32),
     }
     (found,) = invariants(rates)
@@ -83,16 +88,16 @@ def test_a_coefficient_may_depend_on_the_gap():
 def test_an_unknown_momentum_is_not_solved_for(models):
     """Solving an invariant for a state that it does not contain is a named error."""
     (found,) = invariants(models["oblique"], MIDGAP)
-    with pytest.raises(NoInvariantError, match="opening cannot be eliminated"):
-        found.solved(q.opening, sp.Integer(0))
+    with pytest.raises(NoInvariantError, match="normal_velocity cannot be eliminated"):
+        found.solved(q.normal_velocity, sp.Integer(0))
 
 
 def test_signs_are_proved_refuted_or_left_open():
     """Squares and logarithms inside their edge are proved, a change of sign is refuted, the rest says so."""
     s, edge = q.gap, sp.Integer(1)
-    for true in ((1 - s) ** 2 / s, sp.log(1 / s), 1 - s, 1 - s**2, -sp.log(s) * q.opening**2):
+    for true in ((1 - s) ** 2 / s, sp.log(1 / s), 1 - s, 1 - s**2, -sp.log(s) * q.normal_velocity**2):
         assert nonnegative(true, s, edge).proved is True, true
-    for false in (s - 1, q.opening, sp.log(s), (s - sp.Rational(1, 2)) * (1 - s)):
+    for false in (s - 1, q.normal_velocity, sp.log(s), (s - sp.Rational(1, 2)) * (1 - s)):
         assert nonnegative(false, s, edge).proved is False, false
     assert nonnegative(2 + sp.sin(7 * s) + sp.cos(5 * s) * s, s, edge).proved is None
 

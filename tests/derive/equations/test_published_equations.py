@@ -247,7 +247,7 @@ def test_groups_undo_the_scaling():
 def test_start_of_the_states(models: dict[str, Model]):
     """The dimensionless start is s = 1, w = -1, J = (4 + x0/a)^2, no spin, no angle."""
     outputs = dict(models["oblique_strings"]["start"].outputs)
-    published = {"gap": 1, "opening": -1, "orbit": (4 + eps) ** 2, "spin": 0, "rotation": 0}
+    published = {"gap": 1, "normal_velocity": -1, "orbital_momentum": (4 + eps) ** 2, "spin": 0, "rotation": 0}
     assert outputs == published
 
 
@@ -255,11 +255,11 @@ def test_closing_alone_in_the_film(models: dict[str, Model]):
     """Head-on, the film alone leaves -u/v0 = 1 - Lf(s)/St with Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2."""
     model = models["head_on"]
     rates = dict(model["right_hand_side"].outputs)
-    acceleration = fill(model.expanded(rates["opening"]), {"film": LAWS["film"]["finite"]}).subs(FILM, 1)
-    slope = sp.simplify(acceleration / q.opening)  # dw/ds = (dw/dtau)/w
-    opening = -1 + sp.integrate(sp.expand(slope), (s, 1, s))
+    acceleration = fill(model.expanded(rates["normal_velocity"]), {"film": LAWS["film"]["finite"]}).subs(FILM, 1)
+    slope = sp.simplify(acceleration / q.normal_velocity)  # dw/ds = (dw/dtau)/w
+    normal_velocity = -1 + sp.integrate(sp.expand(slope), (s, 1, s))
     closed_form = 1 - (sp.log(1 / s) - sp.Rational(3, 2) + 2 * s - s**2 / 2) / St
-    assert sp.simplify(sp.expand_log(-opening - closed_form, force=True)) == 0
+    assert sp.simplify(sp.expand_log(-normal_velocity - closed_form, force=True)) == 0
 
 
 @pytest.mark.parametrize("name", ["oblique_bridge", "oblique_bridge_reduced"])
@@ -273,8 +273,8 @@ def test_certificate_slope(models: dict[str, Model], name: str):
     inertia = m * a**2 * ((4 + at / a) ** 2 + sp.Rational(32, 5))
     work = sp.pi * 2 * a * sigma * 2 * sp.cos(q.contact_angle) * at  # of the constant law from s = 0
     level = momentum**2 / (2 * inertia) + work
-    spinning = sp.Rational(32, 5) * q.spin if name == "oblique_bridge" else (4 + eps) ** 2 - q.orbit
-    held = m * a**2 * v0 * sp.tan(theta) / (4 * a) * (q.orbit + spinning)
+    spinning = sp.Rational(32, 5) * q.spin if name == "oblique_bridge" else (4 + eps) ** 2 - q.orbital_momentum
+    held = m * a**2 * v0 * sp.tan(theta) / (4 * a) * (q.orbital_momentum + spinning)
     groups = {St: GROUPS["stokes"], Ca: GROUPS["capillary"], eps: x0 / a, tan0: sp.tan(theta)}
     scale = m * v0**2
     assert same((level.diff(s).subs(momentum, held) / scale).subs(groups), found["slope"].subs(groups))

@@ -45,6 +45,15 @@ def test_si_and_dimensionless_forms_are_the_same_law():
     )
 
 
+def test_the_old_name_of_the_normal_velocity_still_reads():
+    """Model files written with `opening` mean `normal_velocity`."""
+    old, new = (
+        model(f'law("film", "mine", resistance=(1 - gap)**2/gap*(1 + {name}**2))')
+        for name in ("opening", "normal_velocity")
+    )
+    assert old.laws[0]["resistance"].result == new.laws[0]["resistance"].result
+
+
 def test_written_the_same_it_is_the_same():
     """The film's law as the paper prints it in SI is the law that the derivation integrates."""
     mine = model('law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2)').laws[0]
@@ -99,7 +108,7 @@ def test_structures_without_the_slot_are_untouched():
     [
         ('law("bridge", "mine", force=pi*R*sigma + mu*a)', "dimensions", "law bridge mine, force: term"),
         ('law("bridge", "mine", force=mu*u*a**2)', "dimensions", "expected M L T^-2 or a pure number"),
-        ('law("bridge", "mine", force=mu*a*u)', "groups", "depends on opening"),
+        ('law("bridge", "mine", force=mu*a*u)', "groups", "depends on normal_velocity"),
         ('law("bridge", "mine", force=m*omega**2*a)', "groups", "rotation_rate"),
         ('k = quantity("k", unit="Pa")\nlaw("bridge", "mine", force=2*cos(phi))', "groups", "k: declared, but no law"),
         ('law("film", "mine", resistance=(gap - 0.5)/gap)', "dissipation: film mine", "resistance = "),

@@ -100,9 +100,9 @@ def test_an_engine_that_gives_up(failing: str) -> None:
     assert error.phase == "closing inside the film"
     assert error.time == 0.0
     assert error.state["gap"] == pytest.approx(8e-6)  # m
-    assert error.state["opening velocity"] == pytest.approx(-Scene.load("granulation").speed_of(0.03))  # m/s
+    assert error.state["normal velocity"] == pytest.approx(-Scene.load("granulation").speed_of(0.03))  # m/s
     # v0 tan(theta0)/(4a), rad/s
-    assert error.state["rotation rate"] == pytest.approx(-error.state["opening velocity"] * math.sqrt(3) / 200e-6)
+    assert error.state["rotation rate"] == pytest.approx(-error.state["normal velocity"] * math.sqrt(3) / 200e-6)
     assert error.advice.startswith("try --engine rosenbrock" if failing == "cvodes" else "try --rtol")
     line = str(error)
     assert "\n" not in line
@@ -144,7 +144,10 @@ def test_nothing_extra_is_integrated() -> None:
     flows = [_compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance, fly)[2] for ledger in (False, True)]
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")
-    assert (flows[0].extras, tuple(flows[0].model.state)) == (("rotation",), ("gap", "opening", "orbit"))
+    assert (flows[0].extras, tuple(flows[0].model.state)) == (
+        ("rotation",),
+        ("gap", "normal_velocity", "orbital_momentum"),
+    )
     assert set(flows[1].extras) == {"rotation", "normal_lubrication", "tangential_lubrication", "capillary"}
     assert "spin" in flows[1].model.state
     assert (lean.energy, lean.angular_momentum_drift) == (None, None)

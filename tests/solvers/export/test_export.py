@@ -55,12 +55,12 @@ def test_a_changed_coefficient_is_that_term():
 def test_an_added_and_a_removed_term():
     """A force more in the equation of motion is added to it; read the other way it is removed."""
     text = (GENERATED / "oblique_reduced.py").read_text()
-    more = text.replace('"opening": centrifugal_force - film_force', '"opening": centrifugal_force - film_force - gap')
+    more = text.replace('"normal_velocity": centrifugal_force - film_force', '"normal_velocity": centrifugal_force - film_force - gap')
     assert more != text
     one, other = (equations({"": each}) for each in (text, more))
     [added] = compare(one, other)
     [removed] = compare(other, one)
-    assert (added.kind, added.equation, plain(added.after)) == ("added", "d opening/dt", "-gap")
+    assert (added.kind, added.equation, plain(added.after)) == ("added", "d normal_velocity/dt", "-gap")
     assert (removed.kind, plain(removed.before)) == ("removed", "-gap")
 
 

@@ -99,7 +99,7 @@ def test_what_is_not_committed_is_derived_once(tmp_path: Path, monkeypatch: pyte
     assert emitted.text("head_on") == expected
     monkeypatch.setattr(emitted, "_derived_structure", lambda name: pytest.fail("derived twice"))
     assert emitted.text("head_on") == expected
-    assert emitted.executed("head_on", expected.encode()).STATES == ("gap", "opening")
+    assert emitted.executed("head_on", expected.encode()).STATES == ("gap", "normal_velocity")
 
 
 def test_an_edited_library_module_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

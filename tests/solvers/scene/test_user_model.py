@@ -199,7 +199,7 @@ def test_the_template_runs(tmp_path: Path):
 
 
 def test_a_film_may_depend_on_the_speed(tmp_path: Path):
-    """A shear-thinning film is a law over the opening velocity; without thinning it is the library's."""
+    """A shear-thinning film is a law over the normal velocity; without thinning it is the library's."""
     file = tmp_path / "thin.py"
     file.write_text(
         "from wetdoublet.derive.user import *\n"

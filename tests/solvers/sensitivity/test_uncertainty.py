@@ -41,12 +41,12 @@ def test_the_end_of_a_trajectory_is_the_collision(flight: xr.Dataset) -> None:
     found = sensitivities(GLASS, ["restitution", "contact_time", "rotation", "final_spin"], WRT, rtol=1e-10)
     late = flight.isel(time=slice(-8, None))
     rate = {name: float(np.gradient(late[name].values, late.time.values, edge_order=2)[-1]) for name in
-            ("opening_velocity", "rotation", "spin", "gap")}  # fmt: skip
+            ("normal_velocity", "rotation", "spin", "gap")}  # fmt: skip
     for name in WRT:
         move = float(flight.d_event_time.sel(event="rupture", parameter=name))
         assert move == pytest.approx(found.gradient["contact_time"][name], rel=1e-8)
         for of, value, scale in (
-            ("opening_velocity", "restitution", GLASS.speed),
+            ("normal_velocity", "restitution", GLASS.speed),
             ("rotation", "rotation", 1.0),
             ("spin", "final_spin", 1.0),
         ):
@@ -66,7 +66,7 @@ def test_along_a_trajectory(flight: xr.Dataset) -> None:
     for phase in dict.fromkeys(flight.phase.values):
         inside = np.flatnonzero(flight.phase.values == phase)[12:-12]  # away from where one flight is a phase ahead
         time = flight.time.values[inside]
-        for of in ("gap", "opening_velocity", "spin"):
+        for of in ("gap", "normal_velocity", "spin"):
             high, low = (
                 make_interp_spline(one.time.values[here], one[of].values[here], k=5)(time)
                 for one in (up, down)
@@ -84,13 +84,13 @@ def test_saltation_at_the_reversal(flight: xr.Dataset) -> None:
     """
     edge = int(np.flatnonzero(flight.phase.values[1:] != flight.phase.values[:-1])[0])
     before, after = flight.isel(time=edge), flight.isel(time=edge + 1)
-    assert float(after.opening_velocity) == pytest.approx(-0.99 * float(before.opening_velocity), rel=1e-9)
-    u, t = flight.opening_velocity.values, flight.time.values
+    assert float(after.normal_velocity) == pytest.approx(-0.99 * float(before.normal_velocity), rel=1e-9)
+    u, t = flight.normal_velocity.values, flight.time.values
     a_before = np.gradient(u[edge - 6 : edge + 1], t[edge - 6 : edge + 1], edge_order=2)[-1]
     a_after = np.gradient(u[edge + 1 : edge + 8], t[edge + 1 : edge + 8], edge_order=2)[0]
     for name in WRT:
         move = float(flight.d_event_time.sel(event="glass", parameter=name))
-        du_before, du_after = (float(one.d_opening_velocity.sel(parameter=name)) for one in (before, after))
+        du_before, du_after = (float(one.d_normal_velocity.sel(parameter=name)) for one in (before, after))
         expected = -0.99 * (du_before + a_before * move) - a_after * move
         assert du_after == pytest.approx(expected, rel=1e-3, abs=1e-3 * abs(a_after * move))  # accelerations: 1e-4
 

@@ -59,7 +59,7 @@ static void unmeet(retreat *r, const taped_step *step, mask falls, unsigned aske
         total += r->of[state]*m.rate[state];
     vec value = only(falls, -total/choose(falls, m.pace, one)); /* of the restitution, by the event's function */
     r->of[GAP] += value*choose(m.gap, one, choose(m.turned, zero, m.by_gap));
-    r->of[OPENING] += value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach));
+    r->of[NORMAL_VELOCITY] += value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach));
     for (int group = 0; group < GROUPS; group++)
         if (asked >> group & 1)
             r->by_group[group] -= value*target_along(&r->f, &m, group);

@@ -47,16 +47,16 @@ static inline vec ratio_of_depths(vec start, vec contact)
 static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
 {
     double margin = SAFETY*tolerance;
-    vec gap = y[GAP], speed = -y[OPENING], ratio = ratio_of_depths(gap, contact), there[STATES];
+    vec gap = y[GAP], speed = -y[NORMAL_VELOCITY], ratio = ratio_of_depths(gap, contact), there[STATES];
     memcpy(there, y, sizeof there);
 #if defined(FILM_CAVITATES)
     mask stopped = splat_mask(0);
 #else
-    mask stopped = ~closing & (y[OPENING] - film_takes(c, gap, splat(1.0)) < -margin);
+    mask stopped = ~closing & (y[NORMAL_VELOCITY] - film_takes(c, gap, splat(1.0)) < -margin);
 #endif
     mask clear = closing;
     for (int k = 0; k < DEPTHS; k++) {
-        there[OPENING] = -speed*(1.0/(1.0 - margin));
+        there[NORMAL_VELOCITY] = -speed*(1.0/(1.0 - margin));
         speed -= film_takes(c, there[GAP]*ratio, there[GAP]);
         there[GAP] *= ratio;
         clear &= glass_clearance(c, there) > 0.0;
@@ -73,10 +73,10 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #if defined(FILM_CAVITATES)
     mask held = splat_mask(0);
 #else
-    mask held = ~closing & (y[OPENING] - film_takes(c, y[GAP], splat(1.0)) < -margin);
+    mask held = ~closing & (y[NORMAL_VELOCITY] - film_takes(c, y[GAP], splat(1.0)) < -margin);
 #endif
     vec start = choose(closing, y[GAP], splat(1.0)); /* what opens may rise up to x0 before it falls */
-    vec speed = only(closing, -y[OPENING]), ratio = ratio_of_depths(start, contact), there[STATES];
+    vec speed = only(closing, -y[NORMAL_VELOCITY]), ratio = ratio_of_depths(start, contact), there[STATES];
     vec surface = capillary_work(c, splat(1.0));
     mask clear = splat_mask(-1);
     memcpy(there, y, sizeof there);
@@ -85,7 +85,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
         vec next = there[GAP]*ratio, fastest = vec_max(speed, splat(0.0));
         speed -= only(closing, film_takes(c, next, there[GAP]));
         there[GAP] = next;
-        there[OPENING] = -(fastest + vec_sqrt(2.0*(surface - capillary_work(c, next))))*(1.0/(1.0 - margin));
+        there[NORMAL_VELOCITY] = -(fastest + vec_sqrt(2.0*(surface - capillary_work(c, next))))*(1.0/(1.0 - margin));
         clear &= glass_clearance(c, there) > 0.0;
     }
     return clear & (held | (closing & (speed < -margin)));
@@ -117,7 +117,7 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
     double margin = SAFETY*tolerance;
     vec hold, flight, rebound;
     held_margins(c, y, &hold, &flight, &rebound);
-    vec energy = vec_larger(y[OPENING]*y[OPENING], splat(1.0));
+    vec energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
     mask outside = y[GAP] >= vec_max(c->elastic_gap, c->rough_gap)*(1.0 - margin);
     return outside & (hold > 0.0) & (rebound < -margin*hold) & (flight < -margin*energy);
 }
@@ -129,23 +129,23 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
  * energy would take, twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`). */
 static mask rests_for_good(const constants *c, const vec *y, double tolerance)
 {
-    vec margin = splat(SAFETY*tolerance), orbit = rigid_orbit(c, y), there[STATES];
+    vec margin = splat(SAFETY*tolerance), momentum = rigid_momentum(c, y), there[STATES];
     memset(there, 0, sizeof there);
     there[GAP] = y[GAP];
 #if REDUCED
-    orbit = vec_larger(y[ORBIT], orbit);
+    momentum = vec_larger(y[ORBITAL_MOMENTUM], momentum);
 #else
-    there[ORBIT] = splat(1.0);
+    there[ORBITAL_MOMENTUM] = splat(1.0);
     vec rigid[STATES], slip[STATES]; /* the deviation from rigid rotation, whose energy loses no digits in a difference */
     memcpy(slip, there, sizeof slip);
     rigid_rotation(c, y, rigid);
-    for (int state = ORBIT; state < MODEL_STATES; state++)
+    for (int state = ORBITAL_MOMENTUM; state < MODEL_STATES; state++)
         slip[state] = y[state] - rigid[state];
-    orbit += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(stored_energy(c, slip)/stored_energy(c, there));
+    momentum += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(stored_energy(c, slip)/stored_energy(c, there));
 #endif
-    there[ORBIT] = splat(0.0);
+    there[ORBITAL_MOMENTUM] = splat(0.0);
     vec still = inward_force(c, there);
-    there[ORBIT] = orbit;
+    there[ORBITAL_MOMENTUM] = momentum;
     return inward_force(c, there) > margin*still;
 }
 #endif

@@ -117,7 +117,7 @@ static void fly(queue *q)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);
-        mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[OPENING]) < INFINITY));
+        mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[NORMAL_VELOCITY]) < INFINITY));
         for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
             int lane = __builtin_ctz(event);
 #if WITH_TRAJECTORY

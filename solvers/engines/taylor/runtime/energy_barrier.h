@@ -9,8 +9,8 @@
 #include "model.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
-#if !defined(BY_ORBIT) /* derive/equations/certificates/orbital_momentum.py knows the model */
-#define BY_ORBIT 0
+#if !defined(BY_ORBITAL_MOMENTUM) /* derive/equations/certificates/orbital_momentum.py knows the model */
+#define BY_ORBITAL_MOMENTUM 0
 #endif
 
 typedef struct {
@@ -181,7 +181,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 #endif
 }
 
-#if SURFACE_ARM && BY_ORBIT && ATTRACTS
+#if SURFACE_ARM && BY_ORBITAL_MOMENTUM && ATTRACTS
 /* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/equations/certificates/orbital_momentum.py). */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
@@ -190,10 +190,10 @@ static inline mask out_of_reach(const constants *c, const vec *y, const barrier 
     beyond[GAP] = gap;
     orbital(c, y, here);
     orbital(c, beyond, there);
-    vec needed = 0.5*y[OPENING]*y[OPENING] + work_done(c, y, b) - work + here[ORBIT_ENERGY] - there[ORBIT_ENERGY]
+    vec needed = 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY] + work_done(c, y, b) - work + here[ORBITAL_ENERGY] - there[ORBITAL_ENERGY]
                  + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite, and so the test false, without a barrier */
-    return (gap > y[GAP]) & (y[ORBIT] >= 16.0*y[SPIN]) & (needed < -margin);
+    return (gap > y[GAP]) & (y[ORBITAL_MOMENTUM] >= 16.0*y[SPIN]) & (needed < -margin);
 }
 
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
@@ -209,19 +209,19 @@ static inline vec rigid_at(const constants *c, const vec *y, vec gap)
     vec there[STATES];
     memcpy(there, y, sizeof there);
     there[GAP] = gap;
-    return rigid_orbit(c, there);
+    return rigid_momentum(c, there);
 }
 
 /* Lanes whose energy is below the height of a gap ahead, lowered by what a drifting angular momentum can still add, as
  * solvers/certificates/energy_barrier.py `_drift` has it: no theorem. */
 static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
 {
-    vec first[STATES], rigid = rigid_orbit(c, y), reach = choose(rests, y[GAP], gap);
+    vec first[STATES], rigid = rigid_momentum(c, y), reach = choose(rests, y[GAP], gap);
     start(c, first);
-    vec change = vec_abs(y[ORBIT] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec change = vec_abs(y[ORBITAL_MOMENTUM] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
     vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
-    vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBIT]/rigid, splat(1.0))*lost
-                /(angular_momentum(c, y)*first[ORBIT]);
+    vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBITAL_MOMENTUM]/rigid, splat(1.0))*lost
+                /(angular_momentum(c, y)*first[ORBITAL_MOMENTUM]);
     vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
     return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
 }

@@ -131,9 +131,9 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     /* Where the doublet turns comes first: up to there the gap is monotone, and nearest at the end. Under a constant force a
      * step is endless, and all that happens before the turn is in a tiny part of it. */
     vec part = one;
-    mask turns = moves & ~(least_of(s->opening, h) > 0.0);
+    mask turns = moves & ~(least_of(s->normal_velocity, h) > 0.0);
     if (bits(turns)) {
-        look(found, turns, s->opening, zero, -away, h, splat_mask(AT_TURNING));
+        look(found, turns, s->normal_velocity, zero, -away, h, splat_mask(AT_TURNING));
         mask turned = (found->time <= 1.0) & (found->time > 0.0);
         part = choose(turned, found->time, one);
         found->time = choose(turned, one, found->time);
@@ -175,9 +175,9 @@ static void find_events(const series *s, const flights *l, const fixed *f, vec h
     close = l->alive & ~(s->rotation[0] + reach(s->rotation, h) < M_PI);
     if (bits(close))
         look(found, close, s->rotation, splat(M_PI), -one, h, splat_mask(AT_HALF_TURN));
-    close = l->alive & ~(s->orbit[0] > reach(s->orbit, h));
+    close = l->alive & ~(s->orbital_momentum[0] > reach(s->orbital_momentum, h));
     if (bits(close))
-        look(found, close, s->orbit, zero, one, h, splat_mask(AT_UNWINDING));
+        look(found, close, s->orbital_momentum, zero, one, h, splat_mask(AT_UNWINDING));
 #endif
     found->time *= part;
 }

@@ -100,8 +100,8 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
 static mask clear_of_events(const slow *w, const flights *l, const fixed *f, const vec *from, const vec *to)
 {
     const vec zero = splat(0.0);
-    mask opens = from[OPENING] > 0.0;
-    mask clear = ((opens & (to[OPENING] > 0.0)) | (~opens & (to[OPENING] < 0.0))) & (opens ^ l->closing);
+    mask opens = from[NORMAL_VELOCITY] > 0.0;
+    mask clear = ((opens & (to[NORMAL_VELOCITY] > 0.0)) | (~opens & (to[NORMAL_VELOCITY] < 0.0))) & (opens ^ l->closing);
     vec away = choose(opens, splat(-1.0), splat(1.0));
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = l->closing ^ inside;
@@ -117,7 +117,7 @@ static mask clear_of_events(const slow *w, const flights *l, const fixed *f, con
 #endif
 #if OBLIQUE && STRINGS
     clear &= 2.0*(M_PI - to[ROTATION]) > M_PI - from[ROTATION];
-    clear &= 2.0*to[ORBIT] > from[ORBIT];
+    clear &= 2.0*to[ORBITAL_MOMENTUM] > from[ORBITAL_MOMENTUM];
 #endif
     return clear;
 }
@@ -161,8 +161,8 @@ static vec extrapolated(slow *w, const flights *l, const fixed *f, const vec *ra
         y[state] = l->y[state] + change[state];
         vec allowed = f->tolerance*vec_abs(change[state]) + FLOOR*vec_abs(l->y[state]);
         if (state == GAP)
-            carried = allowed/l->stride; /* an error of the opening velocity dies within a stride */
-        if (state == OPENING)
+            carried = allowed/l->stride; /* an error of the normal velocity dies within a stride */
+        if (state == NORMAL_VELOCITY)
             allowed = carried;
         error = vec_larger(error, vec_abs(change[state] - table[COLUMNS - 2][state])/allowed);
     }

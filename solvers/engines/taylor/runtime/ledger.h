@@ -16,7 +16,7 @@ static void book_reversal(ledger *book, const constants *c, const vec *y, int la
 /* Contact takes what is left of a rebound that rests. */
 static void book_rest(ledger *book, const vec *y, int lane)
 {
-    book->dry += 0.5*y[OPENING][lane]*y[OPENING][lane];
+    book->dry += 0.5*y[NORMAL_VELOCITY][lane]*y[NORMAL_VELOCITY][lane];
 }
 
 /* The flight of a lane is over in this state. */

@@ -64,7 +64,7 @@ static double flatness(const fixed *f, const series *s, const vec *at, double h,
     for (int k = ORDER; k > 1; k--)
         bend = bend*h + (double)k*(k - 1)*s->glass.result[k][lane];
     memcpy(still, at, sizeof still);
-    still[OPENING] = splat(0.0);
+    still[NORMAL_VELOCITY] = splat(0.0);
     return bend > 0.0 ? slope*slope/(2.0*bend*glass_clearance(&f->c, still)[lane]) : INFINITY;
 }
 
@@ -85,14 +85,14 @@ static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
     return least;
 }
 
-/* The square of the opening velocity where it is least within a step. */
+/* The square of the normal velocity where it is least within a step. */
 static double slowest(const series *s, double h, int lane)
 {
-    double low = 0.0, high = h, sign = s->opening[1][lane] < 0.0 ? -1.0 : 1.0;
+    double low = 0.0, high = h, sign = s->normal_velocity[1][lane] < 0.0 ? -1.0 : 1.0;
     for (int count = 0; count < 40; count++) {
         double t = 0.5*(low + high), rate = 0.0;
         for (int k = ORDER; k > 0; k--)
-            rate = rate*t + k*s->opening[k][lane];
+            rate = rate*t + k*s->normal_velocity[k][lane];
         if (rate*sign > 0.0)
             low = t;
         else
@@ -100,7 +100,7 @@ static double slowest(const series *s, double h, int lane)
     }
     double t = 0.5*(low + high), speed = 0.0;
     for (int k = ORDER; k >= 0; k--)
-        speed = speed*t + s->opening[k][lane];
+        speed = speed*t + s->normal_velocity[k][lane];
     return speed*speed;
 }
 #endif
@@ -108,7 +108,7 @@ static double slowest(const series *s, double h, int lane)
 static void measure_event(carried *a, const flights *l, const fixed *f, const series *s, const vec *at, double h,
     int event, int lane)
 {
-    double gap = at[GAP][lane], opening = at[OPENING][lane], contact = f->contact[lane];
+    double gap = at[GAP][lane], normal_velocity = at[NORMAL_VELOCITY][lane], contact = f->contact[lane];
     int closing = l->closing[lane] != 0;
     if (event == AT_GLASS && h == 0.0)
         along_near(a, lane, fabs(log(1.0 - spare(&f->c, at)[lane])), TOUCH);
@@ -117,12 +117,12 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
     if (contact > 0.0 && (event == AT_GLASS || (event == AT_TURNING && closing)))
         along_near(a, lane, fabs(log(gap/contact)), CONTACT_GRAZE);
     if (event == AT_CONTACT) {
-        double slowing = s->opening[1][lane];
+        double slowing = s->normal_velocity[1][lane];
         for (int k = 2; k <= ORDER; k++)
-            slowing += k*s->opening[k][lane]*pow(h, k - 1);
+            slowing += k*s->normal_velocity[k][lane]*pow(h, k - 1);
         double smaller = fmin(f->c.elastic_gap[lane], f->c.rough_gap[lane]);
         if (slowing > 0.0)
-            along_near(a, lane, opening*opening/(2.0*slowing*contact), CONTACT_GRAZE);
+            along_near(a, lane, normal_velocity*normal_velocity/(2.0*slowing*contact), CONTACT_GRAZE);
         if (smaller > 0.0)
             along_near(a, lane, log(contact/smaller), TIE);
     }
@@ -133,14 +133,14 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
         along_near(a, lane, off, PASSAGE);
 #endif
     if (event == AT_RUPTURE && (BRIDGE || STRINGS || ATTRACTION))
-        along_near(a, lane, opening*opening, RIM);
+        along_near(a, lane, normal_velocity*normal_velocity, RIM);
     else if (event == AT_RUPTURE && (!OBLIQUE || WALL))
-        along_near(a, lane, opening, RIM);
+        along_near(a, lane, normal_velocity, RIM);
 #if OBLIQUE && STRINGS
     if (event == AT_RUPTURE) {
         double first = 4.0 + f->c.aspect[lane];
         along_near(a, lane, 1.0 - at[ROTATION][lane]/M_PI, HALF_TURNED);
-        along_near(a, lane, at[ORBIT][lane]/(first*first), UNWOUND);
+        along_near(a, lane, at[ORBITAL_MOMENTUM][lane]/(first*first), UNWOUND);
     }
 #endif
 }
@@ -154,14 +154,14 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
     if (bits(close)) { /* the limit without motion falls with the gap, so where the start is far the end is */
         vec start[STATES];
         memcpy(start, l->y, sizeof start);
-        start[OPENING] = splat(0.0);
+        start[NORMAL_VELOCITY] = splat(0.0);
         close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, start));
     }
     if (bits(close)) {
         vec end[STATES];
         for (int state = 0; state < STATES; state++)
             end[state] = sum_at(a[state], h);
-        end[OPENING] = splat(0.0);
+        end[NORMAL_VELOCITY] = splat(0.0);
         close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
     }
     if (bits(close)) {
@@ -170,11 +170,11 @@ static void measure(flights *l, const fixed *f, const series *s, vec h, mask fal
             along_near(along, __builtin_ctz(left), least[__builtin_ctz(left)], GLASS_GRAZE);
     }
 #if PROOF_BY_ENERGY
-    mask dips = moves & (choose(l->closing, -s->opening[1], s->opening[1]) < 0.0) & (vec_abs(s->opening[0]) < 0.3);
+    mask dips = moves & (choose(l->closing, -s->normal_velocity[1], s->normal_velocity[1]) < 0.0) & (vec_abs(s->normal_velocity[0]) < 0.3);
     if (bits(dips)) {
-        vec rate = ORDER*s->opening[ORDER];
+        vec rate = ORDER*s->normal_velocity[ORDER];
         for (int k = ORDER - 1; k > 0; k--)
-            rate = rate*h + (double)k*s->opening[k];
+            rate = rate*h + (double)k*s->normal_velocity[k];
         dips &= choose(l->closing, -rate, rate) > 0.0; /* it slows first, and gains last */
     }
     for (unsigned left = bits(dips); left; left &= left - 1) {

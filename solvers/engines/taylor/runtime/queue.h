@@ -147,7 +147,7 @@ static void park(queue *q, flights *l, fixed *f, int lane)
     refill(q, l, f, lane);
 }
 
-_Static_assert(MODEL_STATES - OPENING <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
+_Static_assert(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
 
 /* What came of a flight. */
 static void settle(queue *q, const flights *l, const fixed *f, int lane, int status, int outcome, int certified)
@@ -165,8 +165,8 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
     a->turned = l->y[ROTATION][lane];
 #endif
     if (status > PROVED_AT_TOUCH) /* handed over: where it has come to */
-        for (int state = OPENING; state < MODEL_STATES; state++)
-            a->shown[state - OPENING] = l->y[state][lane];
+        for (int state = NORMAL_VELOCITY; state < MODEL_STATES; state++)
+            a->shown[state - NORMAL_VELOCITY] = l->y[state][lane];
     if (status == DECIDED && outcome != STICK) {
         vec shown[OUTPUTS];
         outputs(&f->c, l->y, shown);

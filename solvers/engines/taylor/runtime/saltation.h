@@ -35,9 +35,9 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
     m.glass = falls & (event == AT_GLASS);
     vec limit;
     glass_pressure_margin_slopes(
-        m.at[GAP], -m.at[OPENING], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);
-    m.pace = choose(m.gap, m.rate[GAP], choose(m.turned, m.rate[OPENING],
-        m.by_gap*m.rate[GAP] - m.by_approach*m.rate[OPENING]));
+        m.at[GAP], -m.at[NORMAL_VELOCITY], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);
+    m.pace = choose(m.gap, m.rate[GAP], choose(m.turned, m.rate[NORMAL_VELOCITY],
+        m.by_gap*m.rate[GAP] - m.by_approach*m.rate[NORMAL_VELOCITY]));
     return m;
 }
 

@@ -8,7 +8,7 @@
 #include "model.h"
 #include "tangents.h"
 
-static const double SLOW = 0.1; /* of v0: an opening velocity below counts as this for errors, since in a film they die */
+static const double SLOW = 0.1; /* of v0: a normal velocity below counts as this for errors, since in a film they die */
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
 
@@ -16,7 +16,7 @@ _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outp
 typedef struct {
     constants c;
     barrier b;
-    vec tolerance, rest; /* relative error of a step, and the opening velocity that counts as none */
+    vec tolerance, rest; /* relative error of a step, and the normal velocity that counts as none */
     vec contact, end, edge;
 #if GRADIENTS
     slope_constants slopes;

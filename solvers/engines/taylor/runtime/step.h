@@ -48,7 +48,7 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
     mask scale[STATES];
     for (int state = 0; state < STATES; state++) {
         vec size = vec_abs(a[state][0]);
-        scale[state] = (mask)(state == OPENING ? size + f->rest : state == GAP ? size : size + 1e-3);
+        scale[state] = (mask)(state == NORMAL_VELOCITY ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
     vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
     vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);

@@ -55,7 +55,7 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const flights *
 {
     vec largest = splat(0.0);
     for (int k = 0; k <= LOOKS; k++) {
-        vec t = h*((double)k/LOOKS), approach = -sum_at(s->opening, t);
+        vec t = h*((double)k/LOOKS), approach = -sum_at(s->normal_velocity, t);
         vec reach = glass_reach(vec_max(approach, splat(0.0)), f->c.glass_number);
         largest = vec_max(largest, reach/sum_at(s->gap, t));
     }

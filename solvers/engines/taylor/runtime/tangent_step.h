@@ -24,7 +24,7 @@ static void expand_along(tangents *all, const flights *l, const fixed *f, const 
 {
     vec own[STATES];
     for (int state = 0; state < STATES; state++)
-        own[state] = vec_abs(l->y[state]) + (state == OPENING ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
+        own[state] = vec_abs(l->y[state]) + (state == NORMAL_VELOCITY ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
     all->asked = 0;
     for (int group = 0; group < GROUPS; group++) {
         if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
@@ -61,15 +61,15 @@ static void carry(flights *l, const fixed *f, const series *s, const tangents *a
         if (!meets)
             continue;
         vec *here = a->t[group], target = target_along(f, &m, group);
-        vec value = choose(m.gap, here[GAP] - target, choose(m.turned, here[OPENING],
-            m.by_gap*here[GAP] - m.by_approach*here[OPENING]));
+        vec value = choose(m.gap, here[GAP] - target, choose(m.turned, here[NORMAL_VELOCITY],
+            m.by_gap*here[GAP] - m.by_approach*here[NORMAL_VELOCITY]));
         if (group == BY_GLASS_NUMBER)
             value += only(m.glass, splat(1.0));
         vec later = only(falls, -value/choose(falls, m.pace, splat(1.0)));
         for (int state = 0; state < STATES; state++)
             here[state] += only(falls, m.rate[state]*later);
         here[GAP] = choose(m.gap, target, here[GAP]);
-        here[OPENING] = only(~m.turned, here[OPENING]);
+        here[NORMAL_VELOCITY] = only(~m.turned, here[NORMAL_VELOCITY]);
         a->time[group] += later;
         a->there[group] |= falls & (later != 0.0);
         a->smallest[group] = choose(falls & (m.at[GAP] < a->least), here[GAP], a->smallest[group]);

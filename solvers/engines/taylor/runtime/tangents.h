@@ -20,7 +20,7 @@ static inline vec spare(const constants *c, const vec *y)
 {
     vec still[STATES];
     memcpy(still, y, sizeof still);
-    still[OPENING] = splat(0.0);
+    still[NORMAL_VELOCITY] = splat(0.0);
     return glass_clearance(c, y)/glass_clearance(c, still);
 }
 

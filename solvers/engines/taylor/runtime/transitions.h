@@ -53,7 +53,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
 #elif GRADIENTS
     along_reversed(&l->along, &f->c, l->y, lane);
 #endif
-    l->y[OPENING][lane] = after[OPENING][lane];
+    l->y[NORMAL_VELOCITY][lane] = after[NORMAL_VELOCITY][lane];
     if (l->reversal[lane] < 0)
         l->reversal[lane] = kind;
     new_phase(l, lane);
@@ -62,7 +62,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         separated(q, l, f, lane);
         return;
     }
-    double rebound = l->y[OPENING][lane], inward = inward_force(&f->c, l->y)[lane];
+    double rebound = l->y[NORMAL_VELOCITY][lane], inward = inward_force(&f->c, l->y)[lane];
     double allowed = q->rtol*l->y[GAP][lane];
     if (!TURNS && rebound == 0.0 && inward == 0.0) { /* nothing moves it */
         finish(q, l, f, lane, DECIDED, STICK, 1);
@@ -76,7 +76,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
 #if WITH_LEDGER
         book_rest(q->books + l->index[lane], l->y, lane);
 #endif
-        l->y[OPENING][lane] = 0.0;
+        l->y[NORMAL_VELOCITY][lane] = 0.0;
         l->resting[lane] = -1;
         l->closing[lane] = 0;
         if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* nothing changes what holds them */

@@ -28,7 +28,7 @@ from .translated import translated
 
 _OWN_GROUP = {"glass": "glass_number", "elastic": "elastic_gap", "rough": "rough_gap"}
 _JUMP_ONLY = (*_OWN_GROUP.values(), "dry_restitution", "rupture_gap")
-_CARRIERS = ("gap", "opening")  # initial values whose columns carry what only events depend on
+_CARRIERS = ("gap", "normal_velocity")  # initial values whose columns carry what only events depend on
 
 
 @dataclass(frozen=True)

@@ -53,9 +53,9 @@ def test_resting_turns_on(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found.until is not None
     resting = found.trajectory.isel(time=found.trajectory.phase.values == "resting contact")
     assert float(abs(resting.gap / 350e-6 - 1).max()) < 1e-12
-    assert not resting.opening_velocity.any()
+    assert not resting.normal_velocity.any()
     body = Spheres(scene, found.speed)
-    names = ("gap", "opening_velocity", "rotation_rate", "spin", "rotation")
+    names = ("gap", "normal_velocity", "rotation_rate", "spin", "rotation")
     start = np.array([float(resting[name][0]) for name in names])
 
     def rates(_: float, y: np.ndarray) -> list[float]:

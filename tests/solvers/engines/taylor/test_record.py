@@ -129,7 +129,7 @@ def test_the_approach_is_the_films_momentum_integral():
     expected = 1 - (np.log(1 / s) - 1.5 + 2 * s - s**2 / 2) / found.stokes
     assert np.min(s) < 0.2
     np.testing.assert_allclose(
-        -approach.opening_velocity.values / found.speed, expected, rtol=0, atol=found.steps * RTOL
+        -approach.normal_velocity.values / found.speed, expected, rtol=0, atol=found.steps * RTOL
     )
 
 
