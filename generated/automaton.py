@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 93bdef26b6bd5a051353296064eb488ef6211c86e1aaa7ab6a3ac4a088053e4e
+# Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -45,7 +45,41 @@ KINDS = (
     "rotation reverses",
     "half turn",
 )
-CRITERIA = ("glass", "elastic", "rough")  # in the order in which they apply on entry
+
+
+class Criterion(NamedTuple):
+    """A rebound criterion: the group at which it is met, whether that is a gap, what removes it, and its sentence."""
+
+    limit: str
+    contact: bool
+    symbol: str
+    removed_by: tuple[str, float] | None
+    sentence: str
+
+
+CRITERIA = {  # by word, in the order in which they apply on entry
+    "glass": Criterion(
+        limit="glass_number",
+        contact=False,
+        symbol="",
+        removed_by=None,
+        sentence="reversed by the glass criterion, the liquid's own pressure",
+    ),
+    "elastic": Criterion(
+        limit="elastic_gap",
+        contact=True,
+        symbol="x_r",
+        removed_by=("youngs_modulus", 1e+300),
+        sentence="reversed by the elastic criterion, the spheres' deformation",
+    ),
+    "rough": Criterion(
+        limit="rough_gap",
+        contact=True,
+        symbol="x_b",
+        removed_by=("roughness", 0.0),
+        sentence="reversed by contact of the surfaces' roughness",
+    ),
+}
 
 
 class Status(IntEnum):
@@ -99,6 +133,8 @@ class Event(NamedTuple):
 VOID_WITHOUT = {
     "film": "film_edge",
 }
+
+ENDS = ("separate", "cut off")  # actions that end a collision
 
 EVENTS = (  # in order of precedence among coincident ones
     Event(

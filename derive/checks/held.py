@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import sympy as sp
 
 from ..equations.certificates.attraction import admits
+from ..equations.events import contact_gap
 from ..equations.model import derive
 from ..physics.laws import LAWS, Law
 from ..physics.scaling import DISTANCE
@@ -16,11 +17,9 @@ from ..vocabulary.quantities import (
     beta,
     contact_angle,
     e_dry,
-    elastic_gap,
     gap,
     normal_velocity,
     orbital_momentum,
-    rough_gap,
     rupture_gap,
     spin,
     weight,
@@ -56,7 +55,7 @@ def margins_are_the_forces() -> Check:
         force = model.expanded(emitted).subs(DISTANCE, 4 + aspect * gap)
         attraction = force.subs({weight: 0, orbital_momentum: 0})
         strings, outward = force.subs(orbital_momentum, 0) - attraction, force.subs(orbital_momentum, 0) - force
-        contact, end = sp.Max(elastic_gap, rough_gap), rupture_gap
+        contact, end = contact_gap, rupture_gap
         share = (4 + aspect * end) ** 2 / ((4 + aspect * end) ** 2 + sp.Rational(32, 5))
         momentum = orbital_momentum + sp.Rational(32, 5) * spin
         least, most = attraction.subs(gap, end), strings.subs({gap: end, beta: sp.pi}, simultaneous=True)

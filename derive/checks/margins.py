@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations.certificates.strings import outward_at, pull_at, rigid_momentum
+from ..equations.events import contact_gap
 from ..equations.intermediates import CENTRIFUGAL_FORCE, STRING_PULL
 from ..equations.model import derive
 from ..equations.rates import rates
@@ -14,12 +15,10 @@ from ..vocabulary.quantities import (
     aspect,
     beta,
     e_dry,
-    elastic_gap,
     gap,
     glass_number,
     normal_velocity,
     orbital_momentum,
-    rough_gap,
     spin,
     stokes,
 )
@@ -30,7 +29,7 @@ _TETHERED = Structure(oblique=True, bridge=False, strings=True)
 
 def _bounds() -> dict[str, tuple[sp.Expr, str]]:
     """Each margin with its lemma put in at the gap, angle and speed where it is worst, and in words."""
-    contact, touch = sp.Max(elastic_gap, rough_gap), sp.Integer(1)
+    contact, touch = contact_gap, sp.Integer(1)
     largest = sp.Max(orbital_momentum, rigid_momentum(orbital_momentum + sp.Rational(32, 5) * spin, 4 + aspect * touch))
     fastest = sp.sqrt(sp.Min(normal_velocity, 0) ** 2 + 2 * pull_at(touch, sp.pi))
     reach = sp.Max(contact, slot_call("glass", "reach", fastest, glass_number))

@@ -30,7 +30,7 @@ from .casadi.modules import (
 )
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
-from .taylor.automaton import automaton_header, effects_header
+from .taylor.automaton import automaton_header, criteria_header, effects_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
@@ -57,6 +57,7 @@ def emitted() -> Mapping[str, str]:
         "automaton.md": automaton_page(provenance()),
         DIAGRAM: diagram(provenance()),
         "taylor/automaton.h": automaton_header(provenance()),
+        "taylor/criteria.h": criteria_header(provenance()),
         "taylor/effects.h": effects_header(provenance()),
         "py.typed": "",
     }

@@ -40,16 +40,46 @@ COMPONENTS = (
 
 
 @dataclass(frozen=True)
-class Word:
-    """What the report calls an event. The position in WORDS is its number in the kernel.
+class Criterion:
+    """A rebound criterion: where it is met, and what is said of it.
 
     Arguments:
-        criterion: it is a rebound criterion.
+        word: what the report calls it; its event function has the same name.
+        limit: dimensionless group at which it is met: a gap, or a pressure.
+        contact: it is met at a gap, that of its limit; else where the film's pressure reaches the limit.
+        removed_by: quantity and value (SI) with which it is never met; for one that is met at a gap.
+        symbol: of its gap, in pictures.
+        sentence: why a collision that met it first has bounced.
     """
 
     word: str
+    limit: str
     meaning: str
-    criterion: bool = False
+    sentence: str
+    contact: bool = True
+    symbol: str = ""
+    removed_by: tuple[str, float] | None = None
+
+
+# In the order in which those that already hold where a closing phase starts apply: the first reverses the motion.
+CRITERIA = (
+    Criterion("glass", "glass_number", "the film pressure on the axis reaches the glass-transition pressure",
+              "reversed by the glass criterion, the liquid's own pressure", contact=False),
+    Criterion("elastic", "elastic_gap", "the gap is down to the elastic length",
+              "reversed by the elastic criterion, the spheres' deformation", symbol="x_r",
+              removed_by=("youngs_modulus", 1e300)),
+    Criterion("rough", "rough_gap", "the gap is down to the roughness",
+              "reversed by contact of the surfaces' roughness", symbol="x_b", removed_by=("roughness", 0.0)),
+)  # fmt: skip
+CONTACTS = tuple(each for each in CRITERIA if each.contact)
+
+
+@dataclass(frozen=True)
+class Word:
+    """What the report calls an event. The position in WORDS is its number in the kernel; criteria come first."""
+
+    word: str
+    meaning: str
 
     @property
     def name(self) -> str:
@@ -58,9 +88,7 @@ class Word:
 
 
 WORDS = (
-    Word("glass", "rebound: the film pressure on the axis reaches the glass-transition pressure", True),
-    Word("elastic", "rebound: the gap is down to the elastic length", True),
-    Word("rough", "rebound: the gap is down to the roughness", True),
+    *(Word(each.word, f"rebound: {each.meaning}") for each in CRITERIA),
     Word("turned", "the normal velocity rises through zero, no criterion met"),
     Word("fell back", "the normal velocity falls through zero"),
     Word("film edge", "the gap passes x0"),
@@ -72,9 +100,6 @@ WORDS = (
     Word("half turn", "the line of centres has turned by pi and the strings cross"),
 )  # fmt: skip
 
-# Order of the rebound criteria that already hold where a closing phase starts: the first of them reverses the motion.
-CRITERIA = tuple(word.word for word in WORDS if word.criterion)
-
 
 @dataclass(frozen=True)
 class Action:
@@ -85,7 +110,7 @@ class Action:
 
 
 ACTIONS = (
-    Action("gap = contact", "put the gap on the larger of elastic length and roughness"),
+    Action("gap = contact", "put the gap on the largest at which a criterion is met"),
     Action("gap = film edge", "put the gap on x0"),
     Action("gap = tangential edge", "put the gap on the reach of the tangential force"),
     Action("gap = rupture", "put the gap on the rupture gap"),
@@ -147,8 +172,8 @@ EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
           follows="motion", dips=True, chosen_by="motion"),
     Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("reverse",), dips=True, scale="glass_number"),
-    Event("contact", ("elastic", "rough"), (_MOVING, _CLOSING), ("elastic", "rough"), ("gap = contact", "reverse"),
-          chosen_by="larger gap"),
+    Event("contact", tuple(each.word for each in CONTACTS), (_MOVING, _CLOSING),
+          tuple(each.word for each in CONTACTS), ("gap = contact", "reverse"), chosen_by="larger gap"),
     Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = rupture", "separate")),
     Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = film edge", "cross film edge"),
           follows="film"),
@@ -172,7 +197,7 @@ class Rule:
 
 RULES = (
     Rule("entry", "a phase starts closing and not resting, and a rebound criterion already holds",
-         "the first of the criteria, in their order, reverses the motion", CRITERIA),
+         "the first of the criteria, in their order, reverses the motion", tuple(each.word for each in CRITERIA)),
     Rule("parted", "the solids have reversed the motion at a gap not below the rupture gap",
          "the collision ends: separated. Without a bridge this is a criterion that holds at initial contact",
          ("rupture",)),

@@ -8,19 +8,22 @@ from ..physics.laws import slot_call
 from ..physics.partners import rotation
 from ..physics.structure import Structure
 from ..vocabulary.quantities import (
+    VOCABULARY,
     aspect,
     beta,
     e_dry,
-    elastic_gap,
     gap,
     glass_number,
     normal_velocity,
     orbital_momentum,
-    rough_gap,
     rupture_gap,
     spin,
 )
+from .automaton import CONTACTS
 from .rates import inward_force
+
+CONTACT_GAPS = {each.word: VOCABULARY[each.limit].symbol for each in CONTACTS}
+contact_gap = sp.Max(*CONTACT_GAPS.values())  # where the solids meet
 
 
 def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
@@ -39,8 +42,7 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
     """Event functions, each positive before its event."""
     functions: dict[str, sp.Expr] = {
         "glass": glass_number - slot_call("glass", "pressure", gap, -normal_velocity),
-        "elastic": gap - elastic_gap,
-        "rough": gap - rough_gap,
+        **{word: gap - limit for word, limit in CONTACT_GAPS.items()},
         "turning": normal_velocity,
         "rupture": (rupture_gap if structure.bridge else 1) - gap,
     }

@@ -23,7 +23,6 @@ from ..vocabulary.quantities import (
     capillary,
     contact_angle,
     e_dry,
-    elastic_gap,
     gap,
     glass_number,
     mass_ratio,
@@ -31,7 +30,6 @@ from ..vocabulary.quantities import (
     obliquity,
     orbital_momentum,
     radius_ratio,
-    rough_gap,
     rupture_gap,
     spin,
     stokes,
@@ -43,7 +41,7 @@ from .certificates import attraction as held
 from .certificates import orbital_momentum as orbital
 from .certificates.strings import definitions as tether_definitions
 from .certificates.strings import margins as tether_margins
-from .events import events, reversal, reversal_loss, start
+from .events import CONTACT_GAPS, events, reversal, reversal_loss, start
 from .intermediates import intermediates
 from .invariants import Invariant, conserved_momentum
 from .observables import (
@@ -119,7 +117,7 @@ def _tethered(structure: Structure) -> bool:
 
 GROUPS = (
     stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
-    radius_ratio, mass_ratio, glass_number, elastic_gap, rough_gap, rupture_gap, e_dry,
+    radius_ratio, mass_ratio, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,
 )  # fmt: skip
 
 

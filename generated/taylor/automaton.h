@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 93bdef26b6bd5a051353296064eb488ef6211c86e1aaa7ab6a3ac4a088053e4e */
+ * Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 93bdef26b6bd5a051353296064eb488ef6211c86e1aaa7ab6a3ac4a088053e4e
+ * Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab
  *
  * What an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions that it calls,
  * are known. */
@@ -18,7 +18,7 @@ static void act(queue *q, flights *l, fixed *f, int lane, int event)
         break;
     case AT_CONTACT:
         l->y[GAP][lane] = f->contact[lane];
-        reverse(q, l, f, lane, contact_is_elastic(f, lane) ? KIND_ELASTIC : KIND_ROUGH);
+        reverse(q, l, f, lane, contact_kind(&f->c, lane));
         break;
     case AT_RUPTURE:
         l->y[GAP][lane] = f->end[lane];

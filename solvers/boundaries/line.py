@@ -21,6 +21,7 @@ from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocat
 from ..engines.taylor.build import compile_all, supported
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
+from ..model.contact import GAPS, NEVER_MET, contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow
@@ -31,9 +32,8 @@ from .by_kernel import Escaping
 from .saddle import barrier_of, saddle_of
 
 _NEVER = 1e30  # a glass number that no pressure meets
-WITHOUT_SOLIDS = {"glass_number": _NEVER, "elastic_gap": 0.0, "rough_gap": 0.0}
+WITHOUT_SOLIDS = {"glass_number": _NEVER} | dict.fromkeys(GAPS.values(), 0.0)
 _UNMET = {"glass_number": 0.0}  # the glass event's function is then the pressure itself
-_RIGID = {"youngs_modulus": 1e300}  # Pa: solids that have no elastic length
 _ESCAPE_STEPS = (400, 20_000)  # of the kernel, first to see whether all that is left is creeping past a saddle
 _CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
 _DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
@@ -89,11 +89,11 @@ class Line:
         self.collisions += 1
         n = self.numbers(stokes)
         groups, model = n.groups, self.model
-        contact = max(groups["elastic_gap"], groups["rough_gap"])
+        contact = contact_gap(groups)
         found = None
         if self.kernel:
             p = model.group_values(groups | _UNMET)
-            solids = self._no_glass(groups) | _RIGID | {"roughness": _DEEP * contact * n.length}
+            solids = self._no_glass(groups) | NEVER_MET | {"roughness": _DEEP * contact * n.length}
             found = by_kernel.approach(
                 self.scene, n, self.rtol, solids, len(model.state), lambda y: _pressures(model, y, p), _CREEPING
             )
@@ -106,7 +106,7 @@ class Line:
         self.collisions += 1
         n = self.numbers(stokes)
         groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
-        solids = {} if reversed_ else self._no_glass(n.groups) | _RIGID | {"roughness": 0.0}
+        solids = {} if reversed_ else self._no_glass(n.groups) | NEVER_MET
         probe = UnstoppedTrajectory(self.model, groups, self.rtol)
         for steps in _ESCAPE_STEPS if self.kernel else ():
             flown = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
@@ -141,8 +141,8 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
 
     It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
     """
-    deep = _DEEP * max(groups["elastic_gap"], groups["rough_gap"])
-    unmet = _UNMET | {"elastic_gap": 0.0, "rough_gap": deep}
+    deep = _DEEP * contact_gap(groups)
+    unmet = _UNMET | dict.fromkeys(GAPS.values(), deep)
     flight = EventLocator(model, groups | unmet, rtol, (), machine_code)
     y, phase, p = flight.y, flight.phase, flight.p
     pressure = _pressure(model, y, p)

@@ -7,15 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...generated import scaling
-from ...generated.automaton import CRITERIA, OUTCOMES, Purpose
+from ...generated.automaton import KINDS, OUTCOMES, Purpose
 from ..engines.casadi.locate import EventLocator
 from ..engines.taylor.build import supported
-from ..engines.taylor.call import RIGID
 from ..errors import ComputationError, InputError
+from ..model.contact import GAPS, NEVER_MET
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from ..scene.groups import si_values
+from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
 from . import by_kernel
@@ -151,7 +150,7 @@ class Look:
     def no_solids(self, contact: np.ndarray) -> dict[str, np.ndarray]:
         """Quantities with which an approach goes on past its contact gaps (x0), far beyond them."""
         deep = DEEP * contact * self.scene.liquid.film_thickness
-        return {"youngs_modulus": np.full(contact.size, RIGID), "roughness": deep}
+        return {name: np.full(contact.size, value) for name, value in NEVER_MET.items()} | {"roughness": deep}
 
     def _by_rosenbrock(self, found: np.ndarray, angle: float) -> None:
         """Fill one sample."""
@@ -164,7 +163,7 @@ class Look:
             return
         self.collisions += path.time > 0
         found["outcome"] = OUTCOMES.index(path.outcome)
-        found["reversal"] = -1 if path.reversal is None else CRITERIA.index(path.reversal)
+        found["reversal"] = -1 if path.reversal is None else KINDS.index(path.reversal)
         found["events"] = len(path.kinds)
         if path.separated:
             found["restitution"] = path.model.values("outputs", path.y, path.p)["restitution"]
@@ -183,10 +182,11 @@ def blank(stokes: np.ndarray) -> np.ndarray:
 def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
     """Gap over film thickness at which the solids meet, by roughness or elastic length, at normal speeds (m/s)."""
     values = {**si_values(scene, None, None), "speed": speed}
-    gap = np.full(speed.size, scaling.rough_gap(*(values[name] for name in scaling.ARGUMENTS["rough_gap"])))
-    if "youngs_modulus" in values:
-        elastic = scaling.elastic_gap(*(values[name] for name in scaling.ARGUMENTS["elastic_gap"]))
-        gap = np.maximum(gap, elastic)
+    gap = np.zeros(speed.size)
+    for name in GAPS.values():
+        formula, arguments = formulas(scene)[name]
+        if all(argument in values for argument in arguments):
+            gap = np.maximum(gap, formula(*(values[argument] for argument in arguments)))
     return gap
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...generated.automaton import SAFETY
+from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
 from .base import NoProof, Proof
@@ -22,7 +23,7 @@ class HeldProof:
         self.theorem = True  # a model with a conserving arm; `beside` is then one as well, or proves nothing
         self.watches: str | None = self.beside.watches
         groups = dict(zip(model.groups, p, strict=True))
-        self._nearest = max(groups["elastic_gap"], groups["rough_gap"]) * (1 - self.margin)
+        self._nearest = contact_gap(groups) * (1 - self.margin)
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self.beside.level(y, phase)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..model.contact import contact_gap
 from .orbital_momentum import OrbitalProof
 from .quadrature import panels
 
@@ -56,7 +57,7 @@ def _turn(proof: OrbitalProof, y: np.ndarray) -> _Turn | None:
     state = np.array([edge, 0.0, *y[2 : len(model.state)]])
     settled = np.array(list(model.values("rigid_rotation", state, proof.p).values()))
     outward = -_inward(proof, np.array([edge]), settled)[0]
-    contact = max(proof.groups["elastic_gap"], proof.groups["rough_gap"])
+    contact = contact_gap(proof.groups)
     radial = float(y[1]) ** 2 / 2 - _work(proof, y, float(y[0]), edge)
     if not outward > 0 or not 0 <= radial < _SHALLOW * outward * (edge - contact):
         return None

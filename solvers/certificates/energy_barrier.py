@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import SAFETY
+from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
 from .base import BEYOND
@@ -143,7 +144,7 @@ class BarrierProof:
     def _search(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Local maxima from the sign of the slope on a grid in ln(gap), refined by bisection, heights by quadrature."""
         end = self.groups.get("rupture_gap", 1.0)
-        contact = max(self.groups["elastic_gap"], self.groups["rough_gap"])
+        contact = contact_gap(self.groups)
         start = min(max(contact, 1e-6), 0.5)
         inside = np.geomspace(start, 1.0, 81)
         grid = np.unique(np.concatenate([inside, np.linspace(1.0, end, 81)])) if end > 1 else inside

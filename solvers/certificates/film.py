@@ -7,6 +7,7 @@ from casadi import SX, Function
 
 from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH, SAFETY
 from ..host.thread_caches import own_cache
+from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
 from .quadrature import panels
@@ -24,7 +25,7 @@ class FilmProof:
         self.model, self.p = model, p
         groups = dict(zip(model.groups, p, strict=True))
         self.stokes = groups["stokes"]
-        self.contact = max(groups["elastic_gap"], groups["rough_gap"])
+        self.contact = contact_gap(groups)
         self.glass = groups["glass_number"]
         self.margin = SAFETY * rtol
 

@@ -6,7 +6,7 @@ import math
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from ...generated.automaton import BOUNCE, KINDS, STICK, EventKind
+from ...generated.automaton import BOUNCE, CRITERIA, KINDS, STICK, EventKind
 from .outcome import Energy, Event, Outcome
 
 if TYPE_CHECKING:
@@ -16,11 +16,6 @@ WIDTH = 88
 CUT_OFFS = {
     KINDS[EventKind.HALF_TURN]: "half a turn, the strings cross",
     KINDS[EventKind.ROTATION_REVERSES]: "the strings turn the rotation back",
-}
-CRITERIA = {
-    KINDS[EventKind.GLASS]: "reversed by the glass criterion, the liquid's own pressure",
-    KINDS[EventKind.ELASTIC]: "reversed by the elastic criterion, the spheres' deformation",
-    KINDS[EventKind.ROUGH]: "reversed by contact of the surfaces' roughness",
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
 _MANY = 40  # events: more are rebound after rebound
@@ -74,7 +69,7 @@ def _cut(text: str, longest: int) -> str:
 def reason(collision: Outcome) -> str:
     """Return why the collision ended as it did, in words."""
     if collision.outcome == BOUNCE and collision.reversal is not None:
-        return CRITERIA[collision.reversal]
+        return CRITERIA[collision.reversal].sentence
     if collision.outcome != STICK:
         return "escaped by centrifugal force, no criterion met"
     return _stuck(collision)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import ComputationError, InputError
 from ..scene.groups import Formula, formulas, si_values
+from .contact import GAPS
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene
@@ -96,7 +97,7 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
 def nondimensionalise(scene: Scene, speed: float, angle: float) -> DimensionlessGroups:
     """Dimensionless numbers of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
 
-    A group exists where the scene has what it is made of; an absent elastic criterion has elastic_gap 0.
+    A group exists where the scene has what it is made of; an absent criterion of contact has gap 0.
     """
     values = si_values(scene, speed, angle)
     plain = ("dry_restitution", "volume", "contact_angle", "radius_ratio", "mass_ratio")
@@ -104,7 +105,7 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
     if scene.package is not None:
         scene.package.demand(scene.entries)
         groups |= {name: values[name] for name in scene.package.plain}
-    groups["elastic_gap"] = 0.0
+    groups |= dict.fromkeys(GAPS.values(), 0.0)
     for name, formula in formulas(scene).items():
         if all(argument in values for argument in formula[1]):
             groups[name] = _finite(name, formula, values)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from ..host import emitted
 from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
 from ..scene.user_model import Package
+from .contact import GAPS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -166,8 +167,8 @@ class Model:
 
     @cached_property
     def contact_gap(self) -> SX:
-        """Gap at which the solids touch: elastic length or roughness, whichever is met first."""
-        return fmax(self.groups["elastic_gap"], self.groups["rough_gap"])
+        """Gap at which the solids touch."""
+        return reduce(fmax, (self.groups[name] for name in GAPS.values()))
 
     @cached_property
     def guarded(self) -> dict[str, SX]:

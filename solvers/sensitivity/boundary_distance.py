@@ -14,13 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
-from ...generated.automaton import CLOSING, CRITERIA, KINDS, EventKind
+from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..boundaries.line import approach, smooth_escape
 from ..certificates import energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
+from ..model.contact import GAPS, contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow
@@ -109,7 +110,7 @@ def _stick(
         if aside is not None and aside.separated:
             kind = _separatrix(finder)
             if aside.reversal and not path.reversal:
-                kind = GLASS if aside.reversal == "glass" else CONTACT
+                kind = CONTACT if aside.reversal in GAPS else GLASS
             near = Near(kind, least / 2, "impact.stokes")
             return _measured(scene, n, near)
     return None
@@ -129,8 +130,8 @@ def _located(scene: Scene, n: DimensionlessGroups, stokes: float, rtol: float) -
 def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
     """Boundaries by the flight's own measure."""
     model, groups = finder.model, finder.groups
-    contact = max(groups["elastic_gap"], groups["rough_gap"])
-    smaller = min(groups["elastic_gap"], groups["rough_gap"])
+    contact = contact_gap(groups)
+    smaller = sorted(groups[name] for name in GAPS.values())[-2]
     for step, y in _sampled(finder, path):
         if step.phase.motion == CLOSING:
             yield from _criteria(model, path, step, y, groups["glass_number"], contact)
@@ -160,11 +161,11 @@ def _criteria(
         if peak > 0:
             yield Near(GLASS, abs(math.log(glass / peak)), _P_GT)
     gap, normal_velocity = y[0, -1], y[1, -1]
-    if met in ("elastic", "rough") and step.duration > 0:
+    if met in GAPS and step.duration > 0:
         slowing = float(model.function("right_hand_side", *_region(step))(y[: len(model.state), -1], path.p)[1])
         if slowing > 0:
             yield Near(CONTACT, normal_velocity**2 / (2 * slowing * contact), f"the gap of {met} contact")
-    elif contact > 0 and met not in CRITERIA[1:]:
+    elif contact > 0 and met not in GAPS:
         yield Near(CONTACT, abs(math.log(gap / contact)), "the gap of contact")
 
 
@@ -267,7 +268,7 @@ class _Aside:
         """Largest pressure over p_gt, or contact gap over smallest gap, as a logarithm, of the approach alone."""
         groups = self.groups(stokes)
         model = load(select_model(self.scene, self.n.oblique))
-        contact = max(groups["elastic_gap"], groups["rough_gap"])
+        contact = contact_gap(groups)
         pressure, smallest = approach(model, groups, _FINE, machine_code=False)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)

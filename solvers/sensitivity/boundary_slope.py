@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute, vertcat
 
-from ...generated.automaton import KINDS, EventKind
+from ...generated.automaton import CRITERIA, KINDS, EventKind
 from ..boundaries.changes import FREE, GRAZE, REVERSED, Change
 from ..boundaries.line import WITHOUT_SOLIDS, UnstoppedTrajectory
 from ..boundaries.saddle import Saddle, barrier_of, saddle_of
@@ -20,6 +20,7 @@ from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, to
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
+from ..model.contact import GAPS, contact_word
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
@@ -74,23 +75,23 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
     k = next(k for k, step in enumerate(path.steps) if step.reverses)
     step = path.steps[k]
     told = tolerance(rtol, "rosenbrock", finder.groups)
-    kind = "glass" if step.kinds[0] == "glass" else "contact"
+    word = contact_word(finder.groups) if step.kinds[0] in GAPS else step.kinds[0]
     before = path.ends[k - 1][: len(model.state)] if k else model.start(path.p)
     if step.duration > 0:
-        step = replace(step, duration=_extremum(model, step, kind, before, path.p, told), event=None, reverses=False)
+        step = replace(step, duration=_extremum(model, step, word, before, path.p, told), event=None, reverses=False)
     course, durations = _up_to(path, k, step)
     end = ending(course, "rosenbrock", told)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
     y = evaluate(end.function, path.p, durations)[0]
-    margin = _margin(model, kind, finder.groups["elastic_gap"] >= finder.groups["rough_gap"])
+    margin = _margin(model, word)
     by_state, by_group = evaluate(margin, y, path.p)
     carried = evaluate(adjoint(end, 1), path.p, durations, by_state)[2].ravel()
     return Slope(tuple(model.groups), carried + by_group.ravel())
 
 
-def _extremum(model: Model, step: PhaseRun, kind: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
+def _extremum(model: Model, step: PhaseRun, word: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
     """Time within the phase at which the pressure is largest, or the gap smallest, by Newton's method."""
-    rates = _rates(model, step.phase.region, kind)
+    rates = _rates(model, step.phase.region, word)
     fly = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
     time = step.duration
     for _ in range(_NEWTON):
@@ -103,22 +104,18 @@ def _extremum(model: Model, step: PhaseRun, kind: str, before: np.ndarray, p: np
 
 
 @own_cache(64)
-def _rates(model: Model, region: Region, kind: str) -> Function:
+def _rates(model: Model, region: Region, word: str) -> Function:
     """(state, groups) -> rate of the pressure or gap, and the rate of that."""
     flow = model.function("right_hand_side", region.film, region.shear)(model.column, model.parameters)
-    of = model("events")["glass"] if kind == "glass" else model.state["gap"]
-    first = jtimes(of, model.column, flow)
+    first = jtimes(model("events")[word], model.column, flow)
     return Function("rates", [model.column, model.parameters], [first, jtimes(first, model.column, flow)])
 
 
 @own_cache(64)
-def _margin(model: Model, kind: str, elastic: bool) -> Function:
+def _margin(model: Model, word: str) -> Function:
     """(state, groups) -> gradients, in either, of by how much a criterion is met, as a logarithm."""
-    if kind == "glass":
-        limit = model.groups["glass_number"]
-        of = (limit - model("events")["glass"]) / limit
-    else:
-        of = model.groups["elastic_gap" if elastic else "rough_gap"] / model.state["gap"]
+    limit = model.groups[CRITERIA[word].limit]
+    of = limit / model.state["gap"] if word in GAPS else (limit - model("events")[word]) / limit
     slopes = [densify(gradient(of, each)) for each in (model.column, model.parameters)]
     return Function("margin", [model.column, model.parameters], slopes)
 

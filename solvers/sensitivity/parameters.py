@@ -16,6 +16,7 @@ from ...generated import scaling
 from ..errors import InputError, did_you_mean
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
+from ..model.contact import GAPS
 from ..scene.groups import Formula, formulas
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
@@ -61,7 +62,6 @@ class Kind:
     """What the way from parameters to groups depends on: which entries a scene has, and what of the impact is held."""
 
     entries: tuple[str, ...]  # reference values in this order
-    elastic: bool
     hold: str
     shape: tuple[object, ...]  # what chooses among the formulas
     formulas: Mapping[str, Formula] = field(compare=False, repr=False)
@@ -79,7 +79,6 @@ def kind_of(scene: Scene, hold: str) -> Kind:
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
     return Kind(
         (*own, f"impact.{hold}", "impact.angle"),
-        scene.particles.youngs_modulus is not None,
         hold,
         (scene.wall, scene.partner is not None, own_rupture, scene.package),
         formulas(scene),
@@ -133,10 +132,10 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
         values[moved] += theta[k] * unit
         units.append(_impact(base, wall)[name] if name in _ONE_VARIABLE else unit)
     known_values = quantities(values, wall)
-    numbers: dict[str, Any] = {"elastic_gap": SX(0)}
+    numbers: dict[str, Any] = dict.fromkeys(GAPS.values(), SX(0))
     numbers |= {name: known_values[name] for name in groups if name in known_values}
     for name, (formula, arguments) in kind.formulas.items():
-        if all(argument in known_values for argument in arguments) and (name != "elastic_gap" or kind.elastic):
+        if all(argument in known_values for argument in arguments):
             numbers[name] = formula(*(known_values[argument] for argument in arguments))
     speed, length = known_values["speed"], known_values["film_thickness"]
     scales = [length, length / speed, numbers["initial_rate"], known_values["reduced_mass"] * speed**2]

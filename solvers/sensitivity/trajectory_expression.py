@@ -16,6 +16,7 @@ from casadi import DM, MX, Function, vertcat
 from ..engines.casadi.integrators import Tolerance, landing, plain
 from ..engines.casadi.locate import EventSequence
 from ..host.thread_caches import own_cache
+from ..model.contact import GAPS, contact_word
 from ..model.model import Model, ModelKey, load
 from ..model.phases import Flow, Phase, WatchedEvents
 from .results import QUANTITIES
@@ -170,11 +171,10 @@ def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:
 def influential(course: Course, groups: dict[str, float]) -> list[bool]:
     """Which groups a course can depend on: those of criteria that it does not meet have no influence on it."""
     landed = {leg.event for leg in course.legs}
-    contact = "elastic_gap" if groups["elastic_gap"] >= groups["rough_gap"] else "rough_gap"
+    met = GAPS[contact_word(groups)] if "contact" in landed else None
     absent = {
         "glass_number": "glass" not in landed,
-        "elastic_gap": "contact" not in landed or contact != "elastic_gap",
-        "rough_gap": "contact" not in landed or contact != "rough_gap",
+        **{gap: gap != met for gap in GAPS.values()},
         "dry_restitution": not any(leg.reverses for leg in course.legs),
     }
     return [not absent.get(name, False) for name in course.model.groups]

@@ -14,6 +14,7 @@ import numpy as np
 from ..collision.collide import collide
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
 from ..errors import ComputationError
+from ..model.contact import contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
 from ..model.phases import Flow, Region
@@ -114,7 +115,7 @@ def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tu
     """Error of -u/v0 against the closed form on the way in, at several instants."""
     n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
     flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
-    contact, errors = max(n.groups["elastic_gap"], n.groups["rough_gap"]), [0.0]
+    contact, errors = contact_gap(n.groups), [0.0]
     for time in _INSTANTS.tolist():
         gap, normal_velocity = _flown(plain, flow, engine, n, start, time)
         if gap > contact:  # no flight goes further
@@ -132,7 +133,7 @@ def _stokes_range(bare: Scene) -> list[float]:
 def _reversal(n: DimensionlessGroups, glass: str) -> float:
     """The first gap, from x0 inward, at which a criterion is met; by scanning and bisection of the closed form."""
     stokes, limit = n.groups["stokes"], n.groups["glass_number"]
-    contact = max(n.groups["elastic_gap"], n.groups["rough_gap"])
+    contact = contact_gap(n.groups)
     if contact >= 1:
         return 1.0
 
@@ -190,7 +191,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
     flow, edge = Flow(choice, Region(1, 1, True)), float(load(choice).laws.shear.edge(n.groups["aspect"]))
     a, m, mu = bare.particles.reduced_radius, bare.particles.reduced_mass, bare.liquid.viscosity
     worst = (-1.0, "")
-    outer, contact = min(edge, 1.0), max(n.groups["elastic_gap"], n.groups["rough_gap"])
+    outer, contact = min(edge, 1.0), contact_gap(n.groups)
     for gap in (min(max(part * outer, contact), 0.9 * outer) for part in (0.5, 0.05)):  # as deep as the solids allow
         x = gap * n.length
         reach = n.length if bare.model.tangential == "film" else 2 * a

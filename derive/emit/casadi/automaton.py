@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 
 from ...equations import automaton
 from .modules import _PROVENANCE, digest
 
 _DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
+_CRITERION_FIELDS = {
+    "limit": "str",
+    "contact": "bool",
+    "symbol": "str",
+    "removed_by": "tuple[str, float] | None",
+    "sentence": "str",
+}
 _EVENT_FIELDS = {
     "name": "str",
     "functions": "tuple[str, ...]",
@@ -25,7 +32,18 @@ _EVENT_FIELDS = {
 
 def automaton_digest() -> str:
     """Digest of the tables."""
-    tables = ("COMPONENTS", "WORDS", "ACTIONS", "EVENTS", "RULES", "OUTCOMES", "STATUSES", "PURPOSES", "CONSTANTS")
+    tables = (
+        "COMPONENTS",
+        "CRITERIA",
+        "WORDS",
+        "ACTIONS",
+        "EVENTS",
+        "RULES",
+        "OUTCOMES",
+        "STATUSES",
+        "PURPOSES",
+        "CONSTANTS",
+    )
     return digest(*(row for table in tables for row in getattr(automaton, table)))
 
 
@@ -47,7 +65,7 @@ def automaton_module() -> str:
     lines += ["", *_numbers("EventKind", "Number of an event in a report; KINDS has its word.",
                             [(word.name, word.meaning) for word in automaton.WORDS])]  # fmt: skip
     lines += ["", *_tuple("KINDS", words)]
-    lines += [f"CRITERIA = {_text(automaton.CRITERIA)}  # in the order in which they apply on entry", ""]
+    lines += _criteria()
     lines += _numbers("Status", "What the kernel says of a collision; up to LAST_ANSWER its outcome stands.",
                       [(each.name, each.meaning) for each in automaton.STATUSES])  # fmt: skip
     last = [each.name for each in automaton.STATUSES if each.answers][-1]
@@ -61,6 +79,24 @@ def automaton_module() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _criteria() -> list[str]:
+    doc = "A rebound criterion: the group at which it is met, whether that is a gap, what removes it, and its sentence."
+    lines = ["", "", *_named_tuple("Criterion", doc, _CRITERION_FIELDS), "", ""]
+    lines += ["CRITERIA = {  # by word, in the order in which they apply on entry"]
+    for each in automaton.CRITERIA:
+        lines += [f'    "{each.word}": Criterion(', *_members(each, _CRITERION_FIELDS), "    ),"]
+    return [*lines, "}", ""]
+
+
+def _named_tuple(name: str, doc: str, types: Mapping[str, str]) -> list[str]:
+    lines = [f"class {name}(NamedTuple):", f'    """{doc}"""', ""]
+    return lines + [f"    {member}: {kind}" for member, kind in types.items()]
+
+
+def _members(row: object, names: Iterable[str]) -> list[str]:
+    return [f"        {name}={_text(getattr(row, name))}," for name in names]
+
+
 def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[str]:
     lines = ["", f"class {name}(IntEnum):", f'    """{doc}"""', ""]
     return lines + [f"    {member} = {number}  # {meaning}" for number, (member, meaning) in enumerate(members)]
@@ -69,21 +105,15 @@ def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[st
 def _events() -> list[str]:
     declared = [field.name for field in fields(automaton.Event)]
     assert sorted(declared) == sorted(_EVENT_FIELDS), "every field of an event is emitted"
-    lines = [
-        "",
-        "class Event(NamedTuple):",
-        '    """A guard and its effect; `generated/automaton.md` explains them."""',
-        "",
-    ]
-    lines += [f"    {name}: {kind}" for name, kind in _EVENT_FIELDS.items()]
+    doc = "A guard and its effect; `generated/automaton.md` explains them."
+    lines = ["", *_named_tuple("Event", doc, _EVENT_FIELDS)]
     void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
     lines += ["", "", "# Conditions on a part of the mode that are void where a structure lacks an event function."]
     lines += ["VOID_WITHOUT = {", *(f'    "{name}": "{event}",' for name, event in void.items()), "}", ""]
+    lines += [f"ENDS = {_text(automaton.ENDS)}  # actions that end a collision", ""]
     lines += ["EVENTS = (  # in order of precedence among coincident ones"]
     for event in automaton.EVENTS:
-        lines.append("    Event(")
-        lines += [f"        {name}={_text(getattr(event, name))}," for name in _EVENT_FIELDS]
-        lines.append("    ),")
+        lines += ["    Event(", *_members(event, _EVENT_FIELDS), "    ),"]
     return [*lines, ")"]
 
 

@@ -69,15 +69,15 @@ def automaton_page(provenance: str) -> str:
 
 def _reported_by() -> list[str]:
     return [
-        "Where two words stand, the first is reported while closing, the second while opening; at a contact, `elastic`",
-        "where the elastic length is positive and not below the roughness, else `rough`.",
+        "Where two words stand, the first is reported while closing, the second while opening; at a contact, the first",
+        "whose gap is the largest and positive, else the last.",
     ]
 
 
 def _guard(event: Event) -> str:
     functions = [f"`{name}`" for name in event.functions]
     sign = {"": "", "motion": ", negative while closing", "film": ", negative beyond", "shear": ", negative beyond"}
-    said = (functions[0] if len(functions) == 1 else f"the smaller of {' and '.join(functions)}") + sign[event.follows]
+    said = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
     return f"{said}, if its gap lies within reach" if event.within_reach else said
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from ...equations import automaton
 from ...equations.automaton import Event
-from .layout import comment
+from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
@@ -55,6 +55,67 @@ def automaton_header(provenance: str) -> str:
     return "\n".join([*lines, "", "#endif"]) + "\n"
 
 
+def criteria_header(provenance: str) -> str:
+    """Text of `generated/taylor/criteria.h`: gaps at which the solids meet, as functions of a collision's constants."""
+    groups = [f"c->{each.limit}" for each in automaton.CONTACTS]
+    kinds = [_KIND[each.word] for each in automaton.CONTACTS]
+    *first, last = zip(groups, kinds, automaton.CONTACTS, strict=True)
+    lines = comment(f"{provenance}\n\nRebound criteria that are met at a gap. Included where `constants` is known.")
+    lines += ["", *comment("The gap at which the solids meet: the largest at which a criterion is met.")]
+    lines += function("static inline vec contact_gap(const constants *c)", [f"return {_nested('vec_max', groups)};"])
+    lines += [
+        "",
+        *comment("What is reported of contact: the first whose gap is largest and positive, else the last."),
+    ]
+    lines += function(
+        "static inline int contact_kind(const constants *c, int lane)",
+        [
+            "double contact = contact_gap(c)[lane];",
+            *(
+                line
+                for group, kind, _ in first
+                for line in (f"if ({group}[lane] == contact && contact > 0.0)", f"    return {kind};")
+            ),
+            f"return {last[1]};",
+        ],
+    )
+    lines += ["", *comment("The first criterion that holds at a gap where one does.")]
+    lines += function(
+        "static inline int kind_at_gap(const constants *c, double gap, int lane)",
+        [
+            *(line for group, kind, _ in first for line in (f"if (gap <= {group}[lane])", f"    return {kind};")),
+            f"return {last[1]};",
+        ],
+    )
+    lines += ["", *comment("The second largest of the gaps; 0 if there is none.")]
+    lines += function(
+        "static inline double second_gap(const constants *c, int lane)",
+        [
+            f"double gaps[] = {{{', '.join(f'{group}[lane]' for group in groups)}}}, largest = 0.0, second = 0.0;",
+            f"for (int k = 0; k < {len(groups)}; k++)",
+            "    if (gaps[k] > largest) {",
+            "        second = largest;",
+            "        largest = gaps[k];",
+            "    } else if (gaps[k] > second)",
+            "        second = gaps[k];",
+            "return second;",
+        ],
+    )
+    lines += ["", "#if GRADIENTS", *comment("Lanes whose contact gap is this group.")]
+    body = ["vec contact = contact_gap(c);", "mask before = splat_mask(0);"]
+    for group, _, each in first:
+        body += [f"if (group == BY_{each.limit.upper()})", f"    return ({group} == contact) & ~before;"]
+        body.append(f"before |= {group} == contact;")
+    body.append(f"return group == BY_{last[2].limit.upper()} ? ~before : splat_mask(0);")
+    lines += function("static inline mask contact_moves_with(const constants *c, int group)", body)
+    return "\n".join([*lines, "#endif"]) + "\n"
+
+
+def _nested(operation: str, values: Sequence[str]) -> str:
+    *first, last = values
+    return f"{operation}({_nested(operation, first)}, {last})" if first else last
+
+
 def effects_header(provenance: str) -> str:
     """Text of `generated/taylor/effects.h`: the switch over an event's effect."""
     lines = comment(
@@ -91,7 +152,7 @@ def _chosen(event: Event) -> str:
     if event.chosen_by == "motion":
         return f"l->closing[lane] ? {names[0]} : {names[1]}"
     if event.chosen_by == "larger gap":
-        return f"contact_is_elastic(f, lane) ? {names[0]} : {names[1]}"
+        return "contact_kind(&f->c, lane)"
     return names[0]
 
 

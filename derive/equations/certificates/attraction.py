@@ -23,13 +23,12 @@ from ...vocabulary.quantities import (
     aspect,
     beta,
     e_dry,
-    elastic_gap,
     gap,
     normal_velocity,
     orbital_momentum,
-    rough_gap,
     rupture_gap,
 )
+from ..events import contact_gap
 from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermediates
 from .strings import (
     CONTACT,
@@ -74,7 +73,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     pull = pull_at(CONTACT, beta) if structure.strings else sp.Integer(0)
     largest = pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
     found = [
-        (CONTACT, sp.Max(elastic_gap, rough_gap)),
+        (CONTACT, contact_gap),
         (NEAREST, 4 + aspect * CONTACT),
         (FARTHEST, 4 + aspect * end),
         (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),

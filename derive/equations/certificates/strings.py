@@ -28,7 +28,6 @@ from ...vocabulary.quantities import (
     aspect,
     beta,
     e_dry,
-    elastic_gap,
     gap,
     glass_number,
     m,
@@ -36,9 +35,9 @@ from ...vocabulary.quantities import (
     omega,
     orbital_momentum,
     r,
-    rough_gap,
     stokes,
 )
+from ..events import contact_gap
 from ..intermediates import MOMENTUM
 
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
@@ -70,7 +69,7 @@ def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
     closing = sp.Min(normal_velocity, 0)
     return (
-        (CONTACT, sp.Max(elastic_gap, rough_gap)),
+        (CONTACT, contact_gap),
         (NEAREST, 4 + aspect * CONTACT),
         (FARTHEST, 4 + aspect),
         (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),

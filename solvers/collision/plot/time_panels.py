@@ -15,7 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
+from ....generated.automaton import CRITERIA
 from ...formatting import ticks
+from ...model.contact import GAPS
+from ...scene.groups import scaled
 from ..outcome import Outcome
 from ..text import prefix, quantity
 from .frames import Frame
@@ -134,10 +137,9 @@ def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Outcome, last
     factor, name = prefix(float(np.max(gap)))
     film, rupture = scene.liquid.film_thickness, scene.rupture_gap
     lines = {"$x_0 = x_f$": film} if math.isclose(film, rupture) else {"$x_0$": film, "$x_f$": rupture}
-    if collision.reversal == "rough":
-        lines["$x_b$"] = scene.particles.roughness
-    elif collision.reversal == "elastic":
-        lines["$x_r$"] = scene.elastic_length(collision.speed) or 0.0
+    if collision.reversal in GAPS:
+        symbol = CRITERIA[collision.reversal].symbol
+        lines[f"${symbol}$"] = scaled(GAPS[collision.reversal], scene, collision.speed) * film
     far = rupture > 3 * np.max(gap)
     if far:
         del lines["$x_f$"]

@@ -14,6 +14,7 @@ from ....generated.automaton import (
     CHATTER_PHASES,
     CLOSING,
     CRITERIA,
+    ENDS,
     EVENTS,
     KINDS,
     LOOSEST,
@@ -27,6 +28,7 @@ from ....generated.automaton import (
 )
 from ...certificates import OrbitalProof, Proof, proof_for
 from ...errors import CheckFailed, ComputationError
+from ...model.contact import contact_gap, contact_word
 from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
 from ...settings import CALL, STEPS
@@ -37,7 +39,6 @@ _NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
 EVENT_OF = {event.name: event for event in EVENTS}
-_ENDS = ("separate", "cut off")
 _GAP, _VELOCITY = 0, 1  # places in the state
 
 
@@ -111,7 +112,7 @@ class EventLocator:
         self.p = model.group_values(groups)
         self.groups = groups
         self.proof: Proof = proof_for(model, self.p, rtol)
-        self.contact_gap = max(groups["elastic_gap"], groups["rough_gap"])
+        self.contact_gap = contact_gap(groups)
         self.rupture_gap = groups["rupture_gap"] if model.bridge else 1.0
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
@@ -171,7 +172,7 @@ class EventLocator:
             )
 
     def _criterion_met(self) -> str | None:
-        """A criterion already true where a phase starts, by rule: glass, elastic, rough."""
+        """A criterion already true where a phase starts: the first of the table."""
         values = self.model.values("events", self.y, self.p)
         return next((kind for kind in CRITERIA if values[kind] <= 0), None)
 
@@ -297,14 +298,13 @@ class EventLocator:
                 return False
             phase = self._done(action, phase)
         self._next(PhaseRun(before, flown, event.name, (word,)), phase)
-        return event.actions[-1] in _ENDS
+        return event.actions[-1] in ENDS
 
     def _word(self, event: Event) -> str:
         if event.chosen_by == "motion":
             return event.words[self.phase.motion == OPENING]
         if event.chosen_by == "larger gap":
-            elastic, rough = self.groups["elastic_gap"], self.groups["rough_gap"]
-            return event.words[not (elastic >= rough and elastic > 0)]
+            return contact_word(self.groups)
         return event.words[0]
 
     def _done(self, action: str, phase: Phase) -> Phase:

@@ -127,11 +127,12 @@ def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, s
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    rules, effects = automaton()
+    rules, criteria, effects = automaton()
     return {
         "settings.h": "\n".join([_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), ""]),
         "layout.h": f"{_ONCE}\n{declarations(variant.ledger)}\n",
         "automaton.h": f"{_ONCE}\n{rules}",
+        "criteria.h": f'{_ONCE}\n#include "automaton.h"\n#include "model.h"\n{criteria}',
         "effects.h": f'{_ONCE}\n#include "transitions.h"\n{effects}',
         "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
     }

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import LOOSEST
+from ...model.contact import NEVER_MET
 from ...model.model import ModelKey, select_model
 from ...scene.groups import si_values
 from ...scene.scene import Scene
@@ -24,7 +25,6 @@ from .endless import decide
 from .layout import ANSWER, Task, names
 
 _CHUNK = 4096  # collisions a thread takes at a time
-RIGID = 1e300  # Pa: a Young's modulus that never reverses anything
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
         made: answers to be filled, zeros of ANSWER.
     """
     asked = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
-    given: dict[str, np.ndarray | float] = {"youngs_modulus": RIGID, "poisson_ratio": 0.0}
+    given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
     given |= si_values(impacts.scene, None, None)
     given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
     asked.columns(

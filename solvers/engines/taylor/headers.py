@@ -11,9 +11,10 @@ _NONE = "#error "  # how a header begins that could not be emitted
 
 
 @once
-def automaton() -> tuple[str, str]:
-    """Texts of the headers of the automaton: its enumerations and constants, and the switch over an event's effect."""
-    return emitted.header("taylor/automaton.h"), emitted.header("taylor/effects.h")
+def automaton() -> tuple[str, str, str]:
+    """Texts of the headers of the automaton: enumerations and constants, gaps of contact, the switch over effects."""
+    rules, criteria, effects = (emitted.header(f"taylor/{name}.h") for name in ("automaton", "criteria", "effects"))
+    return rules, criteria, effects
 
 
 @once

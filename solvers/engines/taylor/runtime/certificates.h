@@ -2,6 +2,7 @@
 #pragma once
 
 #include "automaton.h"
+#include "criteria.h"
 #include "energy_barrier.h"
 
 #define TURNS (OBLIQUE && !WALL)
@@ -118,7 +119,7 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
     vec hold, flight, rebound;
     held_margins(c, y, &hold, &flight, &rebound);
     vec energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
-    mask outside = y[GAP] >= vec_max(c->elastic_gap, c->rough_gap)*(1.0 - margin);
+    mask outside = y[GAP] >= contact_gap(c)*(1.0 - margin);
     return outside & (hold > 0.0) & (rebound < -margin*hold) & (flight < -margin*energy);
 }
 #endif

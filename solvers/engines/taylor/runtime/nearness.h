@@ -6,6 +6,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "criteria.h"
 #include "events.h"
 #include "model.h"
 #include "state.h"
@@ -120,7 +121,7 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
         double slowing = s->normal_velocity[1][lane];
         for (int k = 2; k <= ORDER; k++)
             slowing += k*s->normal_velocity[k][lane]*pow(h, k - 1);
-        double smaller = fmin(f->c.elastic_gap[lane], f->c.rough_gap[lane]);
+        double smaller = second_gap(&f->c, lane);
         if (slowing > 0.0)
             along_near(a, lane, normal_velocity*normal_velocity/(2.0*slowing*contact), CONTACT_GRAZE);
         if (smaller > 0.0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "criteria.h"
 #include "energy_barrier.h"
 #include "ledger.h"
 #include "state.h"
@@ -36,7 +37,7 @@ static void fill_queue(queue *q)
         unsigned beyond = set_tolerance(q, &f);
         memset(y, 0, sizeof y);
         start(&f.c, y);
-        f.contact = vec_max(f.c.elastic_gap, f.c.rough_gap);
+        f.contact = contact_gap(&f.c);
 #if BRIDGE
         f.end = f.c.rupture_gap;
 #else

@@ -1,6 +1,7 @@
 /* What meets an event: where its function falls, how fast, and how its surface moves with the groups. */
 #pragma once
 
+#include "criteria.h"
 #include "events.h"
 #include "model.h"
 #include "state.h"
@@ -44,12 +45,8 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
 /* The gap at which an event lies, in a direction. */
 static inline vec target_along(const fixed *f, const meeting *m, int group)
 {
-    vec zero = splat(0.0), one = splat(1.0), moved = zero;
-    mask elastic = f->c.elastic_gap >= f->c.rough_gap;
-    if (group == BY_ELASTIC_GAP)
-        moved = choose(m->contact & elastic, one, zero);
-    if (group == BY_ROUGH_GAP)
-        moved = choose(m->contact & ~elastic, one, zero);
+    vec zero = splat(0.0), one = splat(1.0);
+    vec moved = choose(m->contact & contact_moves_with(&f->c, group), one, zero);
 #if BRIDGE
     if (group == BY_RUPTURE_GAP)
         moved = choose(m->end, one, zero);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "criteria.h"
 #include "ledger.h"
 #include "queue.h"
 #include "state.h"
@@ -30,13 +31,6 @@ static void new_phase(flights *l, int lane)
 {
     l->phases[lane]++;
     l->fresh[lane] = -1;
-}
-
-/* Whether the solids meet at the elastic length and not at the roughness. */
-static int contact_is_elastic(const fixed *f, int lane)
-{
-    double elastic = f->c.elastic_gap[lane], rough = f->c.rough_gap[lane];
-    return elastic >= rough && elastic > 0.0;
 }
 
 /* Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left. */
@@ -85,7 +79,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
         opens(l, f, lane);
 }
 
-/* A criterion already true where a closing phase starts, by rule: glass, elastic, rough. */
+/* A criterion already true where a closing phase starts, by rule: the first of the table. */
 static void criteria_met(queue *q, flights *l, fixed *f)
 {
     mask asked = l->fresh & l->alive & l->closing & ~l->resting;
@@ -96,9 +90,7 @@ static void criteria_met(queue *q, flights *l, fixed *f)
 #if WITH_TRAJECTORY
     glass = q->t->purpose == APPROACH ? 0 : glass;
 #endif
-    unsigned elastic = bits(asked & (l->y[GAP] <= f->c.elastic_gap));
-    unsigned rough = bits(asked & (l->y[GAP] <= f->c.rough_gap));
-    unsigned any = glass | elastic | rough;
+    unsigned any = glass | bits(asked & (l->y[GAP] <= f->contact));
 #if GRADIENTS
     if (glass) {
         vec met = vec_abs(vec_log(1.0 - spare(&f->c, l->y)));
@@ -108,5 +100,5 @@ static void criteria_met(queue *q, flights *l, fixed *f)
 #endif
     EACH_LANE(lane)
         if (any >> lane & 1)
-            reverse(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : elastic >> lane & 1 ? KIND_ELASTIC : KIND_ROUGH);
+            reverse(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
 }
