@@ -184,8 +184,8 @@ def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
 class UnstoppedTrajectory(EventLocator):
     """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
 
-    def _proved(self) -> bool:
-        return self.phase.motion == CLOSING and super()._proved()
+    def _proved(self, flown: float) -> bool:
+        return self.phase.motion == CLOSING and super()._proved(flown)
 
     def _level(self) -> float | None:
         return super()._level() if self.phase.motion == CLOSING else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .attraction import HeldProof
-from .base import NoProof, Proof
+from .base import Certainty, NoProof, Proof, at_maximum
 from .chatter import ChatterProof
 from .choice import energy_proof, proof_for
 from .circling import comes_to
@@ -15,6 +15,7 @@ from .strings import TetherProof
 __all__ = [
     "Barrier",
     "BarrierProof",
+    "Certainty",
     "ChatterProof",
     "FilmProof",
     "HeldProof",
@@ -22,6 +23,7 @@ __all__ = [
     "OrbitalProof",
     "Proof",
     "TetherProof",
+    "at_maximum",
     "comes_to",
     "energy_proof",
     "proof_for",

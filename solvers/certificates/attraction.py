@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...generated.automaton import SAFETY
 from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import NoProof, Proof
+from .base import Certainty, NoProof, Proof
 
 
 class HeldProof:
@@ -20,7 +22,6 @@ class HeldProof:
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof | None = None) -> None:
         self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside or NoProof()
-        self.theorem = True  # a model with a conserving arm; `beside` is then one as well, or proves nothing
         self.watches: str | None = self.beside.watches
         groups = dict(zip(model.groups, p, strict=True))
         self._nearest = contact_gap(groups) * (1 - self.margin)
@@ -28,8 +29,8 @@ class HeldProof:
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self.beside.level(y, phase)
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        return self.beside.decided(y, phase) or self._held(y)
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return self.beside.decided(y, phase, maxima) or Certainty.of(self._held(y))
 
     def _held(self, y: np.ndarray) -> bool:
         if not y[0] >= self._nearest:

@@ -2,19 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from enum import IntEnum
 from typing import Protocol
 
 import numpy as np
 
+from ...generated.automaton import CLOSING
 from ..model.phases import Phase
 
+STILL = 1e-9  # of v0: slower is a turning point
 BEYOND = 1.0  # more of SAFETY at the level a flight stops at, so that rounding there does not leave the proof undecided
 
 
-class Proof(Protocol):
-    """What a flight asks of a proof. `y` is the locating state: the model's states, then works against attractions."""
+class Certainty(IntEnum):
+    """What a proof says of a state; true if the two never separate."""
 
-    theorem: bool  # a stick found by it is proved, not only certain for practical purposes
+    OPEN = 0
+    CERTAIN = 1  # for practical purposes
+    PROVED = 2
+
+    @classmethod
+    def of(cls, sticks: bool, theorem: bool = True) -> Certainty:
+        return cls.OPEN if not sticks else cls.PROVED if theorem else cls.CERTAIN
+
+
+def at_maximum(y: np.ndarray, phase: Phase) -> bool:
+    """Whether a phase starts here from a maximum of the gap."""
+    return not phase.resting and phase.motion == CLOSING and abs(y[1]) <= STILL
+
+
+class Proof(Protocol):
+    """What a flight asks of a proof, which has no state of its own.
+
+    `y` is the locating state: the model's states, then works against attractions.
+    """
+
     watches: str | None  # what a flight watches for (`WatchedEvents.certificate`); by "energy", `y` carries the works
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
@@ -22,18 +45,21 @@ class Proof(Protocol):
         relative margin of the proof on strings; None if there is nothing to watch for.
         """
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        """Whether the stick is proved at `y`."""
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        """Whether the stick is decided at `y`.
+
+        Arguments:
+            maxima: states at the last maxima of the gap, `y` among them if it is one.
+        """
 
 
 class NoProof:
     """No certificate: an oblique doublet with a film alone always parts; on strings none but `TetherProof` is known."""
 
-    theorem = False
     watches: str | None = None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return None
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        return False
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return Certainty.OPEN

@@ -2,44 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ...generated.automaton import CLOSING, SAFETY
+from ...generated.automaton import SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Proof
+from .base import Certainty, Proof, at_maximum
 from .quadrature import panels
 
-CYCLES = 20  # maxima, none above the one before, that are taken for chatter
-STILL = 1e-9  # of v0: slower is a turning point
+CYCLES = 20  # maxima that are taken for chatter, if none of the next is above the one before
 _GAPS = 49  # at which the doublet is asked whether it gets there
 
 
-class Cycles:
-    """How many maxima there have been in a row none of which is above the one before, but for its error.
+def chatters(maxima: Sequence[np.ndarray], kept: slice, margin: float) -> bool:
+    """Whether none of many maxima is above the one before.
 
     Arguments:
-        margin: relative error.
+        maxima: states at the last maxima of the gap.
+        kept: which states must not grow.
+        margin: their relative error.
     """
-
-    def __init__(self, margin: float) -> None:
-        self.margin = margin
-        self._last: np.ndarray | None = None
-        self._count = 0
-
-    def count(self, y: np.ndarray, phase: Phase, kept: slice) -> int:
-        """The number, if this is a maximum of the gap, else 0.
-
-        Arguments:
-            kept: which states must not grow.
-        """
-        if phase.resting or phase.motion != CLOSING or abs(y[1]) > STILL:
-            return 0
-        here = np.array(y[kept])
-        grows = self._last is not None and bool(np.any(here > self._last * (1 + self.margin)))
-        self._count = 1 if grows else self._count + 1
-        self._last = here
-        return self._count
+    last = np.array([y[kept] for y in maxima[-1 - CYCLES :]])
+    return len(last) > CYCLES and not bool(np.any(last[1:] > last[:-1] * (1 + margin)))
 
 
 class ChatterProof:
@@ -56,18 +42,17 @@ class ChatterProof:
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
         self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
         self.end = dict(zip(model.groups, p, strict=True)).get("rupture_gap", 1.0)
-        self.theorem, self.watches = beside.theorem, beside.watches
-        self._cycles = Cycles(self.margin)
+        self.watches = beside.watches
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self.beside.level(y, phase)
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        self.theorem = self.beside.theorem
-        if self.beside.decided(y, phase):
-            return True
-        self.theorem = False
-        return self._cycles.count(y, phase, slice(0, 3, 2)) > CYCLES and self._held(y)
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        certainty = self.beside.decided(y, phase, maxima)
+        if certainty or not at_maximum(y, phase):
+            return certainty
+        held = chatters(maxima, slice(0, 3, 2), self.margin) and self._held(y)
+        return Certainty.of(held, theorem=False)
 
     def _held(self, y: np.ndarray) -> bool:
         gaps = float(y[0]) + (self.end - float(y[0])) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first

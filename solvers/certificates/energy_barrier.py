@@ -6,7 +6,9 @@ U_eff = L^2/(2 I) + W_c (+ U_s) further out cannot be made up for. Beside a wall
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,7 +16,7 @@ from ...generated.automaton import SAFETY
 from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import BEYOND
+from .base import BEYOND, Certainty
 from .quadrature import panels
 
 
@@ -41,7 +43,9 @@ class BarrierProof:
         self.groups = dict(zip(model.groups, p, strict=True))
         self.theorem = model.choice.law("arm") != "surface"
         self._largest = float(sum(model.values(model.escape, model.start(p), p).values()))
-        self._known: tuple[float, tuple[Barrier, ...]] | None = None
+        start = model.start(p)
+        self._conserved = self._search(start) if self.theorem else ()
+        self._searched = lru_cache(2)(lambda momenta: self._search(np.array([*start[:2], *momenta])))
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self._level(y, phase, SAFETY + BEYOND)
@@ -55,7 +59,10 @@ class BarrierProof:
         )  # the same all along the flight, or a stop would move its own level
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return Certainty.of(self._below(y, phase), self.theorem)
+
+    def _below(self, y: np.ndarray, phase: Phase) -> bool:
         if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
             return True  # nothing moves that could part them, or changes what turns; and the force is inward
         if phase.resting and self.rests(y):
@@ -100,14 +107,7 @@ class BarrierProof:
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
-        momentum = self._momentum(y)
-        if self._known is None or (self._known[0] != momentum and not self.theorem):
-            self._known = (momentum, self._search(y))
-        return self._known[1]
-
-    def _momentum(self, y: np.ndarray) -> float:
-        """Angular momentum as the search sees it; where it is conserved the value does not matter."""
-        return 0.0 if self.theorem else self.model.values("angular_momentum", y, self.p)["angular_momentum"]
+        return self._conserved if self.theorem else self._searched(tuple(y[2 : len(self.model.state)].tolist()))
 
     def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
         """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).
@@ -127,7 +127,8 @@ class BarrierProof:
         lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
         energy = self.model.values("effective_potential", y, self.p)["energy"]
         # initial contact is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
-        whole = self._momentum(y) * self.model.values("start", y, self.p)["orbital_momentum"]
+        momentum = self.model.values("angular_momentum", y, self.p)["angular_momentum"]
+        whole = momentum * self.model.values("start", y, self.p)["orbital_momentum"]
         return float(4 * energy * max(orbital_momentum / rigid, 1.0) * lost / whole)
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:

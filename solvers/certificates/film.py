@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from casadi import SX, Function
 
@@ -10,6 +12,7 @@ from ..host.thread_caches import own_cache
 from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
+from .base import Certainty
 from .quadrature import panels
 
 PARTS = 50  # panels of the quadrature between two depths
@@ -18,7 +21,6 @@ PARTS = 50  # panels of the quadrature between two depths
 class FilmProof:
     """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
 
-    theorem = True
     watches: str | None = None
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
@@ -32,7 +34,10 @@ class FilmProof:
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return None
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return Certainty.of(self._stops(y, phase))
+
+    def _stops(self, y: np.ndarray, phase: Phase) -> bool:
         gap, normal_velocity = float(y[0]), float(y[1])
         if phase.resting:
             return True

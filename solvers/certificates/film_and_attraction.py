@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...generated.automaton import ATTRACTED_FILM_DEPTHS, CLOSING
 from ..model.model import Model
 from ..model.phases import Phase
+from .base import Certainty
 from .energy_barrier import BarrierProof
 from .film import PARTS, FilmProof
 from .quadrature import panels
@@ -27,8 +30,10 @@ class AttractedProof(BarrierProof):
         super().__init__(model, p, rtol)
         self._film = FilmProof(model, p, rtol)
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        return super().decided(y, phase) or (not phase.resting and self._weak(y) and self._stopped(y, phase))
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return super().decided(y, phase, maxima) or Certainty.of(
+            not phase.resting and self._weak(y) and self._stopped(y, phase)
+        )
 
     def _weak(self, y: np.ndarray) -> bool:
         """Whether what rises beyond x0 is too low for the energy to decide soon; else the film's quadrature is dear."""

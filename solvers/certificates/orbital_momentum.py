@@ -6,13 +6,15 @@ that lose next to nothing, and the surface arm, for which angular momentum is no
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...generated.automaton import CLOSING, SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Proof
-from .chatter import CYCLES, STILL, Cycles
+from .base import STILL, Certainty, Proof, at_maximum
+from .chatter import chatters
 from .quadrature import panels
 
 _LEVERS = ("midgap", "surface")
@@ -43,9 +45,7 @@ class OrbitalProof:
         self.lever = model.choice.law("arm") or "midgap"
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(self.aspect, *more))
-        self.theorem = beside.theorem
         self.watches = None if self._drifts else beside.watches
-        self._cycles = Cycles(self.margin)
 
     @property
     def _drifts(self) -> bool:
@@ -54,15 +54,14 @@ class OrbitalProof:
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return self.beside.level(y, phase)
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        if not self._drifts and self.beside.decided(y, phase):
-            self.theorem = self.beside.theorem
-            return True
-        self.theorem = self.proves
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        if not self._drifts and (certainty := self.beside.decided(y, phase, maxima)):
+            return certainty
         if self.model.strings:
-            return self._cycles.count(y, phase, slice(1)) > CYCLES and self.holds(y)
-        turned_back = phase.resting or (phase.motion == CLOSING and y[1] > -STILL)
-        return bool((turned_back or self._drifts) and self.holds(y))
+            worth = at_maximum(y, phase) and chatters(maxima, slice(1), self.margin)
+        else:
+            worth = self._drifts or phase.resting or (phase.motion == CLOSING and y[1] > -STILL)
+        return Certainty.of(worth and self.holds(y), self.proves)
 
     @property
     def proves(self) -> bool:

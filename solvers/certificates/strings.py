@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from casadi import SX, Function
 
@@ -9,13 +11,12 @@ from ...generated.automaton import SAFETY
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase, tethered_margin
-from .base import BEYOND
+from .base import BEYOND, Certainty
 
 
 class TetherProof:
     """Strings that turn, a film and no bridge: all but lubrication pulls inward for good."""
 
-    theorem = True
     watches: str | None = "tethered"
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
@@ -24,8 +25,8 @@ class TetherProof:
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return (SAFETY + BEYOND) * self.rtol
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
-        return float(_tethered(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return Certainty.of(float(_tethered(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0)
 
 
 @own_cache(64)

@@ -45,7 +45,7 @@ class WithoutProof(EventLocator):
         except _Long:
             return self.path
 
-    def _proved(self) -> bool:
+    def _proved(self, flown: float) -> bool:
         return False
 
     def _level(self) -> float | None:

@@ -26,7 +26,7 @@ from ....generated.automaton import (
     Event,
     EventKind,
 )
-from ...certificates import OrbitalProof, Proof, proof_for
+from ...certificates import Certainty, OrbitalProof, Proof, at_maximum, proof_for
 from ...errors import CheckFailed, ComputationError
 from ...model.contact import contact_gap, contact_word
 from ...model.model import Model
@@ -124,15 +124,14 @@ class EventLocator:
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
         self.spent, self.steps = 0, steps
+        self._maxima: list[np.ndarray] = []  # states at maxima of the gap
 
     def run(self) -> EventSequence:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error("so oblique an impact turns within a rounding error of x0", "try a smaller angle")
         while True:
-            if self._proved():
-                self._stop(PhaseRun(self.phase, 0.0, None, ()))
-                self.path.certified = self.proof.theorem
+            if self._proved(0.0):
                 return self.path
             if self._held_in_chatter():
                 return self.path
@@ -176,8 +175,15 @@ class EventLocator:
         values = self.model.values("events", self.y, self.p)
         return next((kind for kind in CRITERIA if values[kind] <= 0), None)
 
-    def _proved(self) -> bool:
-        return self.proof.decided(self.y, self.phase)
+    def _proved(self, flown: float) -> bool:
+        """Whether a stick is decided where a phase has come to, which ends the collision."""
+        if at_maximum(self.y, self.phase):
+            self._maxima.append(self.y)
+        certainty = self.proof.decided(self.y, self.phase, self._maxima)
+        if certainty:
+            self._stop(PhaseRun(self.phase, flown, None, ()))
+            self.path.certified = certainty is Certainty.PROVED
+        return bool(certainty)
 
     def _level(self) -> float | None:
         return self.proof.level(self.y, self.phase) if self.watch.certificate else None
@@ -201,15 +207,11 @@ class EventLocator:
             self.y = self.path.y = stop.y
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event == "certified":
-                if self._proved():
-                    self._stop(PhaseRun(self.phase, flown, None, ()))
-                    self.path.certified = self.proof.theorem
+                if self._proved(flown):
                     return True
             elif stop.event is not None:
                 return self._act(EVENT_OF[stop.event], flown)
-            elif self._proved():
-                self._stop(PhaseRun(self.phase, flown, None, ()))
-                self.path.certified = self.proof.theorem
+            elif self._proved(flown):
                 return True
             else:
                 stretch *= GROWTH

@@ -6,14 +6,14 @@ import math
 import re
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ....generated.automaton import OUTCOMES
-from ...certificates import NoProof
+from ...certificates import Certainty, NoProof
 from ...collision.by_casadi import by_casadi
 from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant
@@ -246,10 +246,10 @@ class Audit(NoProof):
         self._phase: Phase | None = None
         self._quiet = self._asked = 0
 
-    def decided(self, y: np.ndarray, phase: Phase) -> bool:
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         self._quiet, self._phase = (self._quiet + 1 if phase == self._phase else 0), phase
         self._asked += 1
-        return self._quiet >= 4 or self._asked > _AUDIT
+        return Certainty.of(self._quiet >= 4 or self._asked > _AUDIT)
 
 
 def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...engines.casadi.integrators import EventHit, tolerance
-from ...engines.casadi.locate import EVENT_OF, EventLocator, EventSequence, PhaseRun
+from ...engines.casadi.locate import EVENT_OF, EventLocator, EventSequence
 from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
 
@@ -71,9 +71,7 @@ class Flight(EventLocator):
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event is not None and stop.event != "certified":
                 return self._act(EVENT_OF[stop.event], flown)
-            if self._proved():
-                self._stop(PhaseRun(self.phase, flown, None, ()))
-                self.path.certified = self.proof.theorem
+            if self._proved(flown):
                 return True
         raise self._error(f"no event within {flown:.3g} x0/v0", "try a smaller rtol")
 

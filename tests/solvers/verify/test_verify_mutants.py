@@ -12,6 +12,7 @@ import pytest
 from casadi import SX, integrator, vertcat
 from wetdoublet.generated.automaton import OPENING
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
+from wetdoublet.solvers.certificates import Certainty
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.integrators import plain
 from wetdoublet.solvers.model.phases import expressions
@@ -153,14 +154,13 @@ def test_an_engine_that_does_not_converge_is_found(flown) -> None:
 class Overeager:
     """A proof that calls every doublet stuck once it opens: too much."""
 
-    theorem = True
     watches: str | None = None
 
     def level(self, y, phase):
         return None
 
-    def decided(self, y, phase):
-        return phase.motion == OPENING
+    def decided(self, y, phase, maxima=()):
+        return Certainty.of(phase.motion == OPENING)
 
 
 class Deceived(locate.EventLocator):
