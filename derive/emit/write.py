@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from ..equations.model import derive
 from ..physics.laws import LAWS
-from ..physics.structure import committed, structures
+from ..physics.structure import Structure, committed, structures
 from .casadi.assemble import ASSEMBLE
 from .casadi.automaton import automaton_digest, automaton_module, provenance
 from .casadi.modules import (
@@ -46,8 +46,12 @@ def sha256(text: str) -> str:
 
 
 @cache
-def emitted() -> Mapping[str, str]:
-    """Relative path -> text of every file of `generated/`, manifest included."""
+def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
+    """Relative path -> text of every file of `generated/`, manifest included.
+
+    Arguments:
+        chosen: structures that are emitted; those that `generated/` has if None. Others are derived on first use.
+    """
     files = {
         "__init__.py": _package("Emitted CasADi modules: a structure a module, laws in `laws`, groups in `scaling`."),
         "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
@@ -73,7 +77,7 @@ def emitted() -> Mapping[str, str]:
             files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
             files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
-    for structure in committed():
+    for structure in committed() if chosen is None else chosen:
         model = derive(structure)
         files[f"{structure.name}.py"] = structure_module(model)
         if structure in structures():

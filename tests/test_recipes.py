@@ -1,0 +1,174 @@
+"""Recipes of docs/architecture.md, "Where things go", followed in a copy of the tree: the edits are all it takes."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from wetdoublet.solvers import Scene, collide, sensitivities
+from wetdoublet.solvers.host.compiler import compiler
+
+pytestmark = pytest.mark.slow  # derives structures, and compiles a kernel
+
+ROOT = Path(__file__).resolve().parents[1]
+
+# file, text that is there -> text that takes its place; `{}` is where the old text goes
+QUANTITIES, SCALING, AUTOMATON = (
+    f"derive/{name}.py" for name in ("vocabulary/quantities", "physics/scaling", "equations/automaton")
+)
+ENTRY = [  # a quantity of the vocabulary, an entry of a scene that is it, and its place in the table of the scene
+    (
+        QUANTITIES,
+        "e_dry = ",
+        'w = _quantity("waviness", "w", LENGTH, "m", "height of the waves", nonnegative=True)\n{}',
+    ),
+    (
+        "solvers/scene/schema.py",
+        '    Field("particles.dry_restitution"',
+        '    Field("particles.waviness", "a waviness", \'"1 um"\', NOT_NEGATIVE, unit="m"),\n{}',
+    ),
+    ("solvers/scene/tables.py", "    poisson_ratio: float | None = None\n", "{}    waviness: float | None = None\n"),
+]
+GROUP = [  # its name and formula
+    (
+        QUANTITIES,
+        "rupture_gap = ",
+        'wavy_gap = _quantity("wavy_gap", "w/x_0", ONE, "x0", "waviness over x0", nonnegative=True)\n{}',
+    ),
+    (SCALING, "    rough_gap,\n", "{}    w,\n    wavy_gap,\n"),
+    (SCALING, "        rough_gap: x_b / x0,\n", "{}        wavy_gap: w / x0,\n"),
+]
+CRITERION = [  # a row of the automaton
+    (
+        AUTOMATON,
+        '    Criterion("rough"',
+        '    Criterion("wavy", "wavy_gap", "the gap is down to w", "reversed by w", removed_by=("waviness", 0.0)),\n{}',
+    )
+]
+LAW = [  # an entry of BRIDGES, and its name among the scene's
+    (
+        "derive/physics/laws/bridge.py",
+        "def _rabinovich() -> Law:",
+        'def _halved() -> Law:\n    return _law("halved", "half as much", "none", sp.cos(phi), falls=True)\n\n\n{}',
+    ),
+    ("derive/physics/laws/bridge.py", "_rabinovich()", "{}, _halved()"),
+    ("solvers/scene/schema.py", '    "constant",\n', '{}    "halved",\n'),
+]
+RESULT = [  # its row, and its expression
+    ("solvers/sensitivity/results.py", '    Quantity("contact_time"', '    Quantity("lost_speed", "1"),\n{}'),
+    (
+        "solvers/sensitivity/trajectory_expression.py",
+        '    names = model.names("energies")\n',
+        '    found["lost_speed"] = 1 - found["restitution"]\n{}',
+    ),
+]
+COMMAND = [("solvers/commands/cli.py", '    "scenes", ', '{}"hello", ')]
+HELLO = """\"\"\"`wetdoublet hello`: say hello.\"\"\"
+
+import click
+
+
+@click.command("hello", short_help="Say hello.")
+def command() -> None:
+    \"\"\"Say hello.\"\"\"
+    click.echo("hello")
+"""
+EMIT = """
+from pathlib import Path
+from wetdoublet.derive.emit import write
+from wetdoublet.solvers.host.files import write_all_in
+write_all_in(write.GENERATED, write.emitted(()))  # structures are derived on first use
+"""
+
+
+class Tree:
+    """A copy of the tree with all recipes applied, its own cache, and its laws and tables emitted."""
+
+    def __init__(self, work: Path) -> None:
+        self.package = work / "wetdoublet"
+        for folder in ("derive", "solvers"):
+            shutil.copytree(ROOT / folder, self.package / folder, ignore=shutil.ignore_patterns("__pycache__"))
+        (self.package / "generated").mkdir()
+        for path, old, new in (*ENTRY, *GROUP, *CRITERION, *LAW, *RESULT, *COMMAND):
+            file = self.package / path
+            before, found, after = file.read_text().rpartition(old)
+            assert found, f"{path} has no {old}"
+            file.write_text(before + new.replace("{}", old) + after)
+        (self.package / "solvers/commands/hello.py").write_text(HELLO)
+        self.environment = os.environ | {"PYTHONPATH": str(work), "XDG_CACHE_HOME": str(work / "cache")}
+        self.python("-c", EMIT)
+
+    def python(self, *arguments: str) -> str:
+        """Standard output of a Python process that imports this tree."""
+        done = subprocess.run(
+            [sys.executable, *arguments], env=self.environment, capture_output=True, text=True, timeout=300, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    def run(self, *command: str) -> str:
+        """Standard output of a command."""
+        return self.python("-m", "wetdoublet.solvers", *command)
+
+    def told(self, *command: str) -> dict[str, Any]:
+        """What a command says with --json."""
+        told: dict[str, Any] = json.loads(self.run(*command, "--json"))
+        return told
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
+    return Tree(tmp_path_factory.mktemp("recipes"))
+
+
+HARD = {"liquid.glass_transition_pressure": "1e6 GPa", "particles.roughness": "0.1 um"}
+FAST = {"stokes": 5.0, "angle": 0.0}
+ROUGH, WAVY = HARD | {"particles.roughness": "2 um"}, HARD | {"particles.waviness": "2 um"}
+
+
+def options(entries: dict[str, str], stokes: float, engine: str) -> list[str]:
+    """Of a command, head-on."""
+    given = [word for name, value in entries.items() for word in ("--set", f"{name}={value}")]
+    return [*given, "--stokes", str(stokes), "--angle", "0 deg", "--engine", engine]
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_a_new_rebound_criterion(tree: Tree, engine: str) -> None:
+    """Waves reverse as roughness of their height does without them, by either engine, under their own word."""
+    if engine == "taylor" and compiler() is None:
+        pytest.skip("no C compiler")
+    rough = collide(Scene.load("granulation").with_entries(ROUGH), **FAST, engine=engine)
+    wavy = tree.told("collide", "granulation", *options(WAVY, 5.0, engine))
+    assert (rough.reversal, wavy["reversal"]) == ("rough", "wavy")
+    assert wavy["restitution"] == pytest.approx(rough.restitution, rel=1e-13)
+
+
+def test_a_new_entry_and_a_new_result_have_derivatives(tree: Tree) -> None:
+    """By the waviness they are those by the roughness, where that is what reverses; 1 - e_n has the opposite slope."""
+    rough = sensitivities(Scene.load("granulation").with_entries(ROUGH), **FAST, wrt="particles.roughness")
+    wavy = tree.told("sensitivity", "granulation", *options(WAVY, 5.0, "rosenbrock"), "--of", "restitution,lost_speed")
+    expected = pytest.approx(rough.gradient["restitution"]["particles.roughness"], rel=1e-10)
+    assert wavy["gradient"]["restitution"]["particles.waviness"] == expected
+    assert -wavy["gradient"]["lost_speed"]["particles.waviness"] == expected
+    assert wavy["gradient"]["restitution"]["particles.roughness"] == 0.0
+    assert wavy["value"]["lost_speed"] == 1 - wavy["value"]["restitution"]
+
+
+def test_a_new_bridge_law(tree: Tree) -> None:
+    """Half the constant force is the constant force of half the surface tension."""
+    entries = {"bridge.law": "constant", "bridge.surface_tension": "0.0125 N/m"}
+    constant = collide(Scene.load("granulation").with_entries(entries), stokes=0.5, angle=0.0)
+    halved = tree.told("collide", "granulation", *options({"bridge.law": "halved"}, 0.5, "cvodes"))
+    assert halved["outcome"] == constant.outcome
+    assert halved["restitution"] == pytest.approx(constant.restitution, rel=1e-12)
+
+
+def test_a_new_command(tree: Tree) -> None:
+    """It is run by its name."""
+    assert tree.run("hello") == "hello\n"
