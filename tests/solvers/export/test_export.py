@@ -55,7 +55,9 @@ def test_a_changed_coefficient_is_that_term():
 def test_an_added_and_a_removed_term():
     """A force more in the equation of motion is added to it; read the other way it is removed."""
     text = (GENERATED / "oblique_reduced.py").read_text()
-    more = text.replace('"normal_velocity": centrifugal_force - film_force', '"normal_velocity": centrifugal_force - film_force - gap')
+    more = text.replace(
+        '"normal_velocity": centrifugal_force - film_force', '"normal_velocity": centrifugal_force - film_force - gap'
+    )
     assert more != text
     one, other = (equations({"": each}) for each in (text, more))
     [added] = compare(one, other)
