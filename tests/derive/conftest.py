@@ -12,6 +12,8 @@ from wetdoublet.derive.checks import Check, symbolic_checks
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.structure import structures
 
+from ..helpers.shared import made_once
+
 _ROOT = derive.__module__.rsplit(".", 2)[0]
 # What is remembered of forces and models; mechanics, laws and scaling are functions of their arguments alone.
 _DERIVED = ("physics.forces", "equations", "checks")
@@ -24,9 +26,9 @@ def models() -> dict[str, Model]:
 
 
 @pytest.fixture(scope="session")
-def healthy() -> dict[str, Check]:
+def healthy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Check]:
     """Every check of the library's derivation, by name."""
-    return {check.name: check for check in symbolic_checks()}
+    return made_once(tmp_path_factory, "checks", lambda: {check.name: check for check in symbolic_checks()})
 
 
 def _modules() -> list[ModuleType]:
