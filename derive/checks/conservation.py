@@ -18,7 +18,7 @@ _FULL = tuple(structure for structure in structures() if not structure.reduced)
 
 
 def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
-    """d/dtau of orbital_momentum + (32/5) spin, the angular momentum over m a^2 omega0, along the emitted right-hand side."""
+    """d/dtau of orbital_momentum + (32/5) spin, the angular momentum over m a^2 omega0, along the emitted equations."""
     rates = emitted_rates(derive(structure))
     return sp.factor(sp.expand(filled(rates[orbital_momentum] + sp.Rational(32, 5) * rates[spin], laws)))
 

@@ -1,10 +1,10 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
  * Automaton sha256 93bdef26b6bd5a051353296064eb488ef6211c86e1aaa7ab6a3ac4a088053e4e
  *
- * What an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions that it calls,
- * are known. */
+ * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
+ * known. */
 
-static void act(queue *q, flights *l, fixed *f, int lane, int event)
+static void act(queue *q, lanes *l, fixed *f, int lane, int event)
 {
     switch (event) {
     case AT_TURNING:

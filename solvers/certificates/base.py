@@ -8,14 +8,18 @@ import numpy as np
 
 from ..model.phases import Phase
 
-BEYOND = 1.0  # more of SAFETY at the level a flight stops at, so that rounding there does not leave the proof undecided
+BEYOND = (
+    1.0  # more of SAFETY at the level a trajectory stops at, so that rounding there does not leave the proof undecided
+)
 
 
 class Proof(Protocol):
-    """What a flight asks of a proof. `y` is the locating state: the model's states, then works against attractions."""
+    """The interface of a proof. `y` is the locating state: the model's states, then the works against attractions."""
 
     theorem: bool  # a stick found by it is proved, not only certain for practical purposes
-    watches: str | None  # what a flight watches for (`WatchedEvents.certificate`); by "energy", `y` carries the works
+    watches: (
+        str | None
+    )  # what a trajectory watches for (`WatchedEvents.certificate`); by "energy", `y` carries the works
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         """What is watched for: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the
