@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 35b8cac321a7ff8bc5399e934cb4230cebe0de2187334c870dce217d6f9be251
+# Equations sha256 c6a96c0e98aa38144244bb29f40bf8e97a8a8a28eee14d0e1646196573f01ab2
 """Oblique doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -63,7 +63,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "35b8cac321a7ff8bc5399e934cb4230cebe0de2187334c870dce217d6f9be251"
+DIGEST = "c6a96c0e98aa38144244bb29f40bf8e97a8a8a28eee14d0e1646196573f01ab2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -316,7 +316,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
-    flight < 0 and rebound < 0 prove a stick.
+    escape < 0 and rebound < 0 prove a stick.
 
     Total operations: 36
     """
@@ -341,7 +341,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(1 - gap),
+        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(1 - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 1ad8bce18d91d08c7f462a8ea21912f5fd40dad3f715ff49eeeed89c34336351
+# Equations sha256 1c95cbf83ebdd2020860f015bdb1aa4fc40f9ccd382438e3a362b4f5bac5e83a
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -69,7 +69,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "1ad8bce18d91d08c7f462a8ea21912f5fd40dad3f715ff49eeeed89c34336351"
+DIGEST = "1c95cbf83ebdd2020860f015bdb1aa4fc40f9ccd382438e3a362b4f5bac5e83a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -332,7 +332,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
-    flight < 0 and rebound < 0 prove a stick.
+    escape < 0 and rebound < 0 prove a stick.
 
     Total operations: 39
     """
@@ -360,7 +360,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
+        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 

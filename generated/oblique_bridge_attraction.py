@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 6526fba17644639b6541cde74e6169b8313b12f7f0a70effd63f7e54aa92e6a3
+# Equations sha256 b5472255da5c1345ac615ed2c9318e10f5923f3b885c1aff8f584de5954725f5
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "6526fba17644639b6541cde74e6169b8313b12f7f0a70effd63f7e54aa92e6a3"
+DIGEST = "b5472255da5c1345ac615ed2c9318e10f5923f3b885c1aff8f584de5954725f5"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -343,7 +343,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
-    flight < 0 and rebound < 0 prove a stick.
+    escape < 0 and rebound < 0 prove a stick.
 
     Total operations: 43
     """
@@ -375,7 +375,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
+        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 

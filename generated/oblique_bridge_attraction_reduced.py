@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a43639782eac298bcc7f8d12e53565c725317f1e1501d0fe59a1a5514d6bc3e6
+# Equations sha256 de20d0bccf0d3cdcdbf5b4f6c7748047a94d0776937f4f39e4b36b1778793289
 """Oblique doublet with a liquid bridge and another attraction, spin eliminated through the conserved angular
 momentum.
 
@@ -70,7 +70,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a43639782eac298bcc7f8d12e53565c725317f1e1501d0fe59a1a5514d6bc3e6"
+DIGEST = "de20d0bccf0d3cdcdbf5b4f6c7748047a94d0776937f4f39e4b36b1778793289"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -316,7 +316,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
-    flight < 0 and rebound < 0 prove a stick.
+    escape < 0 and rebound < 0 prove a stick.
 
     Total operations: 42
     """
@@ -347,7 +347,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
+        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b3a8d14c6722e125f675926b8bbc542521d31db6902104fdc48a0437f0fae067
+# Equations sha256 952f31b5b72194374eea39c838dcab9d1c6b9de0d7b353f4bd6b15db2acbe64b
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -69,7 +69,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "b3a8d14c6722e125f675926b8bbc542521d31db6902104fdc48a0437f0fae067"
+DIGEST = "952f31b5b72194374eea39c838dcab9d1c6b9de0d7b353f4bd6b15db2acbe64b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -331,7 +331,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
-    flight < 0 and rebound < 0 prove a stick.
+    escape < 0 and rebound < 0 prove a stick.
 
     Total operations: 39
     """
@@ -359,7 +359,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
         "hold": hold,
-        "flight": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
+        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
     }
 

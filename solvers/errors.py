@@ -110,7 +110,7 @@ class ComputationError(WetDoubletError, RuntimeError):
 
     Arguments:
         message: what failed.
-        phase: name of the phase of the flight.
+        phase: name of the phase of the trajectory.
         time: s since initial contact.
         state: the last state, name to SI value.
         advice: what to try.

@@ -50,16 +50,16 @@ def _value(model: Model, function: str, name: str) -> sp.Expr:
 
 
 def resting_is_held() -> Check:
-    """In resting contact the rotation goes on as in flight with u = 0, and the gap is held."""
+    """In resting contact the rotation goes on as in motion with u = 0, and the gap is held."""
     left = []
     for structure in structures():
         if not structure.oblique:
             continue
         model = derive(structure)
         for state, rate in emitted_rates(model).items():
-            flown = sp.Integer(0) if state in (gap, normal_velocity) else rate.subs(normal_velocity, 0)
-            left.append(_value(model, "resting_rates", state.name) - flown)
-    return vanishing("resting contact", "rates at rest = rates in flight with u = 0 and du/dt = 0", left)
+            moving = sp.Integer(0) if state in (gap, normal_velocity) else rate.subs(normal_velocity, 0)
+            left.append(_value(model, "resting_rates", state.name) - moving)
+    return vanishing("resting contact", "rates at rest = rates in motion with u = 0 and du/dt = 0", left)
 
 
 def inward_is_minus_the_acceleration() -> Check:

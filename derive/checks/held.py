@@ -45,7 +45,7 @@ def force_falls(laws: Iterable[Law]) -> tuple[Check, ...]:
 
 
 def margins_are_the_forces() -> Check:
-    """`hold`, `flight` and `rebound` out of the emitted inward force at the gaps and momenta that bound it."""
+    """`hold`, `escape` and `rebound` out of the emitted inward force at the gaps and momenta that bound it."""
     left: list[sp.Expr] = []
     for structure in structures():
         if not admits(structure) or structure.reduced:
@@ -66,7 +66,7 @@ def margins_are_the_forces() -> Check:
         found = {name: model.expanded(value) for name, value in model["held"].outputs}
         left += [
             found["hold"] - hold,
-            found["flight"] - (sp.Max(normal_velocity, -e_dry * normal_velocity) ** 2 / 2 - hold * (end - gap)),
+            found["escape"] - (sp.Max(normal_velocity, -e_dry * normal_velocity) ** 2 / 2 - hold * (end - gap)),
             found["rebound"] - (e_dry**2 * (least + most) - hold),
         ]
     return vanishing("held: margins", "inward force at its least, at J_max and at the rupture distance", left)

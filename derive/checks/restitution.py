@@ -82,7 +82,7 @@ def decomposition() -> Check:
     """e_n^2 - 1 is the rotational energy released less everything that is taken, over m v0^2/2: the ledger, exactly.
 
     It holds at the start, where nothing is released or taken; the emitted equations and energy_rates keep it in
-    flight, the emitted jump and reversal_loss at a reversal. What is taken is the rotation's, and T's part in u is
+    trajectory, the emitted jump and reversal_loss at a reversal. What is taken is the rotation's, and T's part in u is
     e_n^2/2, at every instant.
     """
     left = []

@@ -29,14 +29,14 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
 
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
-    """What stays the same along a flight without strings and without solids, whatever the other laws are."""
+    """What stays the same along a trajectory without strings and without solids, whatever the other laws are."""
     arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
     found = invariants(model.extended(derive(_FULL)), {"arm": arm})
     return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in found)
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:
-    """Sentences: what is conserved, where the energy goes, which groups govern an oblique flight with a bridge."""
+    """Sentences: what is conserved, where the energy goes, which groups govern an oblique collision with a bridge."""
     if conserved(model):
         lines = [f"Conserved without strings, for every law in the other slots: {'; '.join(conserved(model))}."]
     else:
@@ -46,7 +46,7 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     groups = model.extended(derive(_FULL)).groups
     own = {group.symbol: group for group in model.groups}
     known = ", ".join(symbol.name for symbol in groups if symbol not in own)
-    lines.append(f"An oblique flight with a bridge is governed by the library's groups {known}.")
+    lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")
     for group in model.groups:
         if group.symbol == group.quantity.symbol:
             lines.append(f"New group: {group.symbol.name}, a plain number ({group.quantity.meaning}).")

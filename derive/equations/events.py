@@ -1,4 +1,4 @@
-"""Where a flight starts, the events that end its phases, and the jump at a reversal with what it costs."""
+"""Where a trajectory starts, the events that end its phases, and the jump at a reversal with what it costs."""
 
 from __future__ import annotations
 

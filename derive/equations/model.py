@@ -246,7 +246,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             ModelFunction(
                 "held",
                 "Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): "
-                "hold > 0, flight < 0 and rebound < 0 prove a stick.",
+                "hold > 0, escape < 0 and rebound < 0 prove a stick.",
                 tuple(held.margins(structure).items()),
             )
         )

@@ -1,4 +1,4 @@
-"""The rates of the states per v0/x0, in flight and in resting contact, out of the equations of motion."""
+"""The rates of the states per v0/x0, in motion and in resting contact, out of the equations of motion."""
 
 from __future__ import annotations
 

@@ -265,7 +265,7 @@ def law(
 
 
 def functions_of(slot: str) -> dict[str, bool]:
-    """The functions that a law of a slot may have, and whether it must: what all of the library's laws need to fly."""
+    """The functions that a law of a slot may have, and whether it must: what all of the library's laws have."""
     laws = LAWS[slot].values()
     names = dict.fromkeys(function.name for law in laws for function in law.functions)
     return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}

@@ -1,10 +1,10 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
  * Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab
  *
- * What an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions that it calls,
- * are known. */
+ * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
+ * known. */
 
-static void act(queue *q, flights *l, fixed *f, int lane, int event)
+static void act(queue *q, lanes *l, fixed *f, int lane, int event)
 {
     switch (event) {
     case AT_TURNING:

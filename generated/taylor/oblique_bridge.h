@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 1ad8bce18d91d08c7f462a8ea21912f5fd40dad3f715ff49eeeed89c34336351 */
+ * Equations sha256 1c95cbf83ebdd2020860f015bdb1aa4fc40f9ccd382438e3a362b4f5bac5e83a */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -490,8 +490,8 @@ static inline vec angular_momentum(const constants *c, const vec *y)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define HELD (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
-static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
+/* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
+static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec *rebound)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
@@ -501,7 +501,7 @@ static inline void held_margins(const constants *c, const vec *y, vec *hold_marg
     vec hold = least_attraction -
         0.0625*c->aspect*(largest_momentum*largest_momentum)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
     *hold_margin = hold;
-    *flight = 0.5*(vec_larger(y[NORMAL_VELOCITY],
+    *escape = 0.5*(vec_larger(y[NORMAL_VELOCITY],
         -c->dry_restitution*y[NORMAL_VELOCITY])*vec_larger(y[NORMAL_VELOCITY],
         -c->dry_restitution*y[NORMAL_VELOCITY])) - hold*(c->rupture_gap - y[GAP]);
     *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;

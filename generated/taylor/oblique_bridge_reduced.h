@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 76ccc66b98e94149296a7288db9e39959d01d019875df3d951caf158dc6cf689 */
+ * Equations sha256 f81521baa26f1f12ef2324a9040939cbc8d07a6918b66c84c73e8ccd0ce9c2db */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -362,8 +362,8 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define HELD (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
-static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
+/* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
+static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec *rebound)
 {
     vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], c->spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
@@ -371,7 +371,7 @@ static inline void held_margins(const constants *c, const vec *y, vec *hold_marg
     vec hold = least_attraction -
         0.0625*c->aspect*(largest_momentum*largest_momentum)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
     *hold_margin = hold;
-    *flight = 0.5*(vec_larger(y[NORMAL_VELOCITY],
+    *escape = 0.5*(vec_larger(y[NORMAL_VELOCITY],
         -c->dry_restitution*y[NORMAL_VELOCITY])*vec_larger(y[NORMAL_VELOCITY],
         -c->dry_restitution*y[NORMAL_VELOCITY])) - hold*(c->rupture_gap - y[GAP]);
     *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6040cb6b6d0eef607e55ac8e8534fbc2c5758054c22d4d79031f9b61ca6f5607 */
+ * Equations sha256 3be2eedebad9ce2417cb91d2799cdde57c49985125b3aaa88421fe88718c7368 */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -481,8 +481,8 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define HELD (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, flight < 0 and rebound < 0. */
-static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *flight, vec *rebound)
+/* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
+static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec *rebound)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
@@ -498,7 +498,7 @@ static inline void held_margins(const constants *c, const vec *y, vec *hold_marg
         8.0)*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect)*(c->rupture_gap*c->rupture_gap) + 4.0*c->aspect*c->rupture_gap + 16.0);
     *hold_margin = hold;
-    *flight = 0.5*(vec_larger(y[NORMAL_VELOCITY],
+    *escape = 0.5*(vec_larger(y[NORMAL_VELOCITY],
         -c->dry_restitution*y[NORMAL_VELOCITY])*vec_larger(y[NORMAL_VELOCITY],
         -c->dry_restitution*y[NORMAL_VELOCITY])) - hold*(c->rupture_gap - y[GAP]);
     *rebound = (c->dry_restitution*c->dry_restitution)*(largest_pull + least_attraction) - hold;

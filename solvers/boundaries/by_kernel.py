@@ -20,7 +20,7 @@ from ..scene.scene import Scene
 
 _APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
 LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
-_PARTS = np.linspace(0, 1, 5)  # of a step, at which a flight is looked at
+_PARTS = np.linspace(0, 1, 5)  # of a step, at which a trajectory is looked at
 _FINER = 12  # parts of the surroundings of a maximum, again and again
 _ZOOMS = 4
 _EARLIER = 5  # the last state of chatter is compared with that after one in so many of its steps
@@ -46,12 +46,12 @@ LOOK = np.dtype(
 
 @dataclass(frozen=True)
 class Escaping:
-    """A flight to where it separates, falls back or rests.
+    """A trajectory to where it separates, falls back or rests.
 
     Attributes:
-        decided: the flight has come to its end; else it has spent its steps.
+        decided: the trajectory has come to its end; else it has spent its steps.
         end: the last state.
-        times, states: of the flight, states as columns; phases that end at rest in the gap only by their ends.
+        times, states: of the trajectory, states as columns; phases that end at rest in the gap only by their ends.
     """
 
     decided: bool
@@ -142,7 +142,7 @@ def approach(
         pressure: of states, as columns.
         creeping: an approach that has spent its steps has been stopped if it is slower than this (v0).
     """
-    told = _flown(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
+    told = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
     if told is None or told.steps is None or not told.steps.rows.size:
         return None
     rows = told.steps.rows[told.steps.rows["closing"] != 0]
@@ -169,13 +169,13 @@ def approach(
 def escaping(
     scene: Scene, n: DimensionlessGroups, rtol: float, solids: dict[str, float], start: np.ndarray, budget: int
 ) -> Escaping | None:
-    """A flight that goes on until it separates, falls back or rests; proved a stick only while it approaches.
+    """A trajectory that goes on until it separates, falls back or rests; proved a stick only while it approaches.
 
     Arguments:
         start: the model's states at initial contact.
         budget: steps.
     """
-    told = _flown(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
+    told = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
     if told is None or told.steps is None or told.answers["status"][0] > Status.NO_BUDGET:
         return None
     decided = bool(told.answers["status"][0] < Status.NO_BUDGET)
@@ -213,7 +213,7 @@ def _summit(at: np.ndarray, values: np.ndarray) -> float:
     return here - (after - before) ** 2 / (8 * bend) if bend < 0 else here
 
 
-def _flown(
+def _run_kernel(
     scene: Scene,
     speeds: np.ndarray,
     angle: float,

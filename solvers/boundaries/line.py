@@ -49,7 +49,7 @@ def ready(scenes: Iterable[Scene]) -> None:
 
 @dataclass(frozen=True)
 class Escape:
-    """Whether a flight separates, and a smooth function with that sign (None where it is not defined)."""
+    """Whether a trajectory separates, and a smooth function with that sign (None where it is not defined)."""
 
     separates: bool
     value: float | None
@@ -109,13 +109,13 @@ class Line:
         solids = {} if reversed_ else self._no_glass(n.groups) | NEVER_MET
         probe = UnstoppedTrajectory(self.model, groups, self.rtol)
         for steps in _ESCAPE_STEPS if self.kernel else ():
-            flown = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
-            if flown is None:
+            escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
+            if escaped is None:
                 break
-            probe.y[: flown.end.size] = flown.end
-            separates = flown.separated if flown.decided else _creeps_out(probe)
+            probe.y[: escaped.end.size] = escaped.end
+            separates = escaped.separated if escaped.decided else _creeps_out(probe)
             if separates is not None:
-                return Escape(separates, _smooth(probe, flown))
+                return Escape(separates, _smooth(probe, escaped))
             probe.y = probe.path.y.copy()
         return smooth_escape(self.model, n.groups, self.rtol, reversed_)
 
@@ -143,15 +143,15 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
     """
     deep = _DEEP * contact_gap(groups)
     unmet = _UNMET | dict.fromkeys(GAPS.values(), deep)
-    flight = EventLocator(model, groups | unmet, rtol, (), machine_code)
-    y, phase, p = flight.y, flight.phase, flight.p
+    start = EventLocator(model, groups | unmet, rtol, (), machine_code)
+    y, phase, p = start.y, start.phase, start.p
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
     # the proof on strings reckons with the criteria, which are left out here
-    watch = replace(flight.watch, certificate=None) if flight.watch.certificate == "tethered" else flight.watch
+    watch = replace(start.watch, certificate=None) if start.watch.certificate == "tethered" else start.watch
     for _ in range(10 * STRETCHES):
-        level = flight.proof.level(y, phase) if watch.certificate else None
-        find = locator(Flow(model.choice, phase.region, flight.extras), watch, flight.tolerance, machine_code)
+        level = start.proof.level(y, phase) if watch.certificate else None
+        find = locator(Flow(model.choice, phase.region, start.extras), watch, start.tolerance, machine_code)
         try:
             stop = find(y, p, stretch, CLOSING, -_NEVER if level is None else level)
         except IntegrationFailed as error:
@@ -182,22 +182,22 @@ def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 class UnstoppedTrajectory(EventLocator):
-    """A flight that goes on until it separates or falls back, and is proved stuck only while it approaches."""
+    """A trajectory that goes on until it separates or falls back, and is proved stuck only while it approaches."""
 
-    def _proved(self, flown: float) -> bool:
-        return self.phase.motion == CLOSING and super()._proved(flown)
+    def _proved(self, elapsed: float) -> bool:
+        return self.phase.motion == CLOSING and super()._proved(elapsed)
 
     def _level(self) -> float | None:
         return super()._level() if self.phase.motion == CLOSING else None
 
-    def _fly(self) -> bool:
-        over = super()._fly()
+    def _run_phase(self) -> bool:
+        over = super()._run_phase()
         fell_back = bool(self.path.steps) and KINDS[EventKind.FELL_BACK] in self.path.steps[-1].kinds
         return over or fell_back or self.phase.resting
 
 
 class _Located:
-    """A located flight as `Escaping` has it; it is sampled when it is asked for."""
+    """A located trajectory as `Escaping` has it; it is sampled when it is asked for."""
 
     def __init__(self, probe: EventLocator, path: EventSequence) -> None:
         self.probe, self.path = probe, path
@@ -232,28 +232,28 @@ def _creeps_out(probe: EventLocator) -> bool | None:
     return None if saddle is None else saddle.side(probe.y)
 
 
-def _smooth(probe: EventLocator, flown: Escaping | _Located) -> float | None:
+def _smooth(probe: EventLocator, escaped: Escaping | _Located) -> float | None:
     barrier = barrier_of(probe)
     if barrier is None and energy_proof(probe.proof) is not None:
         return None  # nothing holds the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
     if barrier is not None and barrier.gap < rim * (1 - 1e-12):
-        return _saddle_amplitude(probe, flown, barrier)
-    if flown.separated:
-        return float(flown.end[1]) ** 2
-    if not flown.fell_back:
+        return _saddle_amplitude(probe, escaped, barrier)
+    if escaped.separated:
+        return float(escaped.end[1]) ** 2
+    if not escaped.fell_back:
         return None
-    inward = probe.model.values("inward_force", flown.end, probe.p)["inward_force"]
-    return -2 * inward * (rim - float(flown.end[0]))
+    inward = probe.model.values("inward_force", escaped.end, probe.p)["inward_force"]
+    return -2 * inward * (rim - float(escaped.end[0]))
 
 
-def _saddle_amplitude(probe: EventLocator, flown: Escaping | _Located, barrier: Barrier) -> float | None:
+def _saddle_amplitude(probe: EventLocator, escaped: Escaping | _Located, barrier: Barrier) -> float | None:
     """Amplitude of the saddle's unstable mode nearest to it, taken back to initial contact by exp(-lambda t)."""
     saddle = saddle_of(probe, barrier)
     if saddle is None:
         return None
     try:
-        times, states = flown.times, flown.states
+        times, states = escaped.times, escaped.states
     except IntegrationFailed:
         return None
     nearest, amplitudes = saddle.nearest(states)
@@ -264,7 +264,7 @@ def _saddle_amplitude(probe: EventLocator, flown: Escaping | _Located, barrier: 
 
 
 def _sampled(probe: EventLocator, path: EventSequence) -> tuple[np.ndarray, np.ndarray]:
-    """Times and states of the flight: ends of phases, and a grid over phases that do not end at rest in the gap."""
+    """Times and states of the trajectory: ends of phases, and a grid over phases that do not end at rest in the gap."""
     times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
     before = states[0]
     for step, end in zip(path.steps, path.ends, strict=True):

@@ -21,7 +21,7 @@ from . import by_kernel
 from .samples import SAMPLE
 
 BY_KERNEL, BY_ROSENBROCK = 100, 10  # samples a decade of the Stokes number that a line begins with
-_MARGIN = 500  # steps of a flight for a margin: one that creeps for longer shows none
+_MARGIN = 500  # steps of a trajectory for a margin: one that creeps for longer shows none
 DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
 
 

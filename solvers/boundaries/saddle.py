@@ -18,7 +18,7 @@ _NEAR, _ALONE = 0.1, 1e-3
 
 
 def barrier_of(probe: EventLocator) -> Barrier | None:
-    """The highest maximum of the effective potential for the angular momentum at the end of the flight."""
+    """The highest maximum of the effective potential for the angular momentum at the end of the trajectory."""
     proof = energy_proof(probe.proof)
     if proof is None:
         return None
@@ -58,7 +58,7 @@ class Saddle:
 
 
 def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:
-    """The saddle at a barrier for the flight's angular momentum; None where nothing grows."""
+    """The saddle at a barrier for the trajectory's angular momentum; None where nothing grows."""
     saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
     # a doublet that escapes comes by while opening
     film = int(barrier.gap < 1 or not probe.model.edged)

@@ -1,4 +1,4 @@
-"""Proofs that a doublet never separates, so that a flight can end as soon as its outcome is decided."""
+"""Proofs that a doublet never separates, so that a trajectory can end as soon as its outcome is decided."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ class HeldProof:
     """Something attracts so strongly that the gap's maxima only fall from now on.
 
     Arguments:
-        beside: another proof for the same model, tried first; it is what a flight watches for.
+        beside: another proof for the same model, tried first; it is what a trajectory watches for.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof | None = None) -> None:
@@ -39,4 +39,4 @@ class HeldProof:
         hold = found["hold"]
         # each by more than the error of what it is made of; a NaN proves nothing
         energy = max(float(y[1]) ** 2, 1.0)
-        return hold > 0 and found["rebound"] < -self.margin * hold and found["flight"] < -self.margin * energy
+        return hold > 0 and found["rebound"] < -self.margin * hold and found["escape"] < -self.margin * energy

@@ -12,11 +12,12 @@ from ...generated.automaton import CLOSING
 from ..model.phases import Phase
 
 STILL = 1e-9  # of v0: slower is a turning point
-BEYOND = 1.0  # more of SAFETY at the level a flight stops at, so that rounding there does not leave the proof undecided
+# more of SAFETY at the level where a trajectory stops, so that rounding there does not leave the proof undecided
+BEYOND = 1.0
 
 
 class Certainty(IntEnum):
-    """What a proof says of a state; true if the two never separate."""
+    """Verdict of a proof on a state; true if the two never separate."""
 
     OPEN = 0
     CERTAIN = 1  # for practical purposes
@@ -33,12 +34,13 @@ def at_maximum(y: np.ndarray, phase: Phase) -> bool:
 
 
 class Proof(Protocol):
-    """What a flight asks of a proof, which has no state of its own.
+    """The interface of a proof, which has no state of its own.
 
-    `y` is the locating state: the model's states, then works against attractions.
+    `y` is the locating state: the model's states, then the works against attractions.
     """
 
-    watches: str | None  # what a flight watches for (`WatchedEvents.certificate`); by "energy", `y` carries the works
+    # what a trajectory watches for (`WatchedEvents.certificate`); with "energy", `y` carries the works
+    watches: str | None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         """What is watched for: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the

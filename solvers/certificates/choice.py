@@ -41,7 +41,7 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Proof:
 
 
 def energy_proof(proof: Proof) -> BarrierProof | None:
-    """The proof by energy that a flight has, alone or beside another."""
+    """The proof by energy that a trajectory has, alone or beside another."""
     while isinstance(proof, HeldProof | OrbitalProof | ChatterProof):
         proof = proof.beside
     return proof if isinstance(proof, BarrierProof) else None

@@ -5,7 +5,7 @@ the dip into the film gets shallower, and the shear brings J nearer to its value
 at e; both approach their limits by powers of the number of turns. So the limit is known though no number of turns
 reaches it: an orbit that just touches e, with J_e. If attraction turns that orbit back before rupture the doublet stays
 a stick; if not it separates, after however many turns. What is left of the radial energy does not change this as long
-as it is a small and not a growing part of what the barrier has still to lose, which two states of the flight show.
+as it is a small and not a growing part of what the barrier has still to lose, which two states of the trajectory show.
 """
 
 from __future__ import annotations

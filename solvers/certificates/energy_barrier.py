@@ -56,7 +56,7 @@ class BarrierProof:
             return None
         scale = self._largest + abs(
             ahead[0].height
-        )  # the same all along the flight, or a stop would move its own level
+        )  # the same all along the trajectory, or a stop would move its own level
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:

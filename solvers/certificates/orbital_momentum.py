@@ -34,7 +34,7 @@ class OrbitalProof:
 
     Arguments:
         beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
-            flight watches for.
+            trajectory watches for.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:

@@ -1,4 +1,4 @@
-"""One collision by CVODES or Rosenbrock: located, flown, and its ledger closed."""
+"""One collision by CVODES or Rosenbrock: located, integrated, and its ledger closed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engines.casadi.integrators import Tolerance, tolerance
 from ..engines.casadi.locate import EventSequence, locate
-from ..engines.casadi.replay import Flown, Stopped, as_located, fly
+from ..engines.casadi.replay import Replay, Stopped, as_located, replay
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import Model, load, select_model
@@ -37,16 +37,16 @@ def by_casadi(
     trajectory: bool,
     find: Find = locate,
     told: Told = tolerance,
-    fly: Callable[..., Flown] = fly,
+    replay: Callable[..., Replay] = replay,
 ) -> Collision:
     """By CVODES or Rosenbrock: what `collide` does with one of them.
 
     Arguments:
-        find: what locates the flight; it is the same for both engines.
+        find: what locates the trajectory; it is the same for both engines.
         told: what an engine's integrators are told at a tolerance.
-        fly: what flies the located phases.
+        replay: integrates the located phases with the engine.
     """
-    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, fly)
+    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, replay)
     return _result(scene, n, *found, trajectory)
 
 
@@ -59,11 +59,11 @@ def _compute(
     trajectory: bool,
     find: Find,
     told: Told,
-    fly: Callable[..., Flown],
-) -> tuple[EventSequence, Flown, Flow, str, float]:
-    """Locate, then fly with the engine; both tightened while the engine's error exceeds the distance to a boundary.
+    replay: Callable[..., Replay],
+) -> tuple[EventSequence, Replay, Flow, str, float]:
+    """Locate, then integrate with the engine; both tighter while the engine's error exceeds the distance to a boundary.
 
-    Where no tolerance helps, the located flight itself is the answer. Also returns the engine that answers and the
+    Where no tolerance helps, the located trajectory itself is the answer. Also returns the engine that answers and the
     tolerance that it took.
     """
     small = load(select_model(scene, n.oblique, fold=True))
@@ -77,7 +77,7 @@ def _compute(
             raise n.in_si(error) from None
         start = flow.model.start(flow.model.group_values(n.groups))
         try:
-            flown = fly(located, plugin, told(asked, plugin, n.groups), flow, start)
+            replayed = replay(located, plugin, told(asked, plugin, n.groups), flow, start)
         except Stopped as failure:
             if failure.missed and asked > _TIGHTEST:
                 asked = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST
@@ -87,7 +87,7 @@ def _compute(
             except ComputationError:
                 raise n.in_si(_failure(failure, flow.model, plugin)) from None
             return located, as_located(located, choice), flow, "rosenbrock", asked
-        return located, flown, flow, plugin, asked
+        return located, replayed, flow, plugin, asked
 
 
 def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
@@ -110,7 +110,7 @@ def _result(
     scene: Scene,
     n: DimensionlessGroups,
     path: EventSequence,
-    flown: Flown,
+    replayed: Replay,
     flow: Flow,
     plugin: str,
     rtol: float,
@@ -118,48 +118,48 @@ def _result(
 ) -> Collision:
     model, separated = flow.model, path.separated
     p = model.group_values(n.groups)
-    energy = _ledger(model, flown, p, n) if "normal_lubrication" in flow.extras else None
+    energy = _ledger(model, replayed, p, n) if "normal_lubrication" in flow.extras else None
     if energy is not None and separated:
         _demand_closed(energy, rtol)
     finding = Finding(
         outcome=path.outcome,
         reversal=path.reversal,
         certified=path.certified,
-        outputs=model.values("outputs", flown.y, p) if separated else {},
-        rotation=_rotation(flown, model),
-        time=flown.time,
-        smallest_gap=flown.smallest_gap,
-        events=flown.events,
+        outputs=model.values("outputs", replayed.y, p) if separated else {},
+        rotation=_rotation(replayed, model),
+        time=replayed.time,
+        smallest_gap=replayed.smallest_gap,
+        events=replayed.events,
         engine=plugin,
-        steps=flown.steps,
+        steps=replayed.steps,
         energy=energy,
-        drift=_drift(model, flown, p) if "normal_lubrication" in flow.extras else None,
-        trajectory=_trajectory(scene, path, flown, model, n, plugin, rtol) if trajectory else None,
+        drift=_drift(model, replayed, p) if "normal_lubrication" in flow.extras else None,
+        trajectory=_trajectory(scene, path, replayed, model, n, plugin, rtol) if trajectory else None,
     )
     return assembled(scene, n, finding)
 
 
-def _rotation(flown: Flown, model: Model) -> float:
+def _rotation(replayed: Replay, model: Model) -> float:
     if model.strings and model.oblique:
-        return float(flown.y[list(model.state).index("rotation")])
-    return flown.extra("rotation") if "rotation" in flown.extras else 0.0
+        return float(replayed.y[list(model.state).index("rotation")])
+    return replayed.extra("rotation") if "rotation" in replayed.extras else 0.0
 
 
-def _ledger(model: Model, flown: Flown, p: np.ndarray, n: DimensionlessGroups) -> Energy:
+def _ledger(model: Model, replayed: Replay, p: np.ndarray, n: DimensionlessGroups) -> Energy:
     first = model.values("energies", model.start(p), p)
-    last = model.values("energies", flown.y, p)
+    last = model.values("energies", replayed.y, p)
 
     def taken(name: str) -> float:
-        return flown.extra(name) if name in flown.extras else 0.0
+        return replayed.extra(name) if name in replayed.extras else 0.0
 
     return Energy(
         initial=first["kinetic"] * n.energy,
         final=last["kinetic"] * n.energy,
-        normal_lubrication=flown.extra("normal_lubrication") * n.energy,
+        normal_lubrication=replayed.extra("normal_lubrication") * n.energy,
         tangential_lubrication=taken("tangential_lubrication") * n.energy,
         capillary=taken("capillary") * n.energy,
         attraction=taken("attraction") * n.energy if "attraction" in model.works else None,
-        dry_contact=flown.dry_loss * n.energy,
+        dry_contact=replayed.dry_loss * n.energy,
         strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
     )
 
@@ -172,24 +172,24 @@ def _demand_closed(energy: Energy, rtol: float) -> None:
         )
 
 
-def _drift(model: Model, flown: Flown, p: np.ndarray) -> float | None:
+def _drift(model: Model, replayed: Replay, p: np.ndarray) -> float | None:
     """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
     if model.strings or model.wall:
         return None
     if not model.oblique:
         return 0.0
-    return abs(model.values("angular_momentum", flown.y, p)["angular_momentum"] - 1.0)
+    return abs(model.values("angular_momentum", replayed.y, p)["angular_momentum"] - 1.0)
 
 
 def _trajectory(
-    scene: Scene, path: EventSequence, flown: Flown, model: Model, n: DimensionlessGroups, plugin: str, rtol: float
+    scene: Scene, path: EventSequence, replayed: Replay, model: Model, n: DimensionlessGroups, plugin: str, rtol: float
 ) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
 
     attrs = attributes(scene, path.outcome, plugin, rtol)
     told, p = tolerance(rtol, plugin, n.groups), model.group_values(n.groups)
-    pieces = [stretch(piece, model, flown, p, plugin, told) for piece in flown.pieces]
+    pieces = [stretch(piece, model, replayed, p, plugin, told) for piece in replayed.pieces]
     try:
-        return dataset(pieces, model, n, flown.y, attrs)
+        return dataset(pieces, model, n, replayed.y, attrs)
     except ComputationError as error:
         raise n.in_si(error) from None

@@ -41,7 +41,7 @@ def collision(
 
     Arguments:
         ledger: with energies and the drift of angular momentum.
-        trajectory: with the flight, sampled from the steps' own series.
+        trajectory: with the trajectory, sampled from the steps' own series.
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
     told = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
@@ -52,7 +52,7 @@ def collision(
     outcome, reversal = kind_of(found)
     separated = bool(found["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
-        return None  # the flight is wrong, whatever else it looks like
+        return None  # the trajectory is wrong, whatever else it looks like
     happened = told.events[0, : found["events"]]
     model = load(select_model(scene, n.oblique, fold=True))
     finding = Finding(

@@ -44,7 +44,7 @@ def collide(
 
     Raises:
         InputError: a field or option is not acceptable.
-        ComputationError: the flight could not be completed; says in which phase, when and at what state.
+        ComputationError: the trajectory could not be completed; says in which phase, when and at what state.
 
     Warns:
         ModelWarning: the scene leaves the range that a law was made for.

@@ -15,7 +15,7 @@ _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this 
 
 @dataclass(frozen=True)
 class Energy:
-    """The energy ledger of a flight, J.
+    """The energy ledger of a trajectory, J.
 
     `initial` and `final` are kinetic, `strings` is the gain of potential, `attraction` the work against van der Waals
     forces (None without them); `residual` is what is left of initial - final - (all losses and works).
@@ -36,7 +36,7 @@ class Energy:
         return self.initial - self.final - spent - (self.attraction or 0.0)
 
     def is_open(self, rtol: float) -> bool:
-        """Whether the residual is beyond what a tolerance leaves, so that the flight must be wrong."""
+        """Whether the residual is beyond what a tolerance leaves, so that the trajectory must be wrong."""
         return abs(self.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * self.largest
 
     @property
@@ -60,7 +60,7 @@ class Energy:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened during a flight, and when (s)."""
+    """Something that happened during a trajectory, and when (s)."""
 
     kind: str
     time: float

@@ -20,7 +20,7 @@ CUT_OFFS = {
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
 _MANY = 40  # events: more are rebound after rebound
 _LABEL = 24  # columns of the names on the left
-_FIRST, _LAST = 9, 3  # events shown of a flight that has more
+_FIRST, _LAST = 9, 3  # events shown of a trajectory that has more
 _SCALE = 100.0  # a ledger whose terms exceed the initial energy by more than this is not given in percent of it
 
 

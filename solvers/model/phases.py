@@ -1,4 +1,4 @@
-"""Phases of a flight, the smooth equations of each, and the events that can end it."""
+"""Phases of a trajectory, the smooth equations of each, and the events that can end it."""
 
 from __future__ import annotations
 

@@ -24,12 +24,12 @@ def make(desk: Desk, folder: Path) -> Part:
     desk.say("fig. 1: frames of the three collisions")
     scene = variant(TETHERED, {})
     shown = {"angle": SHOT_ANGLE, "ledger": False, "trajectory": True, "engine": "taylor"}
-    flown = [collide(scene, stokes=shot.stokes, **shown) for shot in SHOTS]  # type: ignore[arg-type]  # by keyword
-    _draw(flown, folder / "fig1.png")
+    collisions = [collide(scene, stokes=shot.stokes, **shown) for shot in SHOTS]  # type: ignore[arg-type]  # by keyword
+    _draw(collisions, folder / "fig1.png")
     used = described(scene)
     comparisons = [
         Comparison(f"fig1{shot.panel}", one.outcome, used, _said(one), agrees=one.outcome == shot.outcome)
-        for shot, one in zip(SHOTS, flown)
+        for shot, one in zip(SHOTS, collisions)
     ]
     diameter = 4 * scene.particles.reduced_radius * _MS
     why = "a of Fig. 3's caption is rounded to 0.63 cm; four times that is used"
@@ -76,16 +76,16 @@ def _outcome(shot: Shot, line: Line) -> str:
     return LETTERS[crossed[-1].after if crossed else line[0].before] if line else "failed"
 
 
-def _draw(flown: list[Collision], file: Path) -> None:
+def _draw(collisions: list[Collision], file: Path) -> None:
     strips = []
-    for shot, one in zip(SHOTS, flown):
+    for shot, one in zip(SHOTS, collisions):
         instants = [k * shot.interval / _MS for k in range(-_BEFORE, _AFTER + 1)]
         strips.append([replace(frame, relative=None) for frame in sampled(one, instants)])  # photographs have no arrows
     sizes = [strip_size(strip) for strip in strips]
     widest = max(across for across, _ in sizes)
     with sheet(file, 7.4) as figure:
         rows = figure.subplots(len(strips), 1, height_ratios=[high + 1.2 for _, high in sizes])
-        for axes, shot, one, strip in zip(rows, SHOTS, flown, strips):
+        for axes, shot, one, strip in zip(rows, SHOTS, collisions, strips):
             captions = [f"{_MS * frame.time:.0f} ms".replace("-", "−") if frame.time else "0" for frame in strip]
             draw_strip(axes, one, strip, captions)
             axes.set_xlim(-0.2, widest - 0.2)

@@ -21,7 +21,7 @@ from .parameters import check_wrt, kind_of, parameter_map, references
 from .result import Row
 
 _TRACED = ("impact.speed", "impact.stokes")
-_SHARPEST = 1e-11  # of the flights that are differentiated, which pass the saddle
+_SHARPEST = 1e-11  # of the trajectories that are differentiated, which pass the saddle
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
-"""How near a flight is to a boundary, where derivatives jump or diverge.
+"""How near a trajectory is to a boundary, where derivatives jump or diverge.
 
-First what the flight itself shows, at little cost: how flat it meets its events, how nearly it meets a criterion that
+First what the trajectory itself shows, at little cost: how flat it meets its events, how nearly it meets a criterion
+    that
 it misses, how slowly it passes the barrier. Where that looks near, the distance in the Stokes number is measured, by
 the functions that are smooth through the boundary (`boundaries.line`).
 """
@@ -29,7 +30,7 @@ from ..scene.scene import Scene
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
-LOOK = 30.0  # times the limit: nearer than this by the flight's own measure, the distance is measured
+LOOK = 30.0  # times the limit: nearer than this by the trajectory's own measure, the distance is measured
 _WORTH_SAYING = 0.5  # as a logarithm: what is further away is not mentioned
 _HINT = "v0 squared"  # a suspicion, not a distance: measured or dropped
 _COARSE, _FINE = 1e-6, 1e-11
@@ -45,7 +46,8 @@ RIM = "separatrix (rim: it just reaches the rupture gap)"
 def limit(rtol: float) -> float:
     """Relative distance to a boundary within which no derivative is given.
 
-    Errors of the flight are amplified by one over the distance: here they may reach rtol/limit = 1e-4 of a derivative.
+    Errors of the trajectory are amplified by one over the distance: here they may reach rtol/limit = 1e-4 of a
+        derivative.
     """
     return min(max(LIMIT, PER_RTOL * rtol), WIDEST)
 
@@ -53,7 +55,7 @@ def limit(rtol: float) -> float:
 def checked(
     scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, rtol: float
 ) -> Near | None:
-    """The nearest boundary that a flight shows; ComputationError, in one line, if it is too near for derivatives."""
+    """The nearest boundary that a trajectory shows; a one-line ComputationError if it is too near for derivatives."""
     least = limit(rtol)
     if not path.separated:
         near = _stick(scene, n, finder, path, least)
@@ -68,7 +70,7 @@ def checked(
 
 
 def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rtol: float) -> ComputationError:
-    """What to say of a flight that could not be followed: the boundary that it lies at, if it does."""
+    """What to say of a trajectory that could not be followed: the boundary that it lies at, if it does."""
     looked = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
     near = min(looked, key=lambda one: one.distance)
     return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
@@ -124,11 +126,11 @@ def _located(scene: Scene, n: DimensionlessGroups, stokes: float, rtol: float) -
         return None
 
 
-# ---- what a separated flight shows
+# ---- what a separated trajectory shows
 
 
 def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
-    """Boundaries by the flight's own measure."""
+    """Boundaries by the trajectory's own measure."""
     model, groups = finder.model, finder.groups
     contact = contact_gap(groups)
     smaller = sorted(groups[name] for name in GAPS.values())[-2]

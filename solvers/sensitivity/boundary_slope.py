@@ -47,7 +47,7 @@ def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope | No
     """The gradient at a change; None for a change that has no smooth function of its own.
 
     Raises:
-        ComputationError: the flight there could not be followed.
+        ComputationError: the trajectory there could not be followed.
     """
     try:
         if change.kind == GRAZE:
@@ -63,7 +63,7 @@ def _groups(scene: Scene, angle: float, stokes: float) -> dict[str, float]:
     return nondimensionalise(scene, scene.speed_of(stokes), angle).groups
 
 
-# ---- a criterion that is just met: the flight up to the maximum, at which time makes no difference
+# ---- a criterion that is just met: the trajectory up to the maximum, at which time makes no difference
 
 
 def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | None:
@@ -92,10 +92,10 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
 def _extremum(model: Model, step: PhaseRun, word: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
     """Time within the phase at which the pressure is largest, or the gap smallest, by Newton's method."""
     rates = _rates(model, step.phase.region, word)
-    fly = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
+    integrate = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
     time = step.duration
     for _ in range(_NEWTON):
-        first, second = evaluate(rates, fly(before, p, time), p)
+        first, second = evaluate(rates, integrate(before, p, time), p)
         move = -float(first.item()) / float(second.item())
         time += max(min(move, 0.2 * time), -0.2 * time)
         if abs(move) < 1e-9 * time:
@@ -212,7 +212,7 @@ def _up_to(path: EventSequence, k: int, last: PhaseRun) -> tuple[Course, np.ndar
 
 @own_cache(64)
 def _moving(model: Model) -> Function:
-    """(state at the saddle's gap with the flight's momentum, groups) -> d(saddle's state)/d(groups).
+    """(state at the saddle's gap with the trajectory's momentum, groups) -> d(saddle's state)/d(groups).
 
     The gap follows from the slope of the effective potential, which is zero there, by one step of Newton's method.
     """

@@ -32,7 +32,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
     "rotation": (COLUMNS["turned"], "turned"),
 }
 KNOWN = tuple(_WHERE)
-BACKWARD = ("restitution",)  # what is taken back along flights
+BACKWARD = ("restitution",)  # what is taken back along trajectories
 DIRECTIONS = 4  # parameters by which carrying along costs no more (docs/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
@@ -47,12 +47,12 @@ class Along:
     """Collisions with their derivatives in theta, p = p_ref (1 + theta), SI.
 
     Arguments:
-        flown: the kernel's answers.
+        run: the kernel's answers.
         value: (results, collisions); NaN where nothing separated, or the result is not defined.
         first: (results, collisions, parameters).
     """
 
-    flown: Carried
+    run: Carried
     value: np.ndarray
     first: np.ndarray
 
@@ -72,7 +72,7 @@ def gradients_by_kernel(
     Arguments:
         impacts: of one scene; nothing but speed and angle differs among them.
         order: of the series; None: the cheapest for the tolerance.
-        backward: of the restitution alone, taken back along the flights (`run_tangent`).
+        backward: of the restitution alone, taken back along the trajectories (`run_tangent`).
     """
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
@@ -115,7 +115,7 @@ def gradients_by_kernel(
 
 
 def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
-    """Derivatives of the collision of a located flight; None where the kernel has none, or sees another flight."""
+    """Derivatives of a located collision; None where the kernel has none, or finds another trajectory."""
     odd_head_on = not problem.n.oblique and problem.odd(of)
     if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
@@ -123,9 +123,9 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
     found = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
     if found is None:
         return None
-    answer = found.flown.answers[0]
+    answer = found.run.answers[0]
     outcome = OUTCOMES[answer["outcome"]]
-    if answer["status"] > LAST_ANSWER or outcome != path.outcome or found.flown.near[0, 1] == CHATTERS:
+    if answer["status"] > LAST_ANSWER or outcome != path.outcome or found.run.near[0, 1] == CHATTERS:
         return None
     return Slopes(found.value[:, 0], found.first[:, 0], None)
 

@@ -1,4 +1,4 @@
-"""Derivatives of a flight's expression, forward and adjoint, first and second: CasADi functions, kept by course."""
+"""Derivatives of a trajectory's expression, forward and adjoint, first and second: CasADi functions, kept by course."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from ..engines.casadi.integrators import IntegrationFailed, quiet
 from ..host.captured_stderr import listening
 from ..host.interrupts import check
 from ..host.thread_caches import own_cache
-from .trajectory_expression import Flight
+from .trajectory_expression import TrajectoryExpression
 
-# Largest landing step over its phase. The error of a first derivative is of its square, times how much the flight
+# Largest landing step over its phase. The error of a first derivative is of its square, times how much the trajectory
 # amplifies, which near a saddle is one over the distance; that of a second derivative is of the step itself.
 LANDED, LANDED_WELL = 3e-7, 1e-10
 _TRIES = 8
@@ -36,9 +36,9 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
 
 
 @own_cache(256)
-def forward(flight: Flight, count: int) -> Function:
+def forward(expression: TrajectoryExpression, count: int) -> Function:
     """(groups, durations, directions: groups x count) -> quantities, shifts, derivatives (quantities x count)."""
-    p, durations, z, shifts = _symbols(flight)
+    p, durations, z, shifts = _symbols(expression)
     seeds = MX.sym("seeds", p.numel(), count)
     with quiet():
         slopes = densify(jtimes(z, p, seeds))
@@ -46,9 +46,9 @@ def forward(flight: Flight, count: int) -> Function:
 
 
 @own_cache(256)
-def adjoint(flight: Flight, count: int) -> Function:
+def adjoint(expression: TrajectoryExpression, count: int) -> Function:
     """(groups, durations, weights: quantities x count) -> quantities, shifts, gradients (groups x count)."""
-    p, durations, z, shifts = _symbols(flight)
+    p, durations, z, shifts = _symbols(expression)
     seeds = MX.sym("seeds", z.numel(), count)
     with quiet():
         slopes = densify(jtimes(z, p, seeds, True))
@@ -56,12 +56,12 @@ def adjoint(flight: Flight, count: int) -> Function:
 
 
 @own_cache(256)
-def curvature(flight: Flight, count: int) -> Function:
+def curvature(expression: TrajectoryExpression, count: int) -> Function:
     """(groups, durations, weights, directions: groups x count) -> the weighted sum's Hessian times the directions.
 
     Forward over adjoint. Rosenbrock only: CasADi's CVODES has no second derivatives of this kind.
     """
-    p, durations, z, _ = _symbols(flight)
+    p, durations, z, _ = _symbols(expression)
     weights, seeds = MX.sym("weights", z.numel()), MX.sym("seeds", p.numel(), count)
     with quiet():
         gradient = jtimes(z, p, weights, True)
@@ -69,28 +69,30 @@ def curvature(flight: Flight, count: int) -> Function:
         return Function("curvature", [p, durations, weights, seeds], [bent])
 
 
-def _symbols(flight: Flight) -> tuple[MX, MX, MX, MX]:
-    p = MX.sym("groups", flight.function.size1_in(0))
-    durations = MX.sym("durations", flight.function.size1_in(1))
-    z, shifts = flight.function(p, durations)
+def _symbols(expression: TrajectoryExpression) -> tuple[MX, MX, MX, MX]:
+    p = MX.sym("groups", expression.function.size1_in(0))
+    durations = MX.sym("durations", expression.function.size1_in(1))
+    z, shifts = expression.function(p, durations)
     return p, durations, z, shifts
 
 
-def settled(flight: Flight, p: np.ndarray, durations: np.ndarray, flown: np.ndarray, within: float) -> np.ndarray:
+def settled(
+    expression: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, landed: np.ndarray, within: float
+) -> np.ndarray:
     """Durations at which this engine's own solution meets its events within a part `within` of each phase.
 
     Arguments:
-        flown: indices of the legs that are landed.
+        integrated: indices of the legs that are landed.
 
     Raises:
         IntegrationFailed: it does not: its solution misses an event.
     """
     durations = durations.copy()
     for _ in range(_TRIES):
-        shifts = evaluate(flight.function, p, durations)[1].ravel()
+        shifts = evaluate(expression.function, p, durations)[1].ravel()
         if shifts.size == 0 or np.max(np.abs(shifts)) <= within:
             return durations
         if np.max(np.abs(shifts)) > 0.5:
             break
-        durations[flown] *= 1 + shifts
-    raise IntegrationFailed("its solution misses an event of the located flight")
+        durations[landed] *= 1 + shifts
+    raise IntegrationFailed("its solution misses an event of the located trajectory")

@@ -1,22 +1,22 @@
-"""Derivatives of a flight along directions in its groups: as few as are asked for, first and second."""
+"""Derivatives of a trajectory along directions in its groups: as few as are asked for, first and second."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, settled
-from .trajectory_expression import Course, Flight
+from .trajectory_expression import Course, TrajectoryExpression
 
 Active = list[bool]
 
 
 def landed(course: Course) -> np.ndarray:
     """Indices of the legs that end on an event's surface."""
-    return np.array([k for k, leg in enumerate(course.legs) if leg.flown and leg.event is not None], dtype=int)
+    return np.array([k for k, leg in enumerate(course.legs) if leg.lasts and leg.event is not None], dtype=int)
 
 
 def differentiated(
-    whole: Flight,
+    whole: TrajectoryExpression,
     course: Course,
     p: np.ndarray,
     durations: np.ndarray,
@@ -30,7 +30,7 @@ def differentiated(
     Arguments:
         dp: directions (groups, n); the derivatives found are right along these, by `adjoint` along all.
         active: which groups have any influence.
-        amplified: the flight is known to amplify small errors.
+        amplified: the trajectory is known to amplify small errors.
 
     Raises:
         IntegrationFailed: the engine gave up, or its solution misses an event.
@@ -45,7 +45,7 @@ def differentiated(
 
 
 def _once(
-    whole: Flight, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, active: Active, method: str
+    whole: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, active: Active, method: str
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if method == "adjoint":
         z, shifts, gradients = evaluate(adjoint(whole, len(whole.of)), p, durations, np.eye(len(whole.of)))
@@ -84,7 +84,7 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
 
 
 def second_derivatives(
-    whole: Flight, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, along: np.ndarray, active: Active
+    whole: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, along: np.ndarray, active: Active
 ) -> np.ndarray:
     """Second derivatives of the quantities between directions `dp` (groups, n) and `along` (groups, m): (q, n, m)."""
     along = along * np.array(active)[:, None]

@@ -167,21 +167,21 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
     order = order_for(asked.rtol)
 
-    def flown(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
+    def run_part(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
         return kernel.gradients_by_kernel(
             asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward
         )
 
-    found = flown(which, asked.rtol, _SOON, back)
+    found = run_part(which, asked.rtol, _SOON, back)
     if found is None:
         return which
-    answers, measures = found.flown.answers, found.flown.near
+    answers, measures = found.run.answers, found.run.near
     late = np.flatnonzero(answers["status"] > LAST_ANSWER)
-    if back and late.size:  # long flights have directions that hold the step
-        held = flown(which[late], asked.rtol, _SOON, False)
+    if back and late.size:  # long trajectories have directions that hold the step
+        held = run_part(which[late], asked.rtol, _SOON, False)
         if held is None:
             return which
-        answers[late], measures[late] = held.flown.answers, held.flown.near
+        answers[late], measures[late] = held.run.answers, held.run.near
         found.value[:, late], found.first[:, late] = held.value, held.first
     near, least = measures[:, 0], limit(asked.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
@@ -191,7 +191,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     if slow.size:
         plain = _without(asked, which[slow], asked.rtol)
         answers[slow], measures[slow] = plain.answers, plain.near
-    # nearer than NEAR a flight amplifies its errors: again, to a tolerance that allows for it, by decades
+    # nearer than NEAR a trajectory amplifies its errors: again, to a tolerance that allows for it, by decades
     told = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # nothing is to be measured
     close = (answers["outcome"] > 0) & ~far & ((near > LOOK * least) | (told & (near >= least)))
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
@@ -199,13 +199,13 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
         part = which[close & (decades == decade)]
         sharper = min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST))
         for backward in (True, False) if back else (False,):
-            again = flown(part, sharper, _LONG, backward)
+            again = run_part(part, sharper, _LONG, backward)
             if again is not None:
-                _keep(asked, part, again, again.flown.answers["outcome"] > 0)
-                part = part[again.flown.answers["status"] > LAST_ANSWER]
+                _keep(asked, part, again, again.run.answers["outcome"] > 0)
+                part = part[again.run.answers["status"] > LAST_ANSWER]
             if not part.size:
                 break
-    stuck = which[_sticks(asked, which, answers, found.flown.by_energy)]
+    stuck = which[_sticks(asked, which, answers, found.run.by_energy)]
     asked.outcome[stuck], asked.reason[stuck], asked.engine[stuck] = 0, STICK, "taylor"
     if "restitution" in asked.of:
         place = asked.of.index("restitution")
@@ -232,7 +232,7 @@ def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0)
 def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarray) -> None:
     into = which[part]
     if into.size:
-        asked.outcome[into] = found.flown.answers["outcome"][part]
+        asked.outcome[into] = found.run.answers["outcome"][part]
         asked.value[:, into] = found.value[:, part]
         slopes = found.first[:, part] / asked.units(into)
         slopes[np.isnan(found.value[:, part])] = np.nan

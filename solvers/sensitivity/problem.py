@@ -19,13 +19,13 @@ from .directions import differentiated, landed, second_derivatives
 from .parameters import SCALES, Kind, ParameterMap, kind_of, parameter_map, references
 from .result import Near
 from .results import QUANTITIES
-from .trajectory_expression import course_of, flight, influential
+from .trajectory_expression import course_of, influential, trajectory_expression
 
-_LOCATED = 1e-8  # tolerance at which the flight is located: it only has to be near, landings take the rest
-NEAR = 1e-2  # a flight nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
+_LOCATED = 1e-8  # tolerance at which the trajectory is located: it only has to be near, landings take the rest
+NEAR = 1e-2  # a trajectory nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
 SHARPEST = 1e-13
 _ASIDE = 1e-5  # rad
-_SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some flights
+_SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some trajectories
 
 Along = np.ndarray | Literal["all"] | None
 """Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
@@ -57,7 +57,7 @@ class Problem:
         return cls(scene, nondimensionalise(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
 
     def located(self, of: tuple[str, ...], rtol: float) -> tuple[EventSequence, Near | None]:
-        """The flight and the nearest boundary that it shows; ComputationError if that is too near."""
+        """The trajectory and the nearest boundary that it shows; ComputationError if that is too near."""
         finder = EventLocator(load(select_model(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
         try:
             path = finder.run()
@@ -98,10 +98,10 @@ class Problem:
         along: Along = None,
         near: Near | None = None,
     ) -> Slopes:
-        """Derivatives of the quantities of a located flight.
+        """Derivatives of the quantities of a located trajectory.
 
         Raises:
-            ComputationError: the engine could not fly or differentiate it.
+            ComputationError: the engine could not integrate or differentiate it.
         """
         full = "energy.tangential_lubrication" in of
         course = course_of(path, select_model(self.scene, path.model.oblique, full=full))
@@ -109,7 +109,7 @@ class Problem:
             rtol = max(rtol, _SHARPEST_CVODES)
         else:
             rtol = sharpened(rtol, near)
-        whole = flight(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
+        whole = trajectory_expression(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
         via = parameter_map(self.kind, self.wrt, whole.groups)
         size = len(whole.groups)
         p, scales = np.split(via.values(self.reference).full().ravel(), [size])
@@ -128,7 +128,7 @@ class Problem:
                 second = second_derivatives(whole, p, durations, dp, dp @ right, active)
         except IntegrationFailed as failure:
             raise ComputationError(
-                f"{plugin} could not differentiate the flight ({failure})",
+                f"{plugin} could not differentiate the trajectory ({failure})",
                 phase=str(path.steps[-1].phase),
                 advice="try another --rtol, or the other --engine",
             ) from None
@@ -152,7 +152,7 @@ class Problem:
 
 
 def sharpened(rtol: float, near: Near | None) -> float:
-    """The tolerance of a flight that amplifies its errors by one over its distance from a boundary."""
+    """The tolerance of a trajectory that amplifies its errors by one over its distance from a boundary."""
     return min(rtol, max(rtol * near.distance / NEAR, SHARPEST)) if near is not None and _amplifies(near) else rtol
 
 
@@ -179,7 +179,7 @@ class _Units:
         second: np.ndarray,
         right: np.ndarray,
     ) -> np.ndarray:
-        """Second derivatives in theta: of the flight in its groups, and of the groups and scales themselves."""
+        """Second derivatives in theta: of the trajectory in its groups, and of the groups and scales themselves."""
         found = []
         for k in range(z.size):
             weights = np.concatenate([dz[k] * self.scale[k], np.zeros(len(SCALES))])

@@ -43,7 +43,7 @@ class Sensitivities:
         hessian_times: quantity -> parameter -> the Hessian times the vector that was asked for.
         outcome: the collision's.
         reference: each parameter's own value.
-        near: the nearest boundary that the flight itself shows, None if it shows none.
+        near: the nearest boundary that the trajectory itself shows, None if it shows none.
     """
 
     value: Mapping[str, float | None]

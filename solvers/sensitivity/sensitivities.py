@@ -66,7 +66,7 @@ def sensitivities(
 
     Raises:
         InputError: a name or option is not acceptable.
-        ComputationError: the flight could not be completed, or it is so near a boundary that no derivative exists.
+        ComputationError: the trajectory could not be completed, or it is so near a boundary that no derivative exists.
 
     Example:
         >>> from wetdoublet.solvers import sensitivities
@@ -95,7 +95,7 @@ def sensitivities(
         beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
         try:
             slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
-        except ComputationError:  # its flight misses what the located one met: the kernel may not
+        except ComputationError:  # its trajectory misses what the located one met: the kernel may not
             alone = beside or asked is not None or method != "forward" or along is not None
             slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
             if slopes is None:

@@ -1,4 +1,4 @@
-"""How a flight as a function of time moves with the parameters: dy(t)/dp on a grid, as a Dataset.
+"""How a trajectory as a function of time moves with the parameters: dy(t)/dp on a grid, as a Dataset.
 
 At a fixed time: where an event moves, a quantity that jumps at it has no derivative there; just before and just after
 it the derivatives differ by the saltation. What an event's own time does is in `d_event_time`.
@@ -26,7 +26,7 @@ from .derivatives import evaluate, settled
 from .directions import inverse, landed, spanning
 from .parameters import check_hold, check_wrt, parameter_map
 from .problem import Problem
-from .trajectory_expression import Course, course_of, ending, flown, influential, symbols
+from .trajectory_expression import Course, course_of, ending, follow_course, influential, symbols
 
 if TYPE_CHECKING:
     import xarray
@@ -55,7 +55,7 @@ def trajectory_sensitivities(
     engine: str | None = None,
     hold: str = "speed",
 ) -> xarray.Dataset:
-    """The flight over time and its derivatives in the parameters, at fixed time, with the jumps at the events.
+    """The trajectory over time and its derivatives in the parameters, at fixed time, with the jumps at the events.
 
     Arguments:
         scene, stokes, speed, angle, rtol, engine, hold: as for `sensitivities`.
@@ -68,7 +68,7 @@ def trajectory_sensitivities(
 
     Raises:
         InputError: a name or option is not acceptable.
-        ComputationError: as for `sensitivities`. Of a stick: the flight up to where it is decided, if it flies at all.
+        ComputationError: as for `sensitivities`. Of a stick: the trajectory up to where it is decided, if there is one.
     """
     import xarray as xr
 
@@ -110,7 +110,7 @@ Piece = tuple[np.ndarray, np.ndarray, np.ndarray, str]
 def _pieces(
     problem: Problem, path: EventSequence, plugin: str, rtol: float
 ) -> tuple[list[Piece], list[tuple[str, float, np.ndarray]]]:
-    """The flown phases one by one, and the events with their times and what these do."""
+    """The integrated phases one by one, and the events with their times and what these do."""
     told = tolerance(rtol, plugin, problem.n.groups)
     whole = course_of(path, select_model(problem.scene, path.model.oblique, full=True))
     groups = tuple(whole.model.groups)
@@ -146,7 +146,7 @@ def _pieces(
             happens = before * ds[_TIME] + d_before * scales[_TIME]
             events += [(kind, before * scales[_TIME], happens) for kind in step.kinds]
     except IntegrationFailed as failure:
-        raise ComputationError(f"{plugin} could not differentiate the flight ({failure})") from None
+        raise ComputationError(f"{plugin} could not differentiate the trajectory ({failure})") from None
     return pieces, events
 
 
@@ -169,8 +169,8 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
     p, durations = symbols(course)
     seeds = MX.sym("seeds", p.numel(), count)
     last = course.legs[-1]
-    start = flown(replace(course, legs=course.legs[:-1]), p, durations[:-1], extras, plugin, told).y
-    end = flown(course, p, durations, extras, plugin, told)
+    start = follow_course(replace(course, legs=course.legs[:-1]), p, durations[:-1], extras, plugin, told).y
+    end = follow_course(course, p, durations, extras, plugin, told)
     flow = Flow(course.choice, last.phase.region, extras)
     with quiet():
         engine = plain(flow, plugin, told, _GRID).function

@@ -1,4 +1,4 @@
-"""A located flight as one CasADi expression: phases over constant durations, each landed on its event, and the jumps.
+"""A located trajectory as one CasADi expression: phases over constant durations, landings on events, and jumps.
 
 Evaluated at the located durations a landing moves the state by about nothing, but its derivatives are the saltation's,
 the first and, by its second-order terms, the second. So value, gradients and Hessians are CasADi's own.
@@ -27,10 +27,10 @@ _NO_LEVEL = 0.0
 
 @dataclass(frozen=True)
 class Leg:
-    """A phase of a flight without its duration: what it flies, lands on, and what happens at its end."""
+    """A phase of a trajectory without its duration: its equations, the event at its end, and what that does."""
 
     phase: Phase
-    flown: bool
+    lasts: bool
     event: str | None
     reverses: bool
     holds: bool
@@ -38,7 +38,7 @@ class Leg:
 
 @dataclass(frozen=True)
 class Course:
-    """A flight but for its numbers: the key under which its expression is kept.
+    """A trajectory but for its numbers: the key under which its expression is kept.
 
     Arguments:
         nearest: legs after which the gap was smallest; -1: at initial contact.
@@ -59,14 +59,14 @@ class Course:
 
 
 def course_of(path: EventSequence, choice: ModelKey) -> Course:
-    """The course of a located path, to be flown with a model (its own, or the full form of it)."""
+    """The course of a located path, to be integrated with a model (its own, or the full form of it)."""
     legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.reverses, step.holds) for step in path.steps)
     gaps = [1.0, *(float(end[0]) for end in path.ends)]
     return Course(choice, legs, path.watch.tangential_edge, int(np.argmin(gaps)) - 1)
 
 
 @dataclass(frozen=True)
-class Flight:
+class TrajectoryExpression:
     """The expression of a course: (groups, durations) -> quantities, shifts of the landings over the durations."""
 
     function: Function
@@ -75,7 +75,7 @@ class Flight:
 
 
 @dataclass
-class Flown:
+class CourseState:
     """What a course leads to, as expressions in its groups and durations; the state carries the extras."""
 
     start: MX
@@ -86,14 +86,16 @@ class Flown:
     shifts: list[MX]
 
 
-def flown(course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flown:
+def follow_course(
+    course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance
+) -> CourseState:
     """Follow a course from initial contact."""
     model = course.model
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
-    at = Flown(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
+    at = CourseState(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
     for k, leg in enumerate(course.legs):
-        if leg.flown:
+        if leg.lasts:
             flow = Flow(course.choice, leg.phase.region, extras)
             engine = plain(flow, plugin, tolerance).function
             at.y = engine(x0=at.y, p=vertcat(p, durations[k]))["xf"]
@@ -119,12 +121,14 @@ def symbols(course: Course) -> tuple[MX, MX]:
 
 
 @own_cache(256)
-def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Flight:
+def trajectory_expression(
+    course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance
+) -> TrajectoryExpression:
     """The expression of a course for the quantities asked for; nothing else is integrated."""
     model = course.model
     extras, size = _extras(model, of), len(model.state)
     p, durations = symbols(course)
-    at = flown(course, p, durations, extras, plugin, tolerance)
+    at = follow_course(course, p, durations, extras, plugin, tolerance)
     found: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
     found |= _at_the_end(model, at.start, at.y[:size], p)
     for k, name in enumerate(extras):
@@ -132,16 +136,16 @@ def flight(course: Course, of: tuple[str, ...], plugin: str, tolerance: Toleranc
         found[key] = at.y[size + k] - tolerance.offset
     column = vertcat(*(found.get(name, MX(0)) for name in of))
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
-    return Flight(Function("flight", [p, durations], [column, missed]), of, tuple(model.groups))
+    return TrajectoryExpression(Function("trajectory", [p, durations], [column, missed]), of, tuple(model.groups))
 
 
 @own_cache(256)
-def ending(course: Course, plugin: str, tolerance: Tolerance) -> Flight:
+def ending(course: Course, plugin: str, tolerance: Tolerance) -> TrajectoryExpression:
     """The expression of the state in which a course ends."""
     p, durations = symbols(course)
-    at = flown(course, p, durations, (), plugin, tolerance)
+    at = follow_course(course, p, durations, (), plugin, tolerance)
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
-    return Flight(
+    return TrajectoryExpression(
         Function("ending", [p, durations], [at.y, missed]), tuple(course.model.state), tuple(course.model.groups)
     )
 

@@ -22,30 +22,30 @@ from .sample import WHOLE, own_stokes, place
 _SEED = 20120821
 DECADES = (-1.5, 1.5)  # of the scene's own Stokes number
 STEEPEST = 85.0  # deg
-LONG = 1e4  # x0/v0: beyond what the certificate's own flight took
+LONG = 1e4  # x0/v0: beyond what the certificate's own trajectory took
 _RTOL = 1e-8
-_PHASES = 300  # of a flight that chatters
-SECONDS = 6.0  # of processor time: impacts left over then are counted, not flown
+_PHASES = 300  # of a trajectory that chatters
+SECONDS = 6.0  # of processor time: impacts left over then are counted, not integrated
 
 
 class _Long(Exception):
-    """The flight has lasted as long as was asked for."""
+    """The trajectory has lasted as long as was asked for."""
 
 
 class WithoutProof(EventLocator):
-    """A flight that no certificate ends; it runs to an event that ends it, or until a time."""
+    """A trajectory that no certificate ends; it runs to an event that ends it, or until a time."""
 
     until = math.inf
 
     def on(self, until: float) -> EventSequence:
-        """Fly; the path is `separated` if the doublet escaped before `until` (x0/v0)."""
+        """Integrate; the path is `separated` if the doublet escaped before `until` (x0/v0)."""
         self.until = until
         try:
             return self.run()
         except _Long:
             return self.path
 
-    def _proved(self, flown: float) -> bool:
+    def _proved(self, elapsed: float) -> bool:
         return False
 
     def _level(self) -> float | None:
@@ -71,7 +71,7 @@ class Audit:
     sticks: int = 0
     proved: int = 0  # by a theorem
     settled: int = 0  # ended early by what is no theorem (surface arm)
-    cut: int = 0  # reached a cut-off of the experiment when flown on
+    cut: int = 0  # reached a cut-off of the experiment when continued
     unfinished: list[str] = field(default_factory=list)  # could not be integrated on
     escaped: list[str] = field(default_factory=list)
     left: int = 0
@@ -82,27 +82,27 @@ def stick_audit(
     scene: Scene,
     angles: tuple[float, ...] | None = None,
     impacts: int = WHOLE.audited,
-    flight: type[EventLocator] = EventLocator,
+    locator: type[EventLocator] = EventLocator,
 ) -> Iterator[Finding]:
     """Counts, and the law that no certified stick escapes.
 
     Arguments:
         angles: rad, to draw from; None for 0 to STEEPEST degrees.
         impacts: how many; a quarter of them where angles are given.
-        flight: whose certificate is audited.
+        trajectory: whose certificate is audited.
     """
-    found = audit(scene, angles, impacts, flight)
+    found = audit(scene, angles, impacts, locator)
     statement = (
         f"every stick that is certified, of {found.impacts} seeded impacts (St over {DECADES[1] - DECADES[0]:.0f} "
-        f"decades around the scene's own, 0 to {STEEPEST:.0f} deg), still sticks when flown on without the certificate"
+        f"decades around the scene's own, 0 to {STEEPEST:.0f} deg), still sticks when continued without the certificate"
     )
     tried = found.proved + found.settled
     kind = "sticks by a level that is no theorem" if found.settled else "certified sticks"
     figure = f"{len(found.escaped)} of {tried} {kind} escape" if tried else "none is certified"
     counts = f"  {found.impacts} impacts, {found.sticks} sticks, {found.proved} certified"
-    about = [f"{counts}; each flown on for {LONG:.0e} x0/v0 ({found.cut} met a cut-off first)" if tried else counts]
+    about = [f"{counts}; each continued for {LONG:.0e} x0/v0 ({found.cut} met a cut-off first)" if tried else counts]
     about += [f"  escapes: {text}" for text in found.escaped[:3]]
-    about += [f"  not flown to the end: {text}" for text in found.unfinished[:3]]
+    about += [f"  not integrated to the end: {text}" for text in found.unfinished[:3]]
     if found.left:
         about.append(f"  {found.left} more impacts were left out for lack of time")
     where = found.escaped[0] if found.escaped else ""
@@ -114,9 +114,9 @@ def audit(
     scene: Scene,
     angles: tuple[float, ...] | None = None,
     impacts: int = WHOLE.audited,
-    flight: type[EventLocator] = EventLocator,
+    locator: type[EventLocator] = EventLocator,
 ) -> Audit:
-    """Draw impacts, locate each with its certificate, and fly the proved ones on without it."""
+    """Draw impacts, locate each with its certificate, and continue the proved ones without it."""
     draw = np.random.default_rng(_SEED)
     found, begun = Audit(), time.process_time()
     for _ in range(impacts if angles is None else impacts // 4):
@@ -128,30 +128,30 @@ def audit(
         found.impacts += 1
         try:
             n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-            path = flight(load(select_model(scene, n.oblique)), n.groups, _RTOL).run()
+            path = locator(load(select_model(scene, n.oblique)), n.groups, _RTOL).run()
         except WetDoubletError:
             continue  # nothing is certified
         found.sticks += path.outcome == "stick"
         if path.outcome == "stick" and (path.certified or _ended_early(path)):
-            _fly_on(found, scene, n, path, place(stokes, angle))
+            _without_proof(found, scene, n, path, place(stokes, angle))
     return found
 
 
 def _ended_early(path: EventSequence) -> bool:
-    """Whether the flight stopped inside a phase, by a proof or by what stands in for one."""
+    """Whether the trajectory stopped inside a phase, by a proof or by what stands in for one."""
     return bool(path.steps) and path.steps[-1].event is None
 
 
-def _fly_on(found: Audit, scene: Scene, n: DimensionlessGroups, path: EventSequence, where: str) -> None:
+def _without_proof(found: Audit, scene: Scene, n: DimensionlessGroups, path: EventSequence, where: str) -> None:
     found.proved += path.certified
     found.settled += not path.certified
-    flight = WithoutProof(load(select_model(scene, n.oblique)), n.groups, _RTOL)
+    locator = WithoutProof(load(select_model(scene, n.oblique)), n.groups, _RTOL)
     try:
-        on = flight.on(path.time + LONG)
+        on = locator.on(path.time + LONG)
     except ComputationError as failure:
         found.unfinished.append(f"{where}: {failure.message}")
         return
     if on.separated:
         found.escaped.append(f"{where}, certified at {path.time:.3g}, apart at {on.time:.3g} x0/v0")
-    elif on.steps and on.steps[-1].event in ("half_turn", "unwinding") and on.time < flight.until:
+    elif on.steps and on.steps[-1].event in ("half_turn", "unwinding") and on.time < locator.until:
         found.cut += 1

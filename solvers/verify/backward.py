@@ -1,4 +1,4 @@
-"""Forward, then backward: a smooth stretch of a flight, run back in time, must come back to where it started.
+"""Forward, then backward: a smooth stretch of a trajectory, run back in time, must come back to where it started.
 
 Backward in time what relaxes grows: the spin of a wet sphere by many decades a microsecond. So stretches are short, and
 the bound is the tolerance times the norm of the inverse of the stretch's own variational matrix.
@@ -27,12 +27,12 @@ MOST = 1e4  # amplification of a stretch
 _AIM = 1e3  # amplification a stretch is first cut for, from the fastest rate at its ends
 _SHORTEST = 1e-12  # of a phase: stretches are halved no further
 _PLACES = (0.0, 0.3, 0.8)  # where in a phase stretches begin
-_FLIGHTS = 6  # of the sample
+_TRAJECTORIES = 6  # of the sample
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """A smooth part of a flight, from where, for how long (x0/v0), and how it amplifies backward."""
+    """A smooth part of a trajectory, from where, for how long (x0/v0), and how it amplifies backward."""
 
     flow: Flow
     start: np.ndarray
@@ -51,7 +51,7 @@ class _Return:
 
 
 def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[Finding]:
-    """Every engine, over stretches of every phase of a few flights.
+    """Every engine, over stretches of every phase of a few trajectories.
 
     Arguments:
         back: what makes the integrator backward in time; `returning` if None.
@@ -61,15 +61,15 @@ def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[F
     for one in _chosen(sample):
         for engine, found in returns.items():
             try:
-                flight = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
+                followed = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
             except WetDoubletError:
                 continue  # the sample names what is not completed
-            for piece in flight.flown.pieces:
+            for piece in followed.replayed.pieces:
                 where = place(*one, event=piece.name)
-                found += [_returned(stretch, flight, engine, where, back) for stretch in stretches(piece, flight.p)]
+                found += [_returned(stretch, followed, engine, where, back) for stretch in stretches(piece, followed.p)]
     for engine, found in returns.items():
         statement = (
-            f"a stretch flown forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
+            f"a stretch integrated forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
             f"the inverse of its variational matrix (at most {MOST:.0e})"
         )
         if not found:
@@ -86,9 +86,9 @@ def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[F
 def _chosen(sample: Sample) -> list[tuple[float, float]]:
     """Impacts of the sample, evenly taken."""
     impacts = [next(iter(impact.values())) for impact in sample.impacts]
-    flying = [(one.stokes, one.angle) for one in impacts if (one.contact_time or one.until or 0) > 0]
-    picked = np.unique(np.linspace(0, len(flying) - 1, min(_FLIGHTS, len(flying))).round().astype(int))
-    return [flying[k] for k in picked]
+    moving = [(one.stokes, one.angle) for one in impacts if (one.contact_time or one.until or 0) > 0]
+    picked = np.unique(np.linspace(0, len(moving) - 1, min(_TRAJECTORIES, len(moving))).round().astype(int))
+    return [moving[k] for k in picked]
 
 
 def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
@@ -109,20 +109,20 @@ def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
             duration /= 2
 
 
-def _returned(stretch: Stretch, flight: Followed, engine: str, where: str, returning: Back) -> _Return:
-    told = flight_tolerance(engine)
-    scale = _scale(stretch.flow, flight.p)
+def _returned(stretch: Stretch, followed: Followed, engine: str, where: str, returning: Back) -> _Return:
+    told = tolerance_of(engine)
+    scale = _scale(stretch.flow, followed.p)
     bound = _SAFETY * RTOL * stretch.amplification
     try:
-        end = plain(stretch.flow, engine, told)(stretch.start, flight.p, stretch.duration)
-        back = returning(stretch.flow, engine, told)(end, flight.p, stretch.duration)
+        end = plain(stretch.flow, engine, told)(stretch.start, followed.p, stretch.duration)
+        back = returning(stretch.flow, engine, told)(end, followed.p, stretch.duration)
         error = float(np.max(np.abs(back - stretch.start) / scale))
     except IntegrationFailed:
         error = math.inf
     return _Return(error if math.isfinite(error) else math.inf, bound, stretch.amplification, where)
 
 
-def flight_tolerance(engine: str) -> Tolerance:
+def tolerance_of(engine: str) -> Tolerance:
     """What an engine is told here."""
     share = 1 / 30 if engine == "cvodes" else 1.0  # as everywhere: rtol means about the same for both
     return Tolerance(RTOL * share, 1e-3 * RTOL * share)

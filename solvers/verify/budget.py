@@ -60,7 +60,7 @@ def restitution_budget(
 def budgeted(
     scene: Scene, stokes: Sequence[float], angle: Sequence[float], rtol: float, collide: Collide = collide
 ) -> xarray.Dataset:
-    """The budget over impact angle (rad) and Stokes number, of what `collide` flies."""
+    """The budget over impact angle (rad) and Stokes number, of what `collide` integrates."""
     import xarray as xr
 
     shape = (len(angle), len(stokes))

@@ -37,7 +37,7 @@ def closed_forms(
     Arguments:
         head_on: only those without rotation.
         plain: what gives the integrator of a flow.
-        collide: what flies a bounce.
+        collide: what integrates a bounce.
     """
 
     def alone(scene: Scene, engine: str, plain: Integrators) -> tuple[float, str]:
@@ -117,8 +117,8 @@ def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tu
     flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
     contact, errors = contact_gap(n.groups), [0.0]
     for time in _INSTANTS.tolist():
-        gap, normal_velocity = _flown(plain, flow, engine, n, start, time)
-        if gap > contact:  # no flight goes further
+        gap, normal_velocity = _integrated(plain, flow, engine, n, start, time)
+        if gap > contact:  # no trajectory goes further
             errors.append(abs(-normal_velocity - (1 - film_loss(gap) / stokes)))
     return max(errors), place(stokes, 0.0, engine, "approach")
 
@@ -173,7 +173,7 @@ def straight_line(scene: Scene, engine: str, plain: Integrators = plain) -> tupl
     worst = (-1.0, "")
     longest = 5 * distance / math.hypot(1.0, sideways)
     for time in (longest * _INSTANTS).tolist():
-        y = _flown(plain, flow, engine, n, start, time)
+        y = _integrated(plain, flow, engine, n, start, time)
         ahead, aside = distance + time, sideways * time
         errors = (
             abs((y[0] + 4 / aspect) / math.hypot(ahead, aside) - 1),
@@ -200,7 +200,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
         decay = 8 * math.pi * mu * a**2 * math.log(reach / x) / m * (1 / r + 5 * r / (32 * a**2))
         start = np.array([gap, 0.0, (4 + n.groups["aspect"] * gap) ** 2, 0.0])
         for time in (3.0 / decay / n.time * np.array([0.1, 1.0, 10.0])).tolist():
-            y = _flown(plain, flow, engine, n, start, time)
+            y = _integrated(plain, flow, engine, n, start, time)
             rate = y[2] / (r / a) ** 2
             slip = math.exp(-decay * time * n.time)
             rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # omega0 = 1: what L leaves of it
@@ -226,7 +226,7 @@ def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[flo
         phase = part * min(2.0, 2 * a * swing / math.hypot(n.speed, sideways))  # radians; stays in front of the pivots
         across = 4 * a + n.length * math.cos(phase) + n.speed / swing * math.sin(phase)
         aside = sideways / swing * math.sin(phase)
-        y = _flown(plain, flow, engine, n, start, phase / swing / n.time)
+        y = _integrated(plain, flow, engine, n, start, phase / swing / n.time)
         r = 4 * a + y[0] * n.length
         names = list(flow.model.state)
         error = max(abs(r / math.hypot(across, aside) - 1), abs(y[names.index("rotation")] - math.atan2(aside, across)))
@@ -234,7 +234,7 @@ def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[flo
     return worst
 
 
-def _flown(
+def _integrated(
     plain: Integrators, flow: Flow, engine: str, n: DimensionlessGroups, start: np.ndarray, time: float
 ) -> np.ndarray:
     p = flow.model.group_values(n.groups)

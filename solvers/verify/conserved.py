@@ -1,4 +1,4 @@
-"""What every flight must keep: the energy ledger, angular momentum; and what the engines must agree on."""
+"""What every trajectory must keep: the energy ledger, angular momentum; and what the engines must agree on."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NUDGE, _WORST_CONDITION = 1e-5, 1e4
 
 
 def conserved(group: str, sample: Sample) -> Iterator[Finding]:
-    """Completed flights, ledger, drift and agreement of the engines, each at its worst place."""
+    """Completed trajectories, ledger, drift and agreement of the engines, each at its worst place."""
     statement = "every collision of the sample is completed"
     figure = f"{len(sample.all)} of {len(sample.failures) + len(sample.all)} collisions"
     told = tuple(f"  {text}" for text in sample.failures[:5])

@@ -1,4 +1,4 @@
-"""A located flight with its pieces, for checks that look inside one: what `collide` computes, kept open."""
+"""A located trajectory with its pieces, for checks that look inside one: what `collide` computes, kept open."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ..engines.casadi.integrators import Tolerance, tolerance
 from ..engines.casadi.locate import EventSequence, locate
-from ..engines.casadi.replay import Flown, Stopped, fly
+from ..engines.casadi.replay import Replay, Stopped, replay
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
@@ -18,18 +18,18 @@ from ..scene.scene import Scene
 
 @dataclass(frozen=True)
 class Followed:
-    """A flight: its path, as one engine flew it, with spin as a state."""
+    """A trajectory: its path, as one engine integrated it, with spin as a state."""
 
-    nondimensionalise: DimensionlessGroups
+    n: DimensionlessGroups
     path: EventSequence
-    flown: Flown
+    replayed: Replay
     model: Model
     p: np.ndarray
     tolerance: Tolerance
 
 
 def follow(scene: Scene, stokes: float, angle: float, engine: str, rtol: float) -> Followed:
-    """Locate a collision and fly it.
+    """Locate a collision and integrate it.
 
     Raises:
         ComputationError: the outcome cannot be decided, or the engine stopped.
@@ -39,7 +39,7 @@ def follow(scene: Scene, stokes: float, angle: float, engine: str, rtol: float) 
     flow = Flow(select_model(scene, n.oblique, full=True), Region(1, 1, False))
     p, told = flow.model.group_values(n.groups), tolerance(rtol, engine, n.groups)
     try:
-        flown = fly(path, engine, told, flow, flow.model.start(p))
+        replayed = replay(path, engine, told, flow, flow.model.start(p))
     except Stopped as failure:
         raise ComputationError(f"{engine} {failure.why}", phase=str(failure.step.phase)) from None
-    return Followed(n, path, flown, flow.model, p, told)
+    return Followed(n, path, replayed, flow.model, p, told)

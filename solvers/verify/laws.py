@@ -14,7 +14,7 @@ from .conserved import conserved
 from .order import convergence
 from .region import argument, grid
 from .report import Finding
-from .sample import WHOLE, Extent, flights
+from .sample import WHOLE, Extent, collisions
 from .surface import surface_arm
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def numeric(
         extent: how much is looked at.
     """
     group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
-    sample = flights(scene, (0.0,) if head_on else None, extent)
+    sample = collisions(scene, (0.0,) if head_on else None, extent)
     laws: list[tuple[str, Callable[[], Iterator[Finding]]]] = [
         ("conservation", lambda: conserved(group, sample)),
         ("surface arm", lambda: surface_arm(group, sample)),

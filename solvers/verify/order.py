@@ -19,19 +19,19 @@ from .sample import REFERENCE, WHOLE, Collide, Sample, place
 _TRUTH = 1e-13
 SLOPES = (0.6, 1.4)  # d log error / d log rtol: p/(p + 1) to 1 for error per step, and some scatter
 RISE = 10.0  # the error may not grow by more than this from one decade of rtol to the next
-SMALL = 0.05  # of rtol: a flight all of whose errors are below this needs no slope, for it is better than asked for
+SMALL = 0.05  # of rtol: a trajectory all of whose errors are below this needs no slope, for it is better than asked for
 _FLOOR = 3e-13  # relative: rounding, and the truth's own error
-_SMALLEST = 0.05  # e_n of a flight that is asked
+_SMALLEST = 0.05  # e_n of a trajectory that is asked
 
 
 def convergence(
     group: str, sample: Sample, tolerances: Sequence[float] = WHOLE.tolerances, collide: Collide = collide
 ) -> Iterator[Finding]:
-    """The slope of every engine, the worse of two flights of the sample.
+    """The slope of every engine, the worse of two trajectories of the sample.
 
     Arguments:
         tolerances: rtol, descending.
-        collide: what flies at a tolerance.
+        collide: what integrates at a tolerance.
     """
     chosen = _chosen(sample)
     if not chosen:
@@ -39,7 +39,7 @@ def convergence(
             group,
             "convergence",
             "error of e_n over rtol",
-            sample.silent or f"no flight that separates with e_n > {_SMALLEST}",
+            sample.silent or f"no trajectory that separates with e_n > {_SMALLEST}",
             "",
             None,
         )
@@ -49,8 +49,8 @@ def convergence(
         f" is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way;"
         f" or all of it is below {SMALL} rtol"
     )
-    flown = {engine for impact in sample.impacts for engine in impact}
-    for engine in (engine for engine in ENGINES if engine in flown):
+    collided = {engine for impact in sample.impacts for engine in impact}
+    for engine in (engine for engine in ENGINES if engine in collided):
         judged = [_judged(group, statement, one, engine, tolerances, collide) for one in chosen]
         yield max(judged, key=lambda found: found[0])[1]
 
@@ -58,7 +58,7 @@ def convergence(
 def _judged(
     group: str, statement: str, one: Collision, engine: str, tolerances: Sequence[float], collide: Collide
 ) -> tuple[float, Finding]:
-    """The finding of one flight, and how bad it is."""
+    """The finding of one trajectory, and how bad it is."""
     name, at = f"convergence, {engine}", place(one.stokes, one.angle)
     try:
         errors = measured(one, engine, tolerances, collide)
@@ -101,6 +101,6 @@ def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, fl
 
 
 def _chosen(sample: Sample) -> list[Collision]:
-    """Of the sample's flights that separate, the least and the most oblique."""
+    """Of the sample's trajectories that separate, the least and the most oblique."""
     asked = [one for one in sample.separated if one.restitution > _SMALLEST and (one.contact_time or 0) > 0]
     return [asked[0], asked[-1]] if len(asked) > 1 else asked

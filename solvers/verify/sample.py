@@ -1,4 +1,4 @@
-"""The collisions that the laws are measured on: impacts around the scene's own, flown by every engine."""
+"""The collisions that the laws are measured on: impacts around the scene's own, integrated by every engine."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..settings import ENGINES
 RTOL = 1e-10
 ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))
 FACTORS = (0.3, 1.0, 4.0)  # of the scene's own Stokes number
-PLUGINS = ("cvodes", "rosenbrock")  # engines that fly any equations, not only whole collisions
+PLUGINS = ("cvodes", "rosenbrock")  # engines that integrate any equations, not only whole collisions
 REFERENCE = "rosenbrock"  # the engine that also locates
 Collide = Callable[..., Collision]
 
@@ -65,11 +65,11 @@ class Sample:
 
     @property
     def silent(self) -> str:
-        """Why there is no flight that lasts; empty if there is one."""
+        """Why there is no trajectory that lasts; empty if there is one."""
         if not self.all:
             return "no collision was completed"
         if not any(one.contact_time or one.until for one in self.all):
-            return "no flight lasts: all reverse at initial contact"
+            return "no trajectory lasts: all reverse at initial contact"
         return ""
 
 
@@ -89,14 +89,14 @@ def where(one: Collision) -> str:
     return place(one.stokes, one.angle, one.engine)
 
 
-def flights(
+def collisions(
     scene: Scene, angles: Sequence[float] | None = None, extent: Extent = WHOLE, collide: Collide = collide
 ) -> Sample:
-    """Fly the sample of a scene; one that fails is noted, the others go on.
+    """Integrate the sample of a scene; one that fails is noted, the others go on.
 
     Arguments:
         angles: rad; None for the extent's and the scene's own.
-        collide: what flies one.
+        collide: what integrates one.
     """
     own = own_stokes(scene)
     sample = Sample(scene)

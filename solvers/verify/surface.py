@@ -22,7 +22,7 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
     """For a scene with the surface arm: the drift as a note, and held to the integral of -x F_t dt.
 
     Arguments:
-        integral: of a flight, over L(0); `torque` if None.
+        integral: of a trajectory, over L(0); `torque` if None.
     """
     integral = torque if integral is None else integral
     scene = sample.scene
@@ -34,9 +34,9 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
         if one.angle == 0:
             continue
         try:
-            flight = follow(scene, one.stokes, one.angle, REFERENCE, RTOL)
-            lost = flight.model.values("angular_momentum", flight.flown.y, flight.p)["angular_momentum"] - 1.0
-            apart = abs(lost - integral(flight))
+            followed = follow(scene, one.stokes, one.angle, REFERENCE, RTOL)
+            lost = followed.model.values("angular_momentum", followed.replayed.y, followed.p)["angular_momentum"] - 1.0
+            apart = abs(lost - integral(followed))
         except WetDoubletError:
             continue  # the sample itself names what is not completed
         found.append((apart if math.isfinite(apart) else math.inf, abs(lost), place(one.stokes, one.angle, REFERENCE)))
@@ -52,14 +52,14 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
     yield bounded(group, "dL = -int x F_t dt", statement, worst[0], _BOUND, worst[2])
 
 
-def torque(flight: Followed) -> float:
-    """-(integral of x F_t dt)/L(0) along a flight, piece by piece."""
-    groups = dict(zip(flight.model.groups, flight.p, strict=True))
+def torque(followed: Followed) -> float:
+    """-(integral of x F_t dt)/L(0) along a trajectory, piece by piece."""
+    groups = dict(zip(followed.model.groups, followed.p, strict=True))
     total = 0.0
-    for piece in flight.flown.pieces:
-        run = _torque(piece.flow, flight.tolerance.relative, flight.tolerance.absolute)
+    for piece in followed.replayed.pieces:
+        run = _torque(piece.flow, followed.tolerance.relative, followed.tolerance.absolute)
         start = vertcat(*piece.start, 0.0)
-        total += float(run(x0=start, p=vertcat(flight.p, piece.duration))["xf"][-1])
+        total += float(run(x0=start, p=vertcat(followed.p, piece.duration))["xf"][-1])
     return total / (4 + float(groups["aspect"])) ** 2
 
 

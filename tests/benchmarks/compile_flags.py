@@ -46,8 +46,8 @@ class Clock:
 
 
 def measure(task: Task, level: str) -> dict[str, Any]:
-    """Compile everything the task needs in a fresh cache, then fly it."""
-    flights = [
+    """Compile everything the task needs in a fresh cache, then integrate it."""
+    collisions = [
         (load(select_model(task.scene, True)), dimensionless(task.scene, impact).groups) for impact in task.impacts()
     ]
     with tempfile.TemporaryDirectory() as cache:
@@ -58,13 +58,13 @@ def measure(task: Task, level: str) -> dict[str, Any]:
             mock.patch.object(integrators, "_call", Clock()) as clock,
         ):
             start = time.perf_counter()
-            _fly(flights)
+            _run(collisions)
             first = time.perf_counter() - start
             spent = []
             for _ in range(REPEATS):
                 clock.spent = 0.0
-                _fly(flights)
-                spent.append(clock.spent / len(flights))
+                _run(collisions)
+                spent.append(clock.spent / len(collisions))
             libraries = len(list(Path(cache).glob("*.so")))
     return {
         "task": task.preset,
@@ -75,8 +75,8 @@ def measure(task: Task, level: str) -> dict[str, Any]:
     }
 
 
-def _fly(flights: list[Any]) -> None:
-    for model, groups in flights:
+def _run(collisions: list[Any]) -> None:
+    for model, groups in collisions:
         locate(model, groups, RTOL, machine_code=True)
 
 

@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.cvodes_share [FOLDER]
 
-Writes FOLDER/cvodes_share.json (docs/performance). The paths are located once, at 1e-13; both engines then fly the same
-phases and land on the same events, so that only the integrators differ.
+Writes FOLDER/cvodes_share.json (docs/performance). The paths are located once, at 1e-13; both engines then integrate
+the same phases and land on the same events, so that only the integrators differ.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance
 from wetdoublet.solvers.engines.casadi.locate import locate
-from wetdoublet.solvers.engines.casadi.replay import Stopped, fly
+from wetdoublet.solvers.engines.casadi.replay import Stopped, integrate
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
@@ -41,10 +41,10 @@ def errors(task: Task, impact: Impact) -> dict[str, list[float | None]] | None:
 
     def error(plugin: str, rtol: float) -> float | None:
         try:
-            flown = fly(path, plugin, Tolerance(rtol, 1e-3 * rtol), flow, model.start(path.p))
+            collided = integrate(path, plugin, Tolerance(rtol, 1e-3 * rtol), flow, model.start(path.p))
         except Stopped:
             return None
-        return abs(model.values("outputs", flown.y, path.p)["restitution"] - truth.restitution)
+        return abs(model.values("outputs", collided.y, path.p)["restitution"] - truth.restitution)
 
     shares = {"rosenbrock": ("rosenbrock", 1.0), "cvodes": ("cvodes", 1.0), "cvodes/30": ("cvodes", 1 / 30)}
     return {name: [error(plugin, rtol * share) for rtol in RTOLS] for name, (plugin, share) in shares.items()}

@@ -139,7 +139,7 @@ def main() -> None:
         texts.append(f"{task.preset}, {stokes.size} collisions that separate:\n\n{table(rows)}\n")
     text = f"""{BEGIN}
 Microseconds of CPU a collision, {COLLISIONS} in a call: the value alone, derivatives of e_n by 1, 4 and 12
-parameters taken back along the flight, and carried along it:
+parameters taken back along the trajectory, and carried along it:
 
 {chr(10).join(texts)}
 Derivatives by 12 parameters, the cheapest tolerance whose largest error is below {ERROR:g}, all in one run:

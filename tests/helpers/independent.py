@@ -18,8 +18,8 @@ Event = Callable[[float, np.ndarray], float]
 
 
 @dataclass
-class Flight:
-    """How an independent flight ended: state is gap, normal velocity, omega, xi, beta (SI)."""
+class Trajectory:
+    """How an independent trajectory ended: state is gap, normal velocity, omega, xi, beta (SI)."""
 
     separated: bool = False
     time: float = 0.0
@@ -119,7 +119,7 @@ class Spheres:
         return float(-3 * self.scene.liquid.viscosity * self.a * y[1] * (1 / y[0] ** 2 - cut))
 
 
-def flown(scene: Scene, stokes: float, angle: float, rtol: float = 1e-10, longest: float = 1e7) -> Flight:
+def integrated(scene: Scene, stokes: float, angle: float, rtol: float = 1e-10, longest: float = 1e7) -> Trajectory:
     """Follow a collision, event after event, up to separation, a cut-off, or `longest` x0/v0 of one phase."""
     a, m, mu = scene.particles.reduced_radius, scene.particles.reduced_mass, scene.liquid.viscosity
     x0, speed = scene.liquid.film_thickness, stokes * 6 * math.pi * mu * a**2 / m
@@ -127,11 +127,11 @@ def flown(scene: Scene, stokes: float, angle: float, rtol: float = 1e-10, longes
     edge = x0 if scene.model.tangential == "film" else 2 * a
     rate = max(speed * math.tan(angle) / (4 * a), 1e-30)
     scale = np.array([x0, speed, rate, rate, 1.0])
-    flight = Flight(state=np.array([x0, -speed, speed * math.tan(angle) / (4 * a), 0.0, 0.0]))
+    trajectory = Trajectory(state=np.array([x0, -speed, speed * math.tan(angle) / (4 * a), 0.0, 0.0]))
     contact = max(body.x_r, scene.particles.roughness)
     motion, film, shear = CLOSING, True, edge >= x0
     for _ in range(60):
-        y = flight.state
+        y = trajectory.state
         name = ""
         if motion == CLOSING:
             name = "glass" if body.pressure(y) >= scene.liquid.glass_transition_pressure else ""
@@ -143,21 +143,21 @@ def flown(scene: Scene, stokes: float, angle: float, rtol: float = 1e-10, longes
                 rates, (0, longest * x0 / speed), y, method="Radau", rtol=rtol, atol=rtol * 1e-3 * scale,
                 events=list(watched.values()),
             )  # fmt: skip
-            flight.time += float(found.t[-1])
-            flight.state = y = found.y[:, -1].copy()
+            trajectory.time += float(found.t[-1])
+            trajectory.state = y = found.y[:, -1].copy()
             if found.status != 1:
-                return flight
+                return trajectory
             name = next(key for key, times in zip(watched, found.t_events, strict=True) if times.size)
-        flight.smallest_gap = min(flight.smallest_gap, float(y[0]))
+        trajectory.smallest_gap = min(trajectory.smallest_gap, float(y[0]))
         if name == "contact":
             name = "elastic" if body.x_r >= scene.particles.roughness else "rough"
-        flight.events.append(name)
-        flight.times.append(flight.time)
+        trajectory.events.append(name)
+        trajectory.times.append(trajectory.time)
         if name in ("glass", "elastic", "rough"):
-            flight.state[1] *= -scene.particles.dry_restitution
+            trajectory.state[1] *= -scene.particles.dry_restitution
             if y[0] == x0 and scene.bridge is None:
-                flight.separated = True
-                return flight
+                trajectory.separated = True
+                return trajectory
             motion, film = OPENING, film and y[0] < x0
         elif name in ("turned", "fell back"):
             motion = -motion
@@ -167,9 +167,9 @@ def flown(scene: Scene, stokes: float, angle: float, rtol: float = 1e-10, longes
         elif name == "tangential edge":
             shear = not shear
         else:
-            flight.separated = name == "rupture"
-            return flight
-    return flight
+            trajectory.separated = name == "rupture"
+            return trajectory
+    return trajectory
 
 
 def _right_hand_side(body: Spheres, film: bool, shear: bool) -> Callable[[float, np.ndarray], Sequence[float]]:

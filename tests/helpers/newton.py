@@ -83,7 +83,7 @@ class End:
     momentum: np.ndarray = field(default_factory=lambda: np.zeros(3))  # P_x, P_y and L, less their start values
 
 
-def flown(bodies: Bodies, speed: float, angle: float, longest: float, rtol: float = 1e-11) -> End:
+def integrated(bodies: Bodies, speed: float, angle: float, longest: float, rtol: float = 1e-11) -> End:
     """From initial contact, without any criterion of reversal, to rupture or for `longest` s."""
     (one, other), (mass, second_mass) = bodies.radii, bodies.masses
     contact = one + other

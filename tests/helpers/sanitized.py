@@ -1,9 +1,9 @@
-"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and processes in which it flies.
+"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and processes in which it runs.
 
     python tests/helpers/sanitized.py [COUNT]
 
-flies the reference collisions and COUNT (1000) random ones through every kind of kernel of every family, some twenty
-minutes of compiling on two cores; the suite has a sample (test_sanitized.py). Kernels are compiled with
+integrates the reference collisions and COUNT (1000) random ones through every kind of kernel of every family, some
+twenty minutes of compiling on two cores; the suite has a sample (test_sanitized.py). Kernels are compiled with
 WETDOUBLET_CFLAGS into a folder of their own and loaded into processes that have the sanitizers' library from the start.
 """
 
@@ -40,7 +40,7 @@ BUDGET = 3000  # steps: what creeps for longer shows nothing new
 REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
 WALL, PAIR = {"partner.wall": True}, {"partner.radius": "0.25 mm", "partner.mass": "60 ug"}
 PULL = {"attraction.hamaker": 1e-19}
-# Scenes by name: a preset and what is changed. Each is flown obliquely and head-on.
+# Scenes by name: a preset and what is changed. Each is integrated obliquely and head-on.
 FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "granulation": ("granulation", {}),
     "pendulum": ("pendulum", {}),
@@ -64,21 +64,21 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
         for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
     },
 }
-Flown = Callable[[Impacts, bool], bool]  # False where there is no such kernel
+Replay = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
 
-def _recorded(**options: Any) -> Flown:
+def _recorded(**options: Any) -> Replay:
     return lambda impacts, oblique: run_recorded(impacts, oblique, RTOL, budget=BUDGET, **options) is not None
 
 
-def _carried(backward: bool) -> Flown:
-    def fly(impacts: Impacts, oblique: bool) -> bool:
+def _carried(backward: bool) -> Replay:
+    def replay(impacts: Impacts, oblique: bool) -> bool:
         return run_tangent(impacts, oblique, RTOL, False, budget=BUDGET, backward=backward) is not None
 
-    return fly
+    return replay
 
 
-KINDS: dict[str, Flown] = {
+KINDS: dict[str, Replay] = {
     "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET) is not None,
     "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
     "ledger": _recorded(ledger=True, room=(4, 4)),
@@ -117,14 +117,14 @@ def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impact
     return Impacts(scene, speed, angle, others)
 
 
-def fly(family: str, kind: str, oblique: bool, count: int) -> bool:
-    """Fly random collisions of a family; False if it has no such kernel."""
+def replay(family: str, kind: str, oblique: bool, count: int) -> bool:
+    """Integrate random collisions of a family; False if it has no such kernel."""
     impacts = random_impacts(scene_of(family), count, oblique, seed=len(family) + 7 * len(kind))
     return KINDS[kind](impacts, oblique)
 
 
-def fly_reference(case: dict[str, Any]) -> None:
-    """Fly a reference collision with its ledger and steps; AssertionError if it is not what it should be."""
+def collide_reference(case: dict[str, Any]) -> None:
+    """Integrate a reference collision with its ledger and steps; AssertionError if it is not what it should be."""
     scene = Scene.from_dict(case["scene"], from_file=True).with_impact(**case["impact"])
     speed, angle = scene.need_impact()
     impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
@@ -169,8 +169,8 @@ def _inside(what: list[Any]) -> None:
         if name == "reference":
             for case in REFERENCE:
                 if arguments[0] in (None, case["name"]):
-                    fly_reference(case)
-        elif not fly(*arguments):
+                    collide_reference(case)
+        elif not replay(*arguments):
             missing.append(" ".join(map(str, arguments)))
     if missing:
         sys.exit(f"no kernel: {'; '.join(missing)}")
@@ -186,7 +186,7 @@ def _everything(count: int) -> Iterator[list[Any]]:
 
 
 def main() -> int:
-    """Fly everything; the number of processes in which something was found."""
+    """Integrate everything; the number of processes in which something was found."""
     if sys.argv[1:2] == ["--inside"]:
         _inside(json.loads(sys.argv[2]))
         return 0

@@ -46,7 +46,7 @@ from wetdoublet.solvers.model.phases import Flow, Region
 from wetdoublet.solvers.verify.backward import backward
 from wetdoublet.solvers.verify.budget import restitution_budget
 from wetdoublet.solvers.verify.conserved import conserved
-from wetdoublet.solvers.verify.sample import flights
+from wetdoublet.solvers.verify.sample import collisions
 from yielding import LAW  # beside this script
 
 GRANULATION, PENDULUM = "granulation", "pendulum"
@@ -87,9 +87,9 @@ def _mapped(**options: Any) -> xr.Dataset:
 def _failing() -> str:
     """An integrator that cannot: what CasADi prints of it, from whichever thread, is nobody's business."""
     choice = select_model(Scene.load(GRANULATION), oblique=True)
-    fly = plain(Flow(choice, Region(1, 1, False)), "cvodes", Tolerance(1e-9, 1e-12))
+    integrate = plain(Flow(choice, Region(1, 1, False)), "cvodes", Tolerance(1e-9, 1e-12))
     try:
-        fly(np.full(len(load(choice).state), math.nan), np.ones(len(load(choice).groups)), 1.0)
+        integrate(np.full(len(load(choice).state), math.nan), np.ones(len(load(choice).groups)), 1.0)
     except IntegrationFailed as error:
         return str(error)
     return "done"
@@ -152,8 +152,8 @@ LONG: dict[str, Callable[[], Any]] = {
     ),
     "band": lambda: solvers.band(GRANULATION, {"liquid.viscosity": "5 %"}, "impact.stokes", [0.03, 0.2], samples=8),
     "budget": lambda: restitution_budget(GRANULATION, stokes=[0.05, 0.1], angle=[0.5, 0.9]),
-    "conserved": lambda: [str(one) for one in conserved("", flights(Scene.load(GRANULATION), (0.9,)))],
-    "flown back": lambda: [str(one) for one in backward("", flights(Scene.load(GRANULATION), (0.9,)))],
+    "conserved": lambda: [str(one) for one in conserved("", collisions(Scene.load(GRANULATION), (0.9,)))],
+    "integrated back": lambda: [str(one) for one in backward("", collisions(Scene.load(GRANULATION), (0.9,)))],
 }
 
 

@@ -86,7 +86,7 @@ def theory(choice: Mapping[str, str | Law] | None = None) -> tuple[Equation, ...
     """Every line of the theory, with the laws of `choice` (slot to name, or a law in SI) where not the default."""
     chosen = {**DEFAULTS, **(choice or {})}
     laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
-    parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _flight(laws))
+    parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _course(laws))
     return (*(line for part in parts for line in part), *_groups())
 
 
@@ -197,7 +197,7 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
         yield Equation(group, f"{latex(_SWING)}^2", swing, "swing of either sphere")
 
 
-def _flight(laws: Mapping[str, Law]) -> Iterator[Equation]:
+def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, start = "Start, reversal, rupture", start_values()
     # the criterion is scaled with v0: put the gap and the velocity back
     pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -normal_velocity)))

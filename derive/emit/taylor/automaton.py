@@ -119,14 +119,14 @@ def _nested(operation: str, values: Sequence[str]) -> str:
 def effects_header(provenance: str) -> str:
     """Text of `generated/taylor/effects.h`: the switch over an event's effect."""
     lines = comment(
-        f"{provenance}\n\nWhat an event does to a lane. Included where `queue`, `flights`, `fixed` and the functions"
+        f"{provenance}\n\nWhat an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions"
         " that it calls, are known."
     )
     body = ["switch (event) {"]
     for event in automaton.EVENTS:
         body += [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
     body.append("}")
-    head = "static void act(queue *q, flights *l, fixed *f, int lane, int event)"
+    head = "static void act(queue *q, lanes *l, fixed *f, int lane, int event)"
     return "\n".join([*lines, "", head, "{", *(f"    {line}" for line in body), "}"]) + "\n"
 
 

@@ -54,7 +54,7 @@ def held_functions(model: Model, constants: Constants, prepared: dict[tuple[str,
     falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     kept, _ = needed(list(outputs.values()), model.definitions)
-    doc = "What attracts holds for good where hold > 0, flight < 0 and rebound < 0."
+    doc = "What attracts holds for good where hold > 0, escape < 0 and rebound < 0."
     return [
         f"#if {' && '.join(falling)}",
         "#define HELD (REDUCED || MIDGAP_ARM)",

@@ -22,7 +22,7 @@ class Chain:
     Arguments:
         definitions: in order, each in terms of those before it.
         slope: the symbol for the derivative of a law's call by its argument of that number.
-        constant: symbols that do not move along a flight, which cost nothing to divide by.
+        constant: symbols that do not move along a trajectory, which cost nothing to divide by.
     """
 
     def __init__(

@@ -21,7 +21,7 @@ LIMIT = sp.Symbol("limit", positive=True)  # what an event compares a law's valu
 
 
 def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = frozenset()) -> tuple[bool, ...]:
-    """Which arguments of a law's function are series along a flight: all that are no groups.
+    """Which arguments of a law's function are series along a trajectory: all that are no groups.
 
     Arguments:
         groups: those of a user's model, beside the library's.
@@ -204,7 +204,7 @@ def _clearance(
     moving: tuple[sp.Symbol, ...],
     still: tuple[sp.Symbol, ...],
 ) -> list[str]:
-    """`limit - value` times the value's positive denominator: the same sign, and no division along a flight."""
+    """`limit - value` times the value's positive denominator: the same sign, and no division along a trajectory."""
     result = each.result
     for symbol, value in reversed(kept):
         result = result.subs(symbol, value)

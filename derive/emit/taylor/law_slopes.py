@@ -56,7 +56,7 @@ def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp
 
 
 def _plain(name: str, each: LawFunction) -> list[str]:
-    """Slopes of a function of what is constant along a flight."""
+    """Slopes of a function of what is constant along a trajectory."""
     chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
     head = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
     lines = []

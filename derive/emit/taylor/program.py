@@ -1,6 +1,6 @@
 """From expressions to elementary operations on Taylor series: one recurrence each, shared parts once.
 
-A series is a symbol that moves along a flight; everything else is constant during it and computed once. The builder
+A series is a symbol that moves along a trajectory; everything else is constant during it and computed once. The builder
 walks a whitelist of sympy nodes, as the CasADi printer does.
 """
 
@@ -103,7 +103,7 @@ class Program:
             self.named[symbol] = expression
 
     def moves(self, expression: sp.Expr) -> bool:
-        """Whether an expression changes along a flight."""
+        """Whether an expression changes along a trajectory."""
         return any(node in self._moving for node in sp.preorder_traversal(expression))
 
     def series(self, expression: sp.Expr, name: str | None = None) -> str:

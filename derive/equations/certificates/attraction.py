@@ -6,7 +6,7 @@ Oblique, with attractions F that fall with the gap, strings or not, midgap arm, 
 2. F falls with the gap, S_n grows with gap and angle: at every gap, from now on, at least
    `hold` = F(x_f) + S_n(contact, beta) - J_max^2/r^3 (in contact) pulls inward, beside lubrication; it must be > 0.
 3. What moves outward now, or rebounds with e_dry of the present approach, is stopped before x_f: its kinetic energy is
-   below hold (x_f - x) (`flight` < 0).
+   below hold (x_f - x) (`escape` < 0).
 4. What falls from X to x gains at most the work of F + max S_n; a reversal leaves e_dry^2 of it, and less than that is
    needed to come back to X: e_dry^2 (F + max S_n) < F + S_n - J_max^2/r^3 at every gap, worst where F is least
    (`rebound` < 0). So no maximum of the gap exceeds the one before.
@@ -85,12 +85,12 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """A stick is proved where `hold` > 0, `flight` < 0 and `rebound` < 0; forces over m v0^2/x0, energy over m v0^2."""
+    """A stick is proved where `hold` > 0, `escape` < 0 and `rebound` < 0; forces over m v0^2/x0, energy over m v0^2."""
     end = rupture_gap if structure.bridge else sp.Integer(1)
     outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
     pulled = LEAST + (LARGEST_PULL if structure.strings else 0)
     return {
         "hold": HOLD,
-        "flight": outward**2 / 2 - HOLD * (end - gap),
+        "escape": outward**2 / 2 - HOLD * (end - gap),
         "rebound": e_dry**2 * pulled - HOLD,
     }

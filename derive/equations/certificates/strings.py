@@ -1,7 +1,7 @@
 """When a doublet on strings is proved to stick: four numbers, and why they suffice.
 
 Per unit mass, midgap arm, strings and a film (no bridge), 0 <= beta <= pi and omega >= 0 (else a cut-off has ended the
-flight as a stick):
+trajectory as a stick):
 
 1. L falls, since the strings pull back (S_t >= 0), and F_t pulls omega and xi together, so J = r^2 omega never exceeds
    J_max, the larger of its present value and the share r_f^2/(r_f^2 + (32/5) a^2) of L that a rigid body has at r_f.

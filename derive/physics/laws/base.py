@@ -15,7 +15,7 @@ Definition = tuple[sp.Symbol, sp.Expr]
 class LawFunction:
     """One function of a law: `definitions` name intermediates, in order, for `result`.
 
-    `for_proof`: only a stick certificate asks for it; a law that lacks it is flown without that certificate.
+    `for_proof`: only a stick certificate asks for it; without it collisions have no such certificate.
     `falls`: it never grows with its first argument (`checks.held` proves it), which a certificate needs to know.
     """
 

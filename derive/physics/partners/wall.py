@@ -4,7 +4,8 @@ r omega becomes the velocity v along the wall, while omega, and with it the cent
 line of centres does not turn, and the motion along it no longer knows of that across it. The wall does not spin.
 
 Nor does the motion across it need equations of its own. Friction is linear in sliding and rolling, and the gap enters
-through one common factor, so the two modes of its matrix stay the same all along the flight: slide and roll are sums
+through one common factor, so the two modes of its matrix stay the same all along the trajectory: slide and roll are
+    sums
 of exp(-decay) and exp(-ratio decay), and the one state is `decay`, the integral of the slower mode's rate. What has
 died away is then an exponential that is zero; it holds no integration, and has the right sign down to the smallest
 double.

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 1ad8bce18d91d08c7f462a8ea21912f5fd40dad3f715ff49eeeed89c34336351 */
+ * Equations sha256 1c95cbf83ebdd2020860f015bdb1aa4fc40f9ccd382438e3a362b4f5bac5e83a */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 76ccc66b98e94149296a7288db9e39959d01d019875df3d951caf158dc6cf689 */
+ * Equations sha256 f81521baa26f1f12ef2324a9040939cbc8d07a6918b66c84c73e8ccd0ce9c2db */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6040cb6b6d0eef607e55ac8e8534fbc2c5758054c22d4d79031f9b61ca6f5607 */
+ * Equations sha256 3be2eedebad9ce2417cb91d2799cdde57c49985125b3aaa88421fe88718c7368 */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *

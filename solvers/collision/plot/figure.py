@@ -62,12 +62,12 @@ def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     if collision.scene.wall and collision.angle:
         text += "\nBeside a wall no line of centres turns (ω = 0): the sphere slides and rolls along it."
     if collision.contact_time == 0 or collision.until == 0:
-        text += "\nThe outcome is certain at initial contact: there is no flight to follow."
+        text += "\nThe outcome is certain at initial contact: there is no trajectory to follow."
     elif pictures[-1].free:
         strings = ", strings left out" if collision.scene.pendulum is not None else ""
         text += f"\nLast picture: drawn on after rupture along straight lines{strings}."
     elif collision.certified:
-        text += "\nThe outcome is certain from the last picture on: the flight was not followed further."
+        text += "\nThe outcome is certain from the last picture on: the trajectory was not followed further."
     return text
 
 

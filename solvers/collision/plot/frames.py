@@ -12,7 +12,7 @@ from ...errors import InputError
 from ...scene.scene import Scene
 from ..outcome import Outcome
 
-_FLOWN = 5  # frames of a flight that shows something; else 3
+_MOVING = 5  # frames of a trajectory that shows something; else 3
 _APART = 0.8  # of R: how much further apart the last frame of a separated pair is
 
 Vector = tuple[float, float]
@@ -83,13 +83,13 @@ class Frame:
 
 def frames(collision: Outcome) -> list[Frame]:
     """Return instants equally spaced in time from initial contact on, and for a separated pair one after rupture."""
-    flight = _Flight.of(collision)
-    still = np.ptp(flight.rotation) < math.radians(20) and np.ptp(flight.gap) < 0.2 * flight.first.radius
-    instants = np.linspace(0.0, flight.time[-1], 3 if still else _FLOWN + (collision.outcome == "stick"))
-    found = [flight.at(instant) for instant in (instants if flight.time[-1] > 0 else [0.0])]
-    found[0] = replace(found[0], relative=flight.approach)
-    if collision.outcome != "stick" and any(flight.parting):
-        found += [flight.apart(_wait(flight.last, *flight.parting))]
+    trajectory = _Trajectory.of(collision)
+    still = np.ptp(trajectory.rotation) < math.radians(20) and np.ptp(trajectory.gap) < 0.2 * trajectory.first.radius
+    instants = np.linspace(0.0, trajectory.time[-1], 3 if still else _MOVING + (collision.outcome == "stick"))
+    found = [trajectory.at(instant) for instant in (instants if trajectory.time[-1] > 0 else [0.0])]
+    found[0] = replace(found[0], relative=trajectory.approach)
+    if collision.outcome != "stick" and any(trajectory.parting):
+        found += [trajectory.apart(_wait(trajectory.last, *trajectory.parting))]
     return found
 
 
@@ -98,19 +98,19 @@ def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
 
     A stick has no instants after its end.
     """
-    flight, found = _Flight.of(collision), []
+    trajectory, found = _Trajectory.of(collision), []
     for instant in instants:
         if instant < 0:
-            found.append(flight.before(instant))
-        elif instant <= flight.time[-1]:
-            found.append(flight.at(instant))
+            found.append(trajectory.before(instant))
+        elif instant <= trajectory.time[-1]:
+            found.append(trajectory.at(instant))
         elif collision.outcome != "stick":
-            found.append(flight.apart(instant - flight.time[-1]))
+            found.append(trajectory.apart(instant - trajectory.time[-1]))
     return found
 
 
 @dataclass(frozen=True)
-class _Flight:
+class _Trajectory:
     """A trajectory, to be read at any instant."""
 
     time: np.ndarray
@@ -124,7 +124,7 @@ class _Flight:
     spins: tuple[float, float]  # at the end
 
     @classmethod
-    def of(cls, collision: Outcome) -> _Flight:
+    def of(cls, collision: Outcome) -> _Trajectory:
         data = collision.trajectory
         if data is None:
             raise InputError("trajectory", None, "trajectory=True in collide()", "is missing from the collision")

@@ -1,6 +1,7 @@
 """Gap, velocity and rotation of a collision over time.
 
-The approach takes a small part of a flight that rotates before it separates. Where it does, it has a column of its own.
+The approach takes a small part of a trajectory that rotates before it separates. Where it does, it has a column of its
+own.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from .frames import Frame
 from .strip import INK
 
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#6E6E6E"  # Okabe-Ito
-_ZOOM = 5.0  # the approach has a column of its own if the flight is longer than this many of it
+_ZOOM = 5.0  # the approach has a column of its own if the trajectory is longer than this many of it
 _NEXT = 2.6  # ... which reaches up to the next event, if that comes within this many of it
 _DECADE = 10.0  # gaps that span more are drawn on a logarithmic axis
 _LETTER = 0.078  # inches of width per character of an event's label
@@ -61,7 +62,7 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
     duration, zoom = float(time[-1]), _zoom(collision, float(time[-1]))
     grid = place.subgridspec(rows, 2 if zoom else 1, width_ratios=[1, 1.7] if zoom else [1])
     panels = [[figure.add_subplot(grid[row, column]) for row in range(rows)] for column in range(grid.ncols)]
-    whole = Column(0.0, duration, "whole flight" if zoom else "", panels[-1], 5.0 if zoom else 8.0, zoom or 0.0)
+    whole = Column(0.0, duration, "whole trajectory" if zoom else "", panels[-1], 5.0 if zoom else 8.0, zoom or 0.0)
     columns = [Column(0.0, zoom, "approach", panels[0], 2.9), whole] if zoom else [whole]
     for column in columns:
         _fill(column, collision, rows, last=column is whole)
@@ -76,7 +77,7 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
 
 
 def _zoom(collision: Outcome, duration: float) -> float | None:
-    """Where the approach's own column ends, s; None if the flight is no longer than it shows."""
+    """Where the approach's own column ends, s; None if the trajectory is no longer than it shows."""
     times = [event.time for event in collision.events if event.time > 0]
     if not times or duration < _ZOOM * times[0]:
         return None

@@ -34,7 +34,7 @@ from ...model.phases import Flow, Phase, WatchedEvents
 from ...settings import CALL, STEPS
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance
 
-FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a flight is given up after 16 * 8^21 of them
+FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is given up after 16 * 8^21 of them
 _NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # times a tolerance that an integrator cannot meet
@@ -44,10 +44,10 @@ _GAP, _VELOCITY = 0, 1  # places in the state
 
 @dataclass(frozen=True)
 class PhaseRun:
-    """One phase flown for a duration (x0/v0) to an event, and what is reported of it.
+    """One phase integrated for a duration (x0/v0) to an event, and what is reported of it.
 
     Arguments:
-        event: name of the event function to land on; None if the flight stops inside the phase.
+        event: name of the event function to land on; None if the trajectory stops inside the phase.
         kinds: events reported at its end, in order.
         reverses: the solids reverse the motion at its end.
         holds: the normal velocity is zero from here on, or until release.
@@ -63,7 +63,7 @@ class PhaseRun:
 
 @dataclass
 class EventSequence:
-    """The located flight of a collision."""
+    """The located trajectory of a collision."""
 
     model: Model
     p: np.ndarray
@@ -138,7 +138,7 @@ class EventLocator:
             criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
             if criterion:
                 self._reverse(criterion, 0.0)
-            elif self._fly():
+            elif self._run_phase():
                 return self.path
             if self.path.separated:
                 return self.path
@@ -175,13 +175,13 @@ class EventLocator:
         values = self.model.values("events", self.y, self.p)
         return next((kind for kind in CRITERIA if values[kind] <= 0), None)
 
-    def _proved(self, flown: float) -> bool:
+    def _proved(self, elapsed: float) -> bool:
         """Whether a stick is decided where a phase has come to, which ends the collision."""
         if at_maximum(self.y, self.phase):
             self._maxima.append(self.y)
         certainty = self.proof.decided(self.y, self.phase, self._maxima)
         if certainty:
-            self._stop(PhaseRun(self.phase, flown, None, ()))
+            self._stop(PhaseRun(self.phase, elapsed, None, ()))
             self.path.certified = certainty is Certainty.PROVED
         return bool(certainty)
 
@@ -195,28 +195,28 @@ class EventLocator:
     def _flow(self) -> Flow:
         return Flow(self.model.choice, self.phase.region, self.extras)
 
-    def _fly(self) -> bool:
-        """Integrate to the next event and act on it; True if the flight is over."""
+    def _run_phase(self) -> bool:
+        """Integrate to the next event and act on it; True if the trajectory is over."""
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
-        flown, stretch = 0.0, self._first_stretch()
+        elapsed, stretch = 0.0, self._first_stretch()
         for _ in range(STRETCHES):
             level = self._level()
             stop = self._advance(find, stretch, -np.inf if level is None else level)
-            flown += stop.time
+            elapsed += stop.time
             self.path.time += stop.time
             self.y = self.path.y = stop.y
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event == "certified":
-                if self._proved(flown):
+                if self._proved(elapsed):
                     return True
             elif stop.event is not None:
-                return self._act(EVENT_OF[stop.event], flown)
-            elif self._proved(flown):
+                return self._act(EVENT_OF[stop.event], elapsed)
+            elif self._proved(elapsed):
                 return True
             else:
                 stretch *= GROWTH
         raise self._error(
-            f"no event within {flown:.3g} x0/v0",
+            f"no event within {elapsed:.3g} x0/v0",
             "it is within its tolerance of a boundary or creeps beyond bounds: try a smaller --rtol, or another impact",
         )
 
@@ -241,7 +241,7 @@ class EventLocator:
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _loosened(self) -> bool:
-        """Go on with a looser tolerance, where it had been tightened for the start of a grazing flight.
+        """Go on with a looser tolerance, where it had been tightened for the start of a grazing trajectory.
 
         Later the states may be so large that the tightened tolerance is below their rounding error.
         """
@@ -268,11 +268,11 @@ class EventLocator:
 
     def _refined(self, find: Locator, stop: EventHit, event: str, level: float) -> EventHit:
         """The crossing before a stop at which `event` is below zero: bisection with secant steps on a plain flow."""
-        fly = plain(self._flow(), "rosenbrock", self.tolerance)
+        integrate = plain(self._flow(), "rosenbrock", self.tolerance)
 
         def value(duration: float) -> tuple[float, np.ndarray]:
-            y = fly(self.y, self.p, duration)
-            self._spend(fly.steps)
+            y = integrate(self.y, self.p, duration)
+            self._spend(integrate.steps)
             return find.value(event, y, self.p, self.phase.motion, level), y
 
         before, after, y_after = 0.0, stop.time, stop.y
@@ -290,16 +290,16 @@ class EventLocator:
                 break
         return EventHit(event, after, y_after, False)
 
-    def _act(self, event: Event, flown: float) -> bool:
+    def _act(self, event: Event, elapsed: float) -> bool:
         """The effect of an event; True if it ends the collision."""
         before, phase = self.phase, self.phase
         word = self._word(event)
         for action in event.actions:
             if action == "reverse":
-                self._reverse(word, flown, event.name)
+                self._reverse(word, elapsed, event.name)
                 return False
             phase = self._done(action, phase)
-        self._next(PhaseRun(before, flown, event.name, (word,)), phase)
+        self._next(PhaseRun(before, elapsed, event.name, (word,)), phase)
         return event.actions[-1] in ENDS
 
     def _word(self, event: Event) -> str:
@@ -349,7 +349,7 @@ class EventLocator:
         self._stop(step)
         self.phase = phase
 
-    def _reverse(self, kind: str, flown: float, event: str | None = None) -> None:
+    def _reverse(self, kind: str, elapsed: float, event: str | None = None) -> None:
         """Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left.
 
         What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
@@ -361,7 +361,7 @@ class EventLocator:
         if self.y[0] >= self.rupture_gap:
             self.path.separated = True
             kinds += (KINDS[EventKind.RUPTURE],)
-            self._next(PhaseRun(self.phase, flown, event, kinds, reverses=True), self._opening(self.phase))
+            self._next(PhaseRun(self.phase, elapsed, event, kinds, reverses=True), self._opening(self.phase))
             return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
         holds = inward > 0 and self._too_weak(after["normal_velocity"], inward)
@@ -372,7 +372,7 @@ class EventLocator:
             phase = self.phase.with_(resting=True, motion=OPENING)
         else:
             phase = self._opening(self.phase)
-        self._next(PhaseRun(self.phase, flown, event, kinds, reverses=True, holds=holds), phase)
+        self._next(PhaseRun(self.phase, elapsed, event, kinds, reverses=True, holds=holds), phase)
 
     def _opening(self, phase: Phase) -> Phase:
         """The phase that opens from here; from initial contact, beyond the film at once."""

@@ -1,4 +1,4 @@
-"""Fly a located path again with the engine asked for: smooth flows over known durations, each landed on its event.
+"""Integrate located phases again with the chosen engine: smooth flows over known durations, each landed on its event.
 
 The path says which phases and events there are; the engine's own solution meets each event at a slightly different
 time, which the landing step corrects. So events, and later their derivatives, are the engine's own.
@@ -19,7 +19,7 @@ from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import EventSequence, PhaseRun
 
-_LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without flying again
+_LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without integrating again
 _MISSES = 1e-13  # of its scale: what an event's function may be off after the step
 _RISES = 1e-9  # of its scale over the phase: an event's function falls where it is met, but for rounding at a graze
 _TRIES = 8
@@ -27,7 +27,7 @@ _ROUNDING = 1e-15  # of a gap or speed of order 1: times and event functions bel
 
 
 class Stopped(Exception):
-    """The engine could not fly a phase: `why`, in which step, at what time (x0/v0) and state.
+    """The engine could not integrate a phase: `why`, in which step, at what time (x0/v0) and state.
 
     `missed`: its solution misses the located event, so a tighter tolerance may help.
     """
@@ -39,7 +39,7 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Piece:
-    """A flown phase: its name and flow, state at its start, start time and duration (x0/v0)."""
+    """An integrated phase: its name and flow, state at its start, start time and duration (x0/v0)."""
 
     name: str
     flow: Flow
@@ -49,8 +49,8 @@ class Piece:
 
 
 @dataclass
-class Flown:
-    """A path as one engine flew it; states carry the extras, times are in x0/v0."""
+class Replay:
+    """A path as one engine integrated it; states carry the extras, times are in x0/v0."""
 
     y: np.ndarray
     extras: tuple[str, ...] = ()
@@ -67,11 +67,11 @@ class Flown:
         return float(self.y[len(self.y) - len(self.extras) + self.extras.index(name)]) - self.offset
 
 
-def fly(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Flown:
-    """Fly `path` with an integrator plugin.
+def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Replay:
+    """Integrate `path` with an integrator plugin.
 
     Arguments:
-        kind: the model to fly and its extras (the regions come from the path).
+        kind: the model to integrate and its extras (the regions come from the path).
         start: state at initial contact.
 
     Raises:
@@ -81,59 +81,59 @@ def fly(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, star
     known = dict(zip(path.model.groups, path.p, strict=True))
     p = model.group_values(known)
     start = np.concatenate([start, np.full(len(kind.extras), tolerance.offset)])
-    flown = Flown(start, kind.extras, tolerance.offset)
+    replayed = Replay(start, kind.extras, tolerance.offset)
     size = len(model.state)
     for step in path.steps:
         flow = Flow(kind.choice, step.phase.region, kind.extras)
         if step.duration > 0:
             engine = plain(flow, plugin, tolerance)
-            before = flown.y
-            duration, flown.y = _flight(engine, flow, path.watch, step, flown, p)
-            flown.pieces.append(Piece(str(step.phase), flow, before, flown.time, duration))
-            flown.time += duration
-        flown.events += [(kind, flown.time) for kind in step.kinds]
-        flown.smallest_gap = min(flown.smallest_gap, float(flown.y[0]))
+            before = replayed.y
+            duration, replayed.y = _integrate_onto_event(engine, flow, path.watch, step, replayed, p)
+            replayed.pieces.append(Piece(str(step.phase), flow, before, replayed.time, duration))
+            replayed.time += duration
+        replayed.events += [(kind, replayed.time) for kind in step.kinds]
+        replayed.smallest_gap = min(replayed.smallest_gap, float(replayed.y[0]))
         if step.reverses:
-            flown.dry_loss += model.values("reversal_loss", flown.y, p)["dry_contact"]
-            after = model.values("reversal", flown.y, p)
-            flown.y = np.concatenate([list(after.values()), flown.y[size:]])
+            replayed.dry_loss += model.values("reversal_loss", replayed.y, p)["dry_contact"]
+            after = model.values("reversal", replayed.y, p)
+            replayed.y = np.concatenate([list(after.values()), replayed.y[size:]])
         if step.holds:  # chatter takes what is left of the rebound
-            flown.dry_loss += float(flown.y[1]) ** 2 / 2
-            flown.y[1] = 0.0
-    return flown
+            replayed.dry_loss += float(replayed.y[1]) ** 2 / 2
+            replayed.y[1] = 0.0
+    return replayed
 
 
-def as_located(path: EventSequence, choice: ModelKey) -> Flown:
-    """The located flight itself, its extras integrated along: one solution, which cannot miss its own events."""
+def as_located(path: EventSequence, choice: ModelKey) -> Replay:
+    """The located trajectory itself, its extras integrated along: one solution, which cannot miss its own events."""
     start = path.model.start(path.p)
     begun = np.concatenate([start, np.zeros(len(path.extras))])
-    flown = Flown(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
+    replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
     for step, end in zip(path.steps, path.ends, strict=True):
         if step.duration > 0:
             flow = Flow(choice, step.phase.region, path.extras)
-            flown.pieces.append(Piece(str(step.phase), flow, begun, flown.time, step.duration))
-            flown.time += step.duration
-        flown.events += [(kind, flown.time) for kind in step.kinds]
+            replayed.pieces.append(Piece(str(step.phase), flow, begun, replayed.time, step.duration))
+            replayed.time += step.duration
+        replayed.events += [(kind, replayed.time) for kind in step.kinds]
         begun = end
-    return flown
+    return replayed
 
 
-def _flight(
-    engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, flown: Flown, p: np.ndarray
+def _integrate_onto_event(
+    engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, replayed: Replay, p: np.ndarray
 ) -> tuple[float, np.ndarray]:
     """Duration and end of one phase, on the event's surface."""
 
-    def flight(duration: float) -> np.ndarray:
+    def integrate(duration: float) -> np.ndarray:
         try:
-            y = engine(flown.y, p, duration)
+            y = engine(replayed.y, p, duration)
         except IntegrationFailed as failure:
-            raise Stopped(f"gave up ({failure})", step, flown.time, flown.y) from None
-        flown.steps += engine.steps
-        if flown.steps > STEPS:
-            raise Stopped(f"has not got through in {STEPS} steps", step, flown.time, flown.y)
+            raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
+        replayed.steps += engine.steps
+        if replayed.steps > STEPS:
+            raise Stopped(f"has not got through in {STEPS} steps", step, replayed.time, replayed.y)
         return y
 
-    y = flight(step.duration)
+    y = integrate(step.duration)
     if step.event is None:
         return step.duration, y
     watched = WatchedEvents(tangential_edge=watch.tangential_edge)
@@ -158,9 +158,9 @@ def _flight(
             break  # beside a saddle every step is amplified, and they go to and fro
         nearer = abs(shift)
         duration += shift
-        y = flight(duration)
+        y = integrate(duration)
     missed = f"does not meet the event {step.event}: the collision lies within its error of a boundary"
-    raise Stopped(missed, step, flown.time + duration, y, missed=True)
+    raise Stopped(missed, step, replayed.time + duration, y, missed=True)
 
 
 @own_cache(512)

@@ -1,4 +1,4 @@
-"""A flight as an xarray Dataset: gap, velocities, rates and angle over time, with units."""
+"""A trajectory as an xarray Dataset: gap, velocities, rates and angle over time, with units."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ...model.dimensionless import DimensionlessGroups
 from ...model.model import Model
 from ...scene.scene import Scene
 from .integrators import IntegrationFailed, Tolerance, plain
-from .replay import Flown, Piece
+from .replay import Piece, Replay
 
 # Per phase, crowded towards its ends, where the fast transients are; the integrator's steps do not depend on them.
 _POINTS = 64
@@ -33,10 +33,10 @@ _VARIABLES: dict[str, tuple[str, str]] = {
 
 
 def attributes(scene: Scene, outcome: str, engine: str, rtol: float) -> dict[str, str | float]:
-    """What a file of the flight has to say of where it comes from: enough to compute it again."""
+    """What a file of the trajectory has to say of where it comes from: enough to compute it again."""
     release = version("wetdoublet")
     return {
-        "title": f"Flight of an oblique wet collision: {scene.name or 'unnamed scene'}",
+        "title": f"Trajectory of an oblique wet collision: {scene.name or 'unnamed scene'}",
         "source": f"wetdoublet {release}",
         "scene": scene.to_toml(),
         "outcome": outcome,
@@ -52,7 +52,7 @@ Sample = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray | None]]
 
 @dataclass(frozen=True)
 class Stretch:
-    """A flown phase: its name, start and duration (x0/v0), and its states."""
+    """An integrated phase: its name, start and duration (x0/v0), and its states."""
 
     name: str
     time: float
@@ -60,15 +60,15 @@ class Stretch:
     sample: Sample
 
 
-def stretch(piece: Piece, model: Model, flown: Flown, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
-    """A piece of a chain, which is flown again through the times asked for; ComputationError where that fails."""
-    size, names = len(model.state), (*model.state, *flown.extras)
-    offset = flown.offset if "rotation" in flown.extras else 0.0
+def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
+    """A piece of a chain, which is integrated again through the times asked for; ComputationError where that fails."""
+    size, names = len(model.state), (*model.state, *replayed.extras)
+    offset = replayed.offset if "rotation" in replayed.extras else 0.0
 
     def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         try:
             inside = plain(piece.flow, plugin, tolerance, tuple(parts[1:]))(piece.start, p, piece.duration)
-        except IntegrationFailed as failure:  # the located flight, by smaller steps, may have got through
+        except IntegrationFailed as failure:  # the located trajectory, by smaller steps, may have got through
             state = dict(zip(model.state, piece.start.tolist(), strict=False))
             message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
             raise ComputationError(message, piece.name, piece.time, state, advice) from None
@@ -79,13 +79,13 @@ def stretch(piece: Piece, model: Model, flown: Flown, p: np.ndarray, plugin: str
 
 
 def dataset(
-    flight: Sequence[Stretch],
+    stretches: Sequence[Stretch],
     model: Model,
     n: DimensionlessGroups,
     first: np.ndarray,
     attrs: Mapping[str, str | float] | None = None,
 ) -> xr.Dataset:
-    """A flight on a grid of _POINTS per phase; an event's time stands twice, before and after it.
+    """A trajectory on a grid of _POINTS per phase; an event's time stands twice, before and after it.
 
     Arguments:
         first: the state at initial contact, shown alone where all is decided there.
@@ -95,7 +95,7 @@ def dataset(
     columns: list[np.ndarray] = []
     angles: list[np.ndarray] = []
     phases: list[str] = []
-    for one in flight:
+    for one in stretches:
         states, angle = one.sample(_GRID)
         times.append(one.time + one.duration * _GRID)
         columns.append(states)

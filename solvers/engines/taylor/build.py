@@ -55,7 +55,7 @@ class Variant:
         rotation: the angle turned is integrated along where it is no state.
         own_rupture: the bridge ruptures where its own law says.
         gradients: derivatives by the groups are carried along.
-        backward: those of the restitution alone are taken back along the flight instead.
+        backward: those of the restitution alone are taken back along the trajectory instead.
         few: few collisions will be asked of it: compiled sooner.
         ledger: what the forces take is integrated along; the structure must keep the spin.
         trajectory: every step is written as it was taken.

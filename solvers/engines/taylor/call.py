@@ -42,7 +42,7 @@ class Impacts:
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
 
-Fly = Callable[[Impacts, np.ndarray], None]
+RunKernel = Callable[[Impacts, np.ndarray], None]
 
 
 def order_for(rtol: float) -> int:
@@ -72,7 +72,7 @@ def run_kernel(
     Arguments:
         rotation: also the angle turned.
         budget: steps after which a collision is handed over.
-        few: by a kernel that is compiled sooner and flies a little slower.
+        few: by a kernel that is compiled sooner and integrates a little slower.
     """
     found = np.zeros(impacts.angle.size, ANSWER)
     turns = impacts.angle > 0
@@ -85,8 +85,10 @@ def run_kernel(
     return found
 
 
-def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fly: Fly | None, threads: int) -> bool:
-    if fly is None:
+def _fill(
+    found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, run: RunKernel | None, threads: int
+) -> bool:
+    if run is None:
         return False
     whole = count == found.size  # then nothing is copied
     which = those if whole else np.flatnonzero(those)
@@ -95,7 +97,7 @@ def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fl
         last = min(first + _CHUNK, count)
         part = slice(first, last) if whole else which[first:last]
         made = found[first:last] if whole else np.zeros(last - first, ANSWER)
-        fly(impacts.part(part), made)
+        run(impacts.part(part), made)
         if not whole:
             found[part] = made
 
@@ -109,7 +111,7 @@ def _fill(found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, fl
     return True
 
 
-def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> Fly | None:
+def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> RunKernel | None:
     """The kernel of these impacts; None if there is none here."""
     scene = those.scene
     if not supported(scene):
@@ -118,10 +120,10 @@ def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: i
     library = kernel(variant(scene, choice, rtol, rotation, few=few))
     if library is None:
         return None
-    fly = bind_kernel(library, rtol, budget)
+    run = bind_kernel(library, rtol, budget)
 
     def decided(impacts: Impacts, made: np.ndarray) -> None:
-        fly(impacts, made)
+        run(impacts, made)
         if not impacts.others:
             decide(made, scene, impacts.speed, impacts.angle, choice, rtol)
 
@@ -145,10 +147,10 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
     return asked
 
 
-def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int) -> Fly:
+def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int) -> RunKernel:
     """A kernel as a function of impacts that fit it, and answers to be filled (zeros of ANSWER)."""
 
-    def fly(impacts: Impacts, made: np.ndarray) -> None:
+    def run(impacts: Impacts, made: np.ndarray) -> None:
         task(library, impacts, rtol, budget, made).run()
 
-    return fly
+    return run

@@ -51,10 +51,10 @@ NEARNESS = np.dtype([("least", "f8"), ("boundary", "f8"), ("hint", "f8")], align
 TASK = np.dtype(
     [
         ("count", "i8"),
-        ("budget", "i8"),  # steps of a flight
+        ("budget", "i8"),  # steps of a trajectory
         ("purpose", "i8"),  # kernels with a trajectory heed it
         ("asked", "i8"),  # groups whose derivatives are carried, as bits
-        ("steps", "i8"),  # comes back: of all flights, those that found no row as well
+        ("steps", "i8"),  # comes back: of all trajectories, those that found no row as well
         ("rtol", "f8"),
         ("quantities", BUFFER),  # a BUFFER for each of `quantity_names`: `count` doubles in SI, or one for all
         ("answers", BUFFER),  # of ANSWER
@@ -69,7 +69,7 @@ TASK = np.dtype(
     align=True,
 )
 RESULTS = 8  # that are differentiated: those shown, then time, smallest gap, angle turned
-MOST_STEPS = 300  # of a flight whose derivatives are taken back
+MOST_STEPS = 300  # of a trajectory whose derivatives are taken back
 _STRUCTURES = {"buffer": BUFFER, "answer": ANSWER, "happening": HAPPENING, "ledger": LEDGER, "nearness": NEARNESS}
 _C_TYPES = {"f8": "double", "i8": "int64_t", "i4": "int32_t"}
 

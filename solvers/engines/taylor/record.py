@@ -1,4 +1,4 @@
-"""Flights by the kernel with everything that was asked for written down: events, ledger, the steps' polynomials."""
+"""Trajectories by the kernel with their events, ledger and the polynomials of every step, where they are asked for."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ROOM = 64, 256  # events and steps of a collision
 
 @dataclass(frozen=True)
 class Steps:
-    """Steps of flights, a row each, in order of time within a collision.
+    """Steps of trajectories, a row each, in order of time within a collision.
 
     Attributes:
         rows: time and length (x0/v0), collision, phase (counted from 0), closing, resting, film, and the series: states
@@ -42,7 +42,7 @@ class Steps:
         return (self.rows["time"][:, None] + since).ravel(), states.reshape(states.shape[0], since.size)
 
     def states(self, times: np.ndarray) -> np.ndarray:
-        """States (a row each) of one collision at times (x0/v0) within its flight, from the step that holds them."""
+        """States (a row each) of one collision at times (x0/v0) within its trajectory, from the step around each."""
         at = np.searchsorted(self.rows["time"], times, side="right") - 1
         at = np.clip(at, 0, self.rows.size - 1)
         series, since = self.rows["series"][at], times - self.rows["time"][at]
@@ -54,7 +54,7 @@ class Steps:
 
 @dataclass(frozen=True)
 class Recorded:
-    """Flights: an ANSWER each, its events (the first `events` of a row), its LEDGER, the steps of all, and the largest
+    """Trajectories: an ANSWER each, its events (the first `events` of a row), its LEDGER, all steps, and the largest
     margin of the glass criterion while closing (a logarithm; -inf where none is known).
     """
 
@@ -79,17 +79,18 @@ def run_recorded(
     events: bool = True,
     room: tuple[int, int] = _ROOM,
 ) -> Recorded | None:
-    """Fly impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
+    """Integrate impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
 
     Arguments:
         ledger: also the energy ledger; the spin is then a state of its own.
         trajectory: also every step.
         purpose: other than WHOLE only with a trajectory.
         fold: a partner that equals the sphere is treated as such.
-        keep: the steps; else the same kernel flies without writing them down.
+        keep: the steps; else the same kernel integrates without writing them down.
         events: also what happened when; else answers only count it.
         peaks: also the largest margin of the glass criterion; only with a trajectory.
-        room: events and steps of a collision that there is room for; where that is not enough, all are flown again.
+        room: events and steps of a collision that there is room for; where that is not enough, all are integrated
+            again.
     """
     if not supported(impacts.scene):
         return None

@@ -19,7 +19,7 @@ from .headers import headers, tangents
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
-CHATTERS = 5  # the boundary of a flight that rested on the solids
+CHATTERS = 5  # the boundary of a trajectory that rested on the solids
 DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
     6: ("tie of roughness and elastic length", "particles.roughness"),
     7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
@@ -64,8 +64,8 @@ def run_tangent(
     Arguments:
         moved: quantities that are differentiated by; None: all.
         order: of the series; None: the cheapest for the tolerance.
-        backward: of the restitution alone, taken back along the flight: for the price of one direction. Flights of more
-            than some hundred steps are handed over.
+        backward: of the restitution alone, taken back along the trajectory: for the price of one direction.
+            Trajectories of more than some hundred steps are handed over.
     """
     library = _library(impacts.scene, oblique, order or order_for(min(rtol, LOOSEST)), rotation, backward)
     if library is None:

@@ -31,6 +31,6 @@ def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
 
 
 def answer(path: EventSequence) -> Answer:
-    """What a located flight came to."""
+    """What a located trajectory came to."""
     outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
     return Answer(path.outcome, outputs.get("restitution", 0.0))

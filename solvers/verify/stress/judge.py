@@ -24,8 +24,8 @@ from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
 from .answers import Impact, answer, dimensionless
-from .flights import Flights
-from .scipy_engine import Flight
+from .located import LocatedTrajectories
+from .scipy_engine import ScipyLocator
 from .verdict import CHATTER, FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
 SHARE = 1e3  # an engine's error is taken to stay below so many rtol, times the conditioning
@@ -34,9 +34,9 @@ OPEN = 1e-5  # of the ledger's largest term, beyond which it is open
 DRIFT = 1e-6
 PATIENCE, GIVEN_UP = 0.5, "given up"  # s of CPU time for scipy's method
 _STEP = 1e-6  # relative, in St, over which the conditioning is measured
-_AUDIT = 100  # phases and stretches that a certified stick is flown on for
+_AUDIT = 100  # phases and stretches that a certified stick is continued for
 PEER = "LSODA"  # what it cannot do is no failure of ours
-_FLIGHTS = Flights()
+_LOCATED = LocatedTrajectories()
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
 
 
@@ -50,16 +50,16 @@ def fast(scene: Scene, rtol: float) -> Found:
 
 
 def fast_kernel(scene: Scene) -> Variant:
-    """The kernel that `fast` flies a scene with."""
+    """The kernel of a scene."""
     return variant(scene, select_model(scene, bool(scene.angle), fold=True), RTOL, rotation=False, few=True)
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
     """As by `collide` with its ledger; located once for both engines, each charged with what that takes."""
     n = dimensionless(scene, Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0)))
-    spared = _FLIGHTS.spared
-    one = by_casadi(scene, n, rtol, plugin, True, False, _FLIGHTS.find)
-    spared = _FLIGHTS.spared - spared
+    spared = _LOCATED.spared
+    one = by_casadi(scene, n, rtol, plugin, True, False, _LOCATED.find)
+    spared = _LOCATED.spared - spared
     more: dict[str, float] = {}
     if one.energy is not None:
         terms = one.energy.to_dict()
@@ -69,8 +69,8 @@ def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
     return Found(one.outcome, one.restitution, one.certified, cpu=spared, more=more)
 
 
-class Limited(Flight):
-    """A flight by scipy that is given up when it has taken PATIENCE."""
+class Limited(ScipyLocator):
+    """A trajectory by scipy that is given up when it has taken PATIENCE."""
 
     def _integrated(self, rates: Any, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
         if not hasattr(self, "_until"):
@@ -116,7 +116,7 @@ def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
     """
     from .lines import judge_lines
 
-    _FLIGHTS.forget()
+    _LOCATED.forget()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # counted, and said once for all cases
         verdict = judge_lines(case) if case.angles else _judged(case, runs() if engines is None else engines)
@@ -170,7 +170,7 @@ def _timed(run: Run, scene: Scene, rtol: float) -> Found:
 def _physical(failure: str, engine: str, case: Case) -> str:
     """The physical reason of a failure; empty if it has none. The engine under test has to pass every boundary."""
     if engine != FAST and case.distance is not None and case.distance <= SHARE * RTOL:
-        return f"within {SHARE * RTOL:.0e} of a boundary, where the flight passes a saddle or a graze"
+        return f"within {SHARE * RTOL:.0e} of a boundary, where the trajectory passes a saddle or a graze"
     return physical_reason(failure)
 
 
@@ -240,7 +240,7 @@ def _ledger(name: str, each: Found, case: Case) -> list[Issue]:
 
 
 class Audit(NoProof):
-    """No certificate: a flight is followed until nothing happens any more, or for long."""
+    """No certificate: a trajectory is followed until nothing happens any more, or for long."""
 
     def __init__(self) -> None:
         self._phase: Phase | None = None
@@ -253,20 +253,20 @@ class Audit(NoProof):
 
 
 def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
-    """A certified stick flown on without its certificate, from where it was proved: it must not separate.
+    """A certified stick continued without its certificate, from where it was proved: it must not separate.
 
-    A flight that does not get there has another outcome, which its error beside a boundary may explain.
+    A trajectory that does not get there has another outcome, which its error beside a boundary may explain.
     """
     n = dimensionless(case.scene, Impact(float(case.scene.stokes or 0.0), float(case.scene.angle or 0.0)))
     try:
-        flight: Any = _FLIGHTS.handed_out(load(select_model(case.scene, n.oblique, fold=True)), n.groups, RTOL)
-        proved = flight.path.certified
-        flight.proof = Audit()
-        flight.watch = replace(flight.watch, certificate=None)
-        path = flight.run() if proved else flight.path
+        locator: Any = _LOCATED.handed_out(load(select_model(case.scene, n.oblique, fold=True)), n.groups, RTOL)
+        proved = locator.path.certified
+        locator.proof = Audit()
+        locator.watch = replace(locator.watch, certificate=None)
+        path = locator.run() if proved else locator.path
     except ComputationError:
         return []  # it went on until the integrator gave up
     if not path.separated:
         return []
-    said = f"certified by {first}, but flown on it ends as {path.outcome}"
+    said = f"certified by {first}, but continued it ends as {path.outcome}"
     return [Issue("certificate", (first,), said, "" if proved else _beside(case, engines, first, first))]

@@ -20,7 +20,7 @@ from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
 
 IMPLICIT = ("LSODA", "Radau")  # methods that take a Jacobian
-_SPANS = (1e4, 1e8, 1e16)  # x0/v0: a flight is given up after their sum
+_SPANS = (1e4, 1e8, 1e16)  # x0/v0: a trajectory is given up after their sum
 _TIGHTEST = 2.3e-14  # relative tolerance that scipy takes without a warning
 _UNREACHABLE = -1e30  # a level of energy
 
@@ -46,7 +46,7 @@ class _Table:
         return value
 
 
-class Flight(EventLocator):
+class ScipyLocator(EventLocator):
     """A collision by one of scipy's methods; rules, phases and proofs are those of our own engines.
 
     Arguments:
@@ -59,21 +59,21 @@ class Flight(EventLocator):
         told = tolerance(rtol, "rosenbrock", groups)
         self.options: dict[str, Any] = {"method": method, "rtol": max(told.relative, _TIGHTEST), "atol": told.absolute}
 
-    def _fly(self) -> bool:
+    def _run_phase(self) -> bool:
         """As `EventLocator._fly`, with one long call where that goes by stretches."""
-        found, flown = equations(self._flow(), self.watch), 0.0
+        found, elapsed = equations(self._flow(), self.watch), 0.0
         for span in _SPANS:
             level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
             stop = self._solved(found, span, _UNREACHABLE if level is None else level)
-            flown += stop.time
+            elapsed += stop.time
             self.path.time += stop.time
             self.y = self.path.y = stop.y
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event is not None and stop.event != "certified":
-                return self._act(EVENT_OF[stop.event], flown)
-            if self._proved(flown):
+                return self._act(EVENT_OF[stop.event], elapsed)
+            if self._proved(elapsed):
                 return True
-        raise self._error(f"no event within {flown:.3g} x0/v0", "try a smaller rtol")
+        raise self._error(f"no event within {elapsed:.3g} x0/v0", "try a smaller rtol")
 
     def _solved(self, found: Equations, span: float, level: float) -> EventHit:
         """Integrate to the first event, or to the end of the span."""
@@ -106,7 +106,8 @@ class Flight(EventLocator):
     def _grazed(self, found: Equations, solution: Any, rates: Bound, table: Bound) -> EventHit | None:
         """The first crossing that a step has hidden: below zero and back between its ends.
 
-        Values and slopes at the ends say by a cubic where that may be; there the step is flown again and looked at.
+        Values and slopes at the ends say by a cubic where that may be; there the step is integrated again and looked
+        at.
         """
         times, states = solution.t, solution.y
         values = np.array([table(0.0, y) for y in states.T])
@@ -144,6 +145,6 @@ def _bisected(below: Callable[[float], bool], before: float, after: float) -> fl
     return after
 
 
-def fly(model: Model, groups: dict[str, float], rtol: float, method: str) -> EventSequence:
-    """The flight of a collision by a scipy method. ComputationError if it does not come to an end."""
-    return Flight(model, groups, rtol, method).run()
+def locate_by_scipy(model: Model, groups: dict[str, float], rtol: float, method: str) -> EventSequence:
+    """The trajectory of a collision by a scipy method. ComputationError if it does not come to an end."""
+    return ScipyLocator(model, groups, rtol, method).run()

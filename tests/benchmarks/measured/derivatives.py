@@ -18,7 +18,7 @@ from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.derivatives import evaluate
 from wetdoublet.solvers.sensitivity.parameters import known
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
-from wetdoublet.solvers.sensitivity.trajectory_expression import Course, course_of, flight
+from wetdoublet.solvers.sensitivity.trajectory_expression import Course, course_of, trajectory_expression
 
 COUNT = 12  # parameters
 RTOL = 1e-10
@@ -36,8 +36,8 @@ class Gradient:
     largest error over the largest elasticity.
 
     Arguments:
-        method: "collision" itself (`collide` without ledger), "its flight alone" (the located phases flown once more,
-            which is part of it), "adjoint", "forward", "central differences".
+        method: "collision" itself (`collide` without ledger), "its trajectory alone" (the located phases integrated
+            once more, which is part of it), "adjoint", "forward", "central differences".
         first: the first call's, with everything that is built once; None where that was not measured.
     """
 
@@ -65,7 +65,7 @@ def gradients(preset: str, repeats: int = 3, impacts: Sequence[tuple[float, floa
     for engine in ("rosenbrock", "cvodes"):
         runs: Runs = {
             "collision": partial(_collided, engine=engine),
-            "its flight alone": partial(_flown, engine=engine),
+            "its trajectory alone": partial(_flown, engine=engine),
             "adjoint": partial(_elasticities, names=names, method="adjoint", engine=engine),
             "forward": partial(_elasticities, names=names, method="forward", engine=engine),
             "central differences": partial(_differences, names=names, engine=engine),
@@ -145,7 +145,9 @@ def _known(scene: Scene) -> tuple[Course, np.ndarray, np.ndarray, dict[str, floa
 
 def _flown(scene: Scene, engine: str) -> None:
     course, p, durations, groups = _known(scene)
-    evaluate(flight(course, ("restitution",), engine, tolerance(RTOL, engine, groups)).function, p, durations)
+    evaluate(
+        trajectory_expression(course, ("restitution",), engine, tolerance(RTOL, engine, groups)).function, p, durations
+    )
 
 
 def _elasticities(scene: Scene, names: tuple[str, ...], method: str, engine: str, rtol: float = RTOL) -> np.ndarray:
@@ -169,7 +171,7 @@ def _differences(scene: Scene, names: tuple[str, ...], engine: str) -> np.ndarra
 
 NOTE = (
     "CPU time of a collision at rtol 1e-10, mean over the preset's, and its ratio to the collision itself on the same "
-    "engine (`collide` without ledger: located, then flown), all in one run. Errors of the elasticities of e_n, over "
+    "engine (`collide` without ledger: located, then replayed), all in one run. Errors of the elasticities of e_n over "
     "the largest. `first` is the first call's, which builds integrators and their derivatives."
 )
 

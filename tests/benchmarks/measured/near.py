@@ -1,4 +1,4 @@
-"""What a collision costs near the separatrix between sticking and escaping, where a flight lingers at a saddle."""
+"""What a collision costs near the separatrix between sticking and escaping, where a trajectory lingers at a saddle."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ RTOLS = (1e-9, 1e-12)
 COPIES, FEW = 20, 2  # of the set in one call of taylor and of heyoka, which creeps
 PATIENCE = 20_000  # steps of heyoka a collision
 REPEATS = 3  # the best of so many calls counts
-RESOLVED = 1e2  # times the tolerance: a flight nearer than that may end on the other side
+RESOLVED = 1e2  # times the tolerance: a trajectory nearer than that may end on the other side
 GENERATED = "rosenbrock, generated C"
 THROUGH = "rosenbrock, compiled"
 
@@ -140,11 +140,11 @@ def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
 def _inside(clock: _Clock, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
     """As `_in_bulk`, of the integrators in C alone."""
-    flights = [(load(select_model(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
+    trajectories = [(load(select_model(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
     best = math.inf
     for _ in range(2):  # the first builds
         clock.spent = 0.0
-        answers = [_located(model, groups, rtol) for model, groups in flights]
+        answers = [_located(model, groups, rtol) for model, groups in trajectories]
         best = min(best, clock.spent)
     return best / len(sides), answers
 
@@ -174,7 +174,7 @@ NOTE = (
     f"taylor gets the set {COPIES} times in one call, heyoka {FEW} times with {PATIENCE} steps a collision. "
     f"`{GENERATED}` is the time inside the integrators, compiled with -O3 and called through buffers; `{THROUGH}` is "
     f"`collide_many`, with the rules between them. Where the distance is below {RESOLVED:g} rtol no engine can tell "
-    "the side; there a wrong outcome does not count. A flight that heyoka gives up has lost the level that proves a "
+    "the side; there a wrong outcome does not count. One that heyoka gives up has lost the level that proves a "
     "stick."
 )
 

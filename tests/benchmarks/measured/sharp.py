@@ -28,7 +28,7 @@ GOAL = 1e-13  # of e_n, relative, times the conditioning
 
 
 @dataclass
-class _Flight:
+class _Trajectory:
     """One collision at a time by heyoka in long double: no certificate, since all of them separate."""
 
     integrator: Any = None
@@ -38,7 +38,7 @@ class _Flight:
     calls: list[str] = field(default_factory=list)
 
     def callback(self, event: str) -> Callable[..., bool]:
-        """What heyoka calls at an event; False ends the flight."""
+        """What heyoka calls at an event; False ends the trajectory."""
 
         def reverses(ta: Any, _: int) -> bool:
             ta.state[1] *= -self.dry
@@ -62,19 +62,19 @@ def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: floa
     choice = select_model(scene, True)
     groups = [each.groups for each in numbers]
     equations = system(choice, groups, None)
-    flights = [EventLocator(load(choice), each, 1e-13) for each in groups]
-    flight = _Flight(dry=np.longdouble(groups[0]["dry_restitution"]), film=len(equations.varying))
-    begun = starts(flights, numbers, equations.varying)
+    trajectories = [EventLocator(load(choice), each, 1e-13) for each in groups]
+    trajectory = _Trajectory(dry=np.longdouble(groups[0]["dry_restitution"]), film=len(equations.varying))
+    begun = starts(trajectories, numbers, equations.varying)
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     states = [start.state[: len(equations.rates)].astype(np.longdouble) for start in begun]  # no work of the bridge
-    flight.integrator = ta = heyoka.taylor_adaptive(
+    trajectory.integrator = ta = heyoka.taylor_adaptive(
         equations.rates,
         state=states[0],
         pars=begun[0].parameters[:-1].astype(np.longdouble),
         t_events=[
             heyoka.t_event(
                 g,
-                callback=flight.callback(name),
+                callback=trajectory.callback(name),
                 direction=either if name == "film_edge" else falling,
                 fp_type=np.longdouble,
             )
@@ -86,12 +86,12 @@ def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: floa
     )
     found = []
     for state, start in zip(states, begun, strict=True):
-        flight.restitution = None
+        trajectory.restitution = None
         ta.time = np.longdouble(0)
         ta.reset_cooldowns()
         ta.state[:], ta.pars[:] = state, start.parameters[:-1]
         ta.propagate_until(np.longdouble(HORIZON), max_steps=100_000)
-        found.append(np.longdouble(np.nan) if flight.restitution is None else flight.restitution)
+        found.append(np.longdouble(np.nan) if trajectory.restitution is None else trajectory.restitution)
     return np.array(found)
 
 

@@ -1,4 +1,4 @@
-"""What boundaries ask of a flight: the kernel's answers beside Rosenbrock's."""
+"""What boundaries ask of a trajectory: the kernel's answers beside Rosenbrock's."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_the_escape(name: str, reversed_: bool):
 
 @pytest.mark.parametrize("distance", [1e-3, 1e-5, 1e-7])
 def test_creeping_past_the_saddle(distance: float):
-    """Beside the boundary a flight that is cut short is decided as one that is flown to its end by Rosenbrock."""
+    """Beside the boundary a trajectory that is cut short is decided as Rosenbrock decides it at its end."""
     kernel, other = lines("granulation")
     low, high = 0.0129580, 0.0129582
     for _ in range(40):  # the boundary by the kernel's own signs

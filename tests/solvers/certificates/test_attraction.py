@@ -57,11 +57,11 @@ def _held_sticks(count: int, seed: int) -> tuple[int, int]:
         if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
             continue
         held += 1
-        flight = WithoutProof(model, n.groups, 1e-9, steps=5_000)
-        flight.proof = NoProof()
+        trajectory = WithoutProof(model, n.groups, 1e-9, steps=5_000)
+        trajectory.proof = NoProof()
         with contextlib.suppress(ComputationError):  # it creeps without end
-            flight.on(6e5)
-        escaped += flight.path.separated
+            trajectory.on(6e5)
+        escaped += trajectory.path.separated
     return held, escaped
 
 
@@ -74,7 +74,7 @@ def test_nothing_that_is_held_escapes() -> None:
 
 @pytest.mark.parametrize(
     ("margin", "stokes", "angle", "dry"),
-    [("hold", 0.1, 60, 0.99), ("flight", 0.3, 1, 0.3)],
+    [("hold", 0.1, 60, 0.99), ("escape", 0.3, 1, 0.3)],
     ids=["thrown out", "bounces"],
 )
 def test_what_the_hold_does_not_prove(margin: str, stokes: float, angle: float, dry: float) -> None:
@@ -89,9 +89,9 @@ def test_what_the_hold_does_not_prove(margin: str, stokes: float, angle: float, 
     model = load(select_model(scene, oblique=True))
     p = model.group_values(n.groups)
     margins = model.values("held", model.start(p), p)
-    met = {"hold": margins["hold"] > 0, "flight": margins["flight"] < 0, "rebound": margins["rebound"] < 0}
+    met = {"hold": margins["hold"] > 0, "escape": margins["escape"] < 0, "rebound": margins["rebound"] < 0}
     assert not met[margin]
-    if margin == "flight":
+    if margin == "escape":
         assert met["hold"]
         assert met["rebound"]
 

@@ -23,7 +23,9 @@ pytestmark = pytest.mark.slow
 LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 
 
-def flight(scene: Scene, stokes: float, angle: float, rtol: float = 1e-9, steps: int = STEPS) -> locate.EventLocator:
+def trajectory(
+    scene: Scene, stokes: float, angle: float, rtol: float = 1e-9, steps: int = STEPS
+) -> locate.EventLocator:
     """A collision about to be located."""
     n = nondimensionalise(scene, scene.speed_of(stokes), angle)
     return locate.EventLocator(load(select_model(scene, n.oblique)), n.groups, rtol, steps=steps)
@@ -54,7 +56,7 @@ def test_a_bridge_that_vanishes_leaves_the_film(wall: bool, angle: float) -> Non
 
 def test_a_bridge_that_pushes_proves_nothing() -> None:
     """What the film has stopped is not held by a force outward, however small."""
-    one = flight(
+    one = trajectory(
         Scene.load("granulation").with_entries({"bridge.law": "lambert", "bridge.contact_angle": "90 deg"}), 0.05, 0
     )
     proof = energy_proof(one.proof)
@@ -66,7 +68,7 @@ def test_a_bridge_that_pushes_proves_nothing() -> None:
 
 @pytest.mark.parametrize("law", LAWS)
 def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Random scenes: certified sticks, flown on for 1e4 x0/v0 a phase without a proof, never separate."""
+    """Random scenes: certified sticks, continued for 1e4 x0/v0 a phase without a proof, never separate."""
     random = np.random.default_rng(LAWS.index(law))
     certified = 0
     for _ in range(16):
@@ -82,13 +84,13 @@ def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatc
             }
         )
         stokes, angle = 10 ** random.uniform(-2.3, -0.5), float(random.choice([0.0, random.uniform(0, 1.4)]))
-        if not flight(scene, stokes, angle).run().certified:
+        if not trajectory(scene, stokes, angle).run().certified:
             continue
         certified += 1
         with monkeypatch.context() as patch:
             patch.setattr(locate, "proof_for", lambda *_: NoProof())
             patch.setattr(locate, "STRETCHES", 4)  # 16 (8^4 - 1)/7 = 9360 x0/v0 a phase
-            on = flight(scene, stokes, angle, steps=20_000)  # some breathe about x0, where the film hardly damps
+            on = trajectory(scene, stokes, angle, steps=20_000)  # some breathe about x0, where the film hardly damps
             with pytest.raises(ComputationError, match="no event within|phases have not decided"):
                 on.run()
             assert not on.path.separated
@@ -151,7 +153,7 @@ def test_barrier_height(law: str, stokes: float, angle: float) -> None:
 
     found = minimize_scalar(lambda x: -effective(x), bounds=(x0, body.x_f), method="bounded", options={"xatol": 1e-13})
     top, gap = max((-float(found.fun), float(found.x)), (effective(body.x_f), body.x_f))
-    one = flight(scene, stokes, theta)
+    one = trajectory(scene, stokes, theta)
     proof = energy_proof(one.proof)
     assert isinstance(proof, BarrierProof)
     barrier = max(proof.barriers(one.y), key=lambda b: b.height)

@@ -22,8 +22,8 @@ from wetdoublet.solvers.verify.audit import WithoutProof
 pytestmark = pytest.mark.slow
 
 
-def flight(scene: Scene, steps: int = STEPS) -> Any:
-    """The locating flight of a scene with its impact."""
+def trajectory(scene: Scene, steps: int = STEPS) -> Any:
+    """The locating trajectory of a scene with its impact."""
     n = nondimensionalise(scene, *scene.need_impact())
     return EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9, steps=steps)
 
@@ -49,7 +49,7 @@ def impacts(count: int, arm: str, seed: int, shear: str = "immersed") -> list[Sc
 
 @pytest.mark.parametrize(("arm", "shear"), [("midgap", "immersed"), ("surface", "immersed"), ("midgap", "film")])
 def test_what_separates_is_never_held(arm: str, shear: str) -> None:
-    """At no event of a flight without a proof that ends in separation does the proof hold; of sticks it holds most."""
+    """The proof holds at no event of a trajectory that ends in separation, and of sticks it holds most."""
     parted = held = kept = 0
     for scene in impacts(32, arm, 5, shear):
         n = nondimensionalise(scene, *scene.need_impact())
@@ -118,7 +118,7 @@ def test_spin_that_is_locked_out_does_not_count() -> None:
     scene = Scene.load("granulation").with_entries(entries).with_impact(stokes=0.1, angle="34 deg")
     found = collide(scene, ledger=False)
     assert (found.outcome, found.certified) == ("stick", True)
-    one = flight(scene)
+    one = trajectory(scene)
     y = one.run().y
     turning = y[2] / (4 + one.groups["aspect"] * y[0]) ** 2
     assert one.model.values("orbital", y, one.p)["slip"] < 0 < turning  # it does spin faster
@@ -130,7 +130,7 @@ def test_spin_that_is_locked_out_does_not_count() -> None:
 
 def test_both_forms_take_the_same_away() -> None:
     """What counts of the slip is the same with the spin as a state and with the spin eliminated."""
-    one = flight(impacts(1, "midgap", 2, "film")[0])
+    one = trajectory(impacts(1, "midgap", 2, "film")[0])
     full = load(select_model(impacts(1, "midgap", 2, "film")[0], oblique=True, full=True))
     both = []
     for model in (one.model, full):
@@ -150,7 +150,7 @@ def test_both_forms_take_the_same_away() -> None:
 
 def test_slip_energy_is_the_energy_above_rigid_rotation() -> None:
     """Midgap: slip energy is what is left of the rotation's energy beside L^2/(2 I) at that gap."""
-    one = flight(impacts(1, "midgap", 2)[0])
+    one = trajectory(impacts(1, "midgap", 2)[0])
     model, p = one.model, one.p
     for gap, orbit in ((0.3, 14.0), (1.0, 9.0), (4.0, 12.0)):
         y = np.array([gap, 0.0, orbit])

@@ -26,14 +26,14 @@ pytestmark = pytest.mark.slow
 
 @dataclass(frozen=True)
 class Tethered:
-    """A random doublet on strings, ready to be located, and whether it separates when no proof ends its flight."""
+    """A random doublet on strings, ready to be located, and whether it separates when no proof ends its trajectory."""
 
     model: Model
     groups: dict[str, float]
     separates: bool
 
     def path(self) -> EventSequence:
-        """Its flight with the proof."""
+        """Its trajectory with the proof."""
         return EventLocator(self.model, self.groups, 1e-9).run()
 
 

@@ -9,7 +9,7 @@ import pytest
 from wetdoublet.solvers import Scene, boundary, collide
 from wetdoublet.solvers.commands.cli import main
 
-from ...helpers.newton import Bodies, flown
+from ...helpers.newton import Bodies, integrated
 
 A_H = 2e-12  # J, far above any real one, so that it shows in granulation
 X0 = 8e-6
@@ -46,13 +46,13 @@ def test_the_work_is_the_potentials(bridge, stokes, angle):
 
 @pytest.mark.parametrize("bridge", [True, False])
 def test_oblique_is_newtons(bridge):
-    """The doublet flies as two bodies do in the laboratory that attract each other with A a/(6 x^2)."""
+    """The doublet moves as two bodies do in the laboratory that attract each other with A a/(6 x^2)."""
     scene = scene_of(bridge)
     one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
     bodies = Bodies(
         (1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025 if bridge else 0.0, 0.05, hamaker=A_H
     )
-    end = flown(bodies, one.speed, one.angle, longest=10 * one.contact_time)
+    end = integrated(bodies, one.speed, one.angle, longest=10 * one.contact_time)
     assert end.separated and one.outcome == "stick-rotate-separate"
     assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
     without = collide(scene.with_entries({"attraction.hamaker": 0.0}), stokes=0.12, angle="75 deg", rtol=1e-11)
@@ -92,7 +92,7 @@ def test_van_der_waals_alone_can_hold():
     assert (below.outcome, above.outcome) == (first.before, first.after)
     assert below.certified
     bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, hamaker=2e-10)
-    end = flown(bodies, above.speed, angle, longest=2 * above.contact_time, rtol=1e-11)
+    end = integrated(bodies, above.speed, angle, longest=2 * above.contact_time, rtol=1e-11)
     assert first.after == "stick-rotate-separate" and end.separated
     assert end.time == pytest.approx(above.contact_time, rel=1e-2)  # so near the boundary
 

@@ -67,7 +67,7 @@ def test_own_rupture(law):
 
 
 def test_own_rupture_is_where_it_ruptures():
-    """The last gap of a flight is the own distance."""
+    """The last gap of a trajectory is the own distance."""
     scene = Scene.load("granulation").with_entries({"bridge.law": "willett", "bridge.rupture": "own"})
     one = collide(scene, stokes=0.1, angle="75 deg", trajectory=True)
     assert float(one.trajectory.gap[-1]) == pytest.approx(scene.rupture_gap, rel=1e-9)

@@ -20,7 +20,7 @@ from wetdoublet.solvers.collision import by_casadi
 from wetdoublet.solvers.collision.by_casadi import _compute
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence, locate
-from wetdoublet.solvers.engines.casadi.replay import Flown, fly
+from wetdoublet.solvers.engines.casadi.replay import Replay, replay
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model
 
@@ -76,10 +76,10 @@ def soon(rtol: float, engine: str, groups: Mapping[str, float]) -> Tolerance:
 
 
 def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
-    """A flight whose locators give up so soon."""
-    flight = EventLocator(model, groups, rtol, extras)
-    flight.tolerance = replace(flight.tolerance, steps=3)
-    return flight.run()
+    """A trajectory whose locators give up so soon."""
+    trajectory = EventLocator(model, groups, rtol, extras)
+    trajectory.tolerance = replace(trajectory.tolerance, steps=3)
+    return trajectory.run()
 
 
 def found_alone(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
@@ -117,23 +117,23 @@ def test_absurd_impacts(stokes: float) -> None:
 
 
 def test_an_open_ledger_is_an_error() -> None:
-    """A ledger's term off by a hundredth of the energy: the flight is refused, the residual is in the message."""
+    """A ledger's term off by a hundredth of the energy: the trajectory is refused, the residual is in the message."""
 
-    class Falsified(Flown):
-        """A flight whose film has taken more than it did."""
+    class Falsified(Replay):
+        """A trajectory whose film has taken more than it did."""
 
         def extra(self, name: str) -> float:
             return super().extra(name) + (0.01 if name == "normal_lubrication" else 0.0)
 
-    def falsified(*given: Any) -> Flown:
-        flown = fly(*given)
-        return Falsified(**{each.name: getattr(flown, each.name) for each in fields(flown)})
+    def falsified(*given: Any) -> Replay:
+        collided = replay(*given)
+        return Falsified(**{each.name: getattr(collided, each.name) for each in fields(collided)})
 
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
     n = nondimensionalise(scene, *scene.need_impact())
     with pytest.raises(ComputationError, match="energy ledger is open by"):
-        by_casadi.by_casadi(scene, n, 1e-9, "cvodes", True, False, fly=falsified)
-    lean = by_casadi.by_casadi(scene, n, 1e-9, "cvodes", False, False, fly=falsified)
+        by_casadi.by_casadi(scene, n, 1e-9, "cvodes", True, False, replay=falsified)
+    lean = by_casadi.by_casadi(scene, n, 1e-9, "cvodes", False, False, replay=falsified)
     assert lean.restitution == pytest.approx(collide(scene).restitution, rel=1e-7)
 
 
@@ -141,7 +141,9 @@ def test_nothing_extra_is_integrated() -> None:
     """Without the ledger only the rotation rides along and no spin is kept; a trajectory only where asked for."""
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
     n = nondimensionalise(scene, *scene.need_impact())
-    flows = [_compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance, fly)[2] for ledger in (False, True)]
+    flows = [
+        _compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance, replay)[2] for ledger in (False, True)
+    ]
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")
     assert (flows[0].extras, tuple(flows[0].model.state)) == (

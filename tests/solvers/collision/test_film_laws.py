@@ -10,7 +10,7 @@ from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Region
 
-from ...helpers.newton import Bodies, flown
+from ...helpers.newton import Bodies, integrated
 
 X0, X_B, E_DRY = 8e-6, 2e-7, 0.9
 
@@ -74,11 +74,11 @@ def bridged(film, **changes):
 
 @pytest.mark.parametrize("film", ["finite", "infinite", "cavitating", "constant-volume"])
 def test_oblique_is_newtons(film):
-    """With each film an oblique doublet flies as its two bodies do in the laboratory (1e-6: see test_partner)."""
+    """With each film an oblique doublet moves as its two bodies do in the laboratory (1e-6: see test_partner)."""
     scene = bridged(film)
     one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
     bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025, 0.05, film=film)
-    end = flown(bodies, one.speed, one.angle, longest=10 * one.contact_time)
+    end = integrated(bodies, one.speed, one.angle, longest=10 * one.contact_time)
     assert one.outcome == "stick-rotate-separate" and end.separated
     assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
     assert one.final_spin == pytest.approx(end.spins[0], rel=1e-6)
@@ -102,11 +102,11 @@ def test_constant_volume_head_on():
         rim = math.sqrt(x * x + 0.05 * (2 * a) ** 3 / (math.pi * a))
         return [-(6 * math.pi * mu * a**2 * y[0] / x * (1 - x / rim) ** 2 + 4 * math.pi * a * 0.025) / (m * y[0])]
 
-    def fly(span, u):
+    def integrated(span, u):
         return float(solve_ivp(rates, span, [u], rtol=1e-11, atol=1e-14, method="LSODA").y[0, -1])
 
-    at_contact = fly((X0, X_B), -one.speed)
-    expected = fly((X_B, reach), -E_DRY * at_contact) / one.speed
+    at_contact = integrated((X0, X_B), -one.speed)
+    expected = integrated((X_B, reach), -E_DRY * at_contact) / one.speed
     assert one.outcome == "bounce"
     assert one.restitution == pytest.approx(expected, rel=1e-7)
 
@@ -120,9 +120,9 @@ def test_a_cavitated_film_does_not_act():
 
 @pytest.mark.parametrize("film", ["infinite", "cavitating", "constant-volume"])
 def test_sticks_are_sticks(film):
-    """A stick proved with another film never comes apart when it is flown on without its proof."""
+    """A stick proved with another film never comes apart when it is continued without its proof."""
     scene = bridged(film)
     one = collide(scene, stokes=0.02, angle="60 deg")
     assert one.outcome == "stick" and one.certified
     bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025, 0.05, film=film)
-    assert not flown(bodies, one.speed, one.angle, longest=300 * X0 / one.speed, rtol=1e-8).separated
+    assert not integrated(bodies, one.speed, one.angle, longest=300 * X0 / one.speed, rtol=1e-8).separated

@@ -14,7 +14,7 @@ from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
-from ...helpers.newton import Bodies, flown
+from ...helpers.newton import Bodies, integrated
 
 pytestmark = pytest.mark.slow
 
@@ -62,14 +62,14 @@ def bodies_of(scene):
     ],
 )
 def test_a_pair_is_newtons(radius, mass, angle, stokes, more):
-    """Unequal spheres fly as two bodies in the laboratory do under Jeffrey & Onishi's friction: e_n, omega, both spins.
+    """Unequal spheres move as two bodies in the laboratory under Jeffrey & Onishi's friction: e_n, omega, both spins.
 
     1e-6: the independent integrator works on positions, whose difference, the gap, has lost two digits of its 1e-11,
     and near the barrier errors grow by exp(lambda t).
     """
     scene = scene_of({"partner.radius": radius, "partner.mass": mass, **more})
     one = collide(scene, stokes=stokes, angle=math.radians(angle), rtol=1e-11)
-    end = flown(bodies_of(scene), one.speed, one.angle, longest=10 * (one.contact_time or 1e-3))
+    end = integrated(bodies_of(scene), one.speed, one.angle, longest=10 * (one.contact_time or 1e-3))
     assert one.outcome == "stick-rotate-separate" and end.separated
     assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
     assert one.contact_time == pytest.approx(end.time, rel=1e-6)
@@ -84,7 +84,7 @@ def test_a_pair_is_newtons(radius, mass, angle, stokes, more):
 def test_the_laboratory_keeps_its_momenta():
     """The independent model itself keeps both momenta: its forces are a pair that acts on each other only."""
     scene = scene_of({"partner.radius": "300 um", "partner.mass": "2e-4 g"})
-    end = flown(bodies_of(scene), 1.0, 1.2, longest=1e-3)
+    end = integrated(bodies_of(scene), 1.0, 1.2, longest=1e-3)
     size = scene.reduced_mass * 1.0
     assert np.abs(end.momentum[:2]).max() < 1e-8 * size
     assert abs(end.momentum[2]) < 1e-8 * size * (2 * scene.reduced_radius)

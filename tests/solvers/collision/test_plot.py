@@ -88,7 +88,7 @@ def test_every_axis_has_its_unit(collisions, figures, name):
 
 @pytest.mark.parametrize("name", IMPACTS)
 def test_every_event_is_marked(collisions, figures, name):
-    """Each event of a flight has its label, once, and a line at its time through each panel of the whole flight."""
+    """Each event has its label, once, and a line at its time through each panel of the whole trajectory."""
     collision, figure = collisions[name], figures[name]
     if collision.trajectory["time"][-1] == 0:
         return
@@ -106,10 +106,10 @@ def test_every_event_is_marked(collisions, figures, name):
 
 
 def test_a_short_approach_has_its_own_column(figures):
-    """Where the approach is a small part of the flight it is shown a second time, in a column of its own."""
+    """Where the approach is a small part of the trajectory it is shown a second time, in a column of its own."""
     assert [panel.get_xlabel() for panel in figures["escapes"].axes if panel.get_xlabel()] == [
         "time, approach (µs)",
-        "time, whole flight (ms)",
+        "time, whole trajectory (ms)",
     ]
     assert "time (µs)" in [panel.get_xlabel() for panel in figures["glass at touch"].axes]
 
@@ -153,7 +153,7 @@ def test_spheres_of_a_strip_are_the_frames(collisions, figures):
 
 
 @pytest.mark.parametrize("name", sorted({*IMPACTS} - {"half turn", "sticks later", "sticks at touch"}))
-def test_after_rupture_the_pair_flies_straight(collisions, name):
+def test_after_rupture_the_pair_moves_straight(collisions, name):
     """The last frame of a separated pair is on the straight line that leaves the frame of rupture."""
     collision = collisions[name]
     *_, before, after = frames(collision)
@@ -216,7 +216,7 @@ def test_pyplot_stays_out():
 
 
 def test_a_rupture_off_the_scale_stands_in_the_margin(collisions, figures):
-    """Where x_f is far above every gap of the flight it is named beside the last panel, where no curve comes."""
+    """Where x_f is far above every gap of the trajectory it is named beside the last panel, where no curve comes."""
     assert collisions["sticks later"].scene.rupture_gap > 3 * float(collisions["sticks later"].trajectory["gap"].max())
     figure = figures["sticks later"]
     figure.draw_without_rendering()
@@ -238,7 +238,7 @@ def test_arrows_do_not_meet(figures, name):
 
 
 def test_short_times_have_a_prefix():
-    """A flight of picoseconds is drawn in picoseconds, not in seconds with an offset."""
+    """A trajectory of picoseconds is drawn in picoseconds, not in seconds with an offset."""
     figure = draw(collide("granulation", stokes=1e5, trajectory=True))
     assert "time (ps)" in [panel.get_xlabel() for panel in figure.axes]
     assert not any("e-1" in word for word in words(figure))

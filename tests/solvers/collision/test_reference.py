@@ -75,7 +75,7 @@ def test_rtol_is_honoured(separated_reference: dict[str, Any]) -> None:
 
 
 def test_ledger_off_leaves_the_collision_alone(reference: dict[str, Any]) -> None:
-    """Without the ledger the reduced equations are flown: same answer, energy and drift null."""
+    """Without the ledger the reduced equations are integrated: same answer, energy and drift null."""
     impact = reference["impact"]
     scene = Scene.from_dict(reference["scene"])
     full = collide(scene, stokes=impact["stokes"], angle=impact["angle"], rtol=RTOL)

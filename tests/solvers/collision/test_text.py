@@ -7,7 +7,7 @@ from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
 
-SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: flies to its cut-off
+SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: runs to its cut-off
 IMPACTS = {
     "escapes": ("granulation", {}),
     "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),

@@ -9,7 +9,7 @@ import pytest
 from wetdoublet.solvers import Collision, Scene, collide
 
 from ...helpers.data import BOUNDARIES
-from ...helpers.independent import Flight, flown
+from ...helpers.independent import Trajectory, integrated
 
 pytestmark = pytest.mark.slow
 
@@ -23,7 +23,7 @@ CHANGES: list[Case] = [
 ]
 GRAZES = [case for case in CHANGES if case[2]["from"] == "stick-rotate-separate"]
 STARTS = [case for case in CHANGES if case[2]["from"] == "stick"]
-# Radau at 1e-10 and ours at 1e-11: compared with the 80-bit reference both are within 1e-9 on such flights; a
+# Radau at 1e-10 and ours at 1e-11: compared with the 80-bit reference both are within 1e-9 on such trajectories; a
 # hundred times that is left for what lies nearer to a boundary
 SAME = 1e-7
 
@@ -40,7 +40,7 @@ def without_elasticity(scene: Scene) -> Scene:
     return Scene.from_dict(tables)
 
 
-def agree(found: Collision, other: Flight, tolerance: float = SAME) -> None:
+def agree(found: Collision, other: Trajectory, tolerance: float = SAME) -> None:
     """Events, their times and the state at separation are those of the independent integration."""
     assert found.outcome != "stick"
     assert other.separated
@@ -105,7 +105,7 @@ def test_reversal_at_first_touch_with_a_bridge(engine: str, dry: float) -> None:
     scene = Scene.load("granulation").with_entries({"particles.dry_restitution": dry})
     found = collide(scene, stokes=0.3, angle="70 deg", rtol=1e-11, engine=engine)
     assert found.events[0].time == 0.0
-    agree(found, flown(scene, 0.3, math.radians(70)))
+    agree(found, integrated(scene, 0.3, math.radians(70)))
 
 
 @pytest.mark.parametrize(("stokes", "angle"), [(0.01, 80), (0.03, 70), (0.1, 60)])
@@ -115,7 +115,7 @@ def test_tangential_force_ends_at_two_reduced_radii(stokes: float, angle: float)
     assert scene.rupture_gap > 2 * scene.particles.reduced_radius
     found = collide(scene, stokes=stokes, angle=math.radians(angle), rtol=1e-11)
     assert "tangential edge" in kinds(found)
-    agree(found, flown(scene, stokes, math.radians(angle)))
+    agree(found, integrated(scene, stokes, math.radians(angle)))
 
 
 @pytest.mark.parametrize("times", [2.5, 14.0])
@@ -133,7 +133,7 @@ def test_soft_spheres(times: float) -> None:
     assert scene.elastic_length(scene.speed_of(stokes)) == pytest.approx(times * x0, rel=1e-12)
     found = collide(scene, stokes=stokes, angle="60 deg", rtol=1e-11)
     assert (found.reversal, found.events[0].time) == ("elastic", 0.0)
-    agree(found, flown(scene, stokes, math.radians(60)))
+    agree(found, integrated(scene, stokes, math.radians(60)))
 
 
 # ---- what a step may not see
@@ -171,7 +171,7 @@ def test_what_separates_is_opening(engine: str, rtol: float) -> None:
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_roughness_about_the_smallest_gap(engine: str) -> None:
-    """A roughness 1e-9 below the smallest gap of a flight is never met, 1e-9 above it makes a bounce of it."""
+    """A roughness 1e-9 below the smallest gap of a trajectory is never met, 1e-9 above it makes a bounce of it."""
     scene = Scene.load("granulation")
     free = collide(scene, stokes=0.03, angle="65 deg", rtol=1e-12, engine=engine)
     assert free.smallest_gap is not None

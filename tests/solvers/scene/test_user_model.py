@@ -13,7 +13,7 @@ from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.identities import of_the_model
-from wetdoublet.solvers.verify.sample import Extent, flights
+from wetdoublet.solvers.verify.sample import Extent, collisions
 
 from ...helpers.command import run
 from ...helpers.yielding import LAW
@@ -35,7 +35,7 @@ def test_a_law_is_less_than_thirty_lines():
 def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
     """collide, map, boundary, sensitivity and scenes take the model from the command line."""
     one = run("collide", "granulation", "--model", str(mine), "--set", "custom.yield_stress=2 kPa", "--json")
-    assert json.loads(one.output)["outcome"] == "stick"  # the library's flight escapes here
+    assert json.loads(one.output)["outcome"] == "stick"  # the library's trajectory escapes here
     file = tmp_path / "m.nc"
     grid = ("--stokes", "0.03:0.06:2", "--angle", "60:60:1", "--vary", "custom.yield_stress=0 Pa:2 kPa:2")
     done = run("map", "granulation", "--model", str(mine), *grid, "-o", str(file), "--plot", str(tmp_path / "m.png"))
@@ -60,12 +60,12 @@ def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
 
 
 def test_verify_has_the_models_own_checks(mine: Path):
-    """`verify` proves the model's law and holds its flights to the bounds of every scene (the sample is cut short)."""
+    """`verify` proves the model's law and holds its collisions to every bound (the sample is cut short)."""
     scene = with_model(mine, custom__yield_stress="50 Pa")
     assert scene.package is not None
     assert {(finding.group, finding.ok) for finding in of_the_model(scene.package)} == {("Model: mine", True)}
-    flown = flights(scene, (0.0, 1.0), Extent(factors=(1.0,)))
-    found = {finding.name: finding for finding in conserved("numeric", flown)}
+    collided = collisions(scene, (0.0, 1.0), Extent(factors=(1.0,)))
+    found = {finding.name: finding for finding in conserved("numeric", collided)}
     assert found["energy ledger"].ok
     assert all(finding.ok is not False for finding in found.values())
 

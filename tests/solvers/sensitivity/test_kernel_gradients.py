@@ -103,7 +103,7 @@ def test_contact_by_differences() -> None:
 
 
 def test_backward_is_forward() -> None:
-    """Taken back along the flight, derivatives of e_n by all quantities are those carried along it.
+    """Taken back along the trajectory, derivatives of e_n by all quantities are those carried along it.
 
     Both at 1e-12, where either is exact to some 1e-10 of the largest elasticity.
     """

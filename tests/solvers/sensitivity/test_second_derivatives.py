@@ -15,7 +15,7 @@ from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import SX, load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region, event_table, expressions
 from wetdoublet.solvers.sensitivity import derivatives
-from wetdoublet.solvers.sensitivity import trajectory_expression as flight
+from wetdoublet.solvers.sensitivity import trajectory_expression as graph
 from wetdoublet.solvers.sensitivity.derivatives import evaluate
 from wetdoublet.solvers.sensitivity.problem import Problem
 
@@ -63,7 +63,7 @@ def test_hessian_is_that_of_differences(of: str) -> None:
     assert found == pytest.approx(found.T, abs=1e-12 * np.abs(found).max())
 
 
-def test_hessian_of_a_turned_tethered_flight() -> None:
+def test_hessian_of_a_turned_pendulum_collision() -> None:
     """As above where the doublet turns by itself, with strings."""
     scene = PENDULUM.with_impact(stokes=1.0, angle="60 deg")
     scene, names = scene.with_impact(speed=scene.speed), ("pendulum.length", "impact.angle")
@@ -114,11 +114,23 @@ def first_order(flow: Flow, watch: Any, event: str) -> Function:
 def test_the_first_order_landing_is_not_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     """With it the gradient is right and the Hessian wrong by a part of order one: why there is a second-order term."""
     right = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
-    monkeypatch.setattr(flight, "landing", first_order)
-    for cached in (flight.flight, flight.ending, derivatives.adjoint, derivatives.forward, derivatives.curvature):
+    monkeypatch.setattr(graph, "landing", first_order)
+    for cached in (
+        graph.trajectory_expression,
+        graph.ending,
+        derivatives.adjoint,
+        derivatives.forward,
+        derivatives.curvature,
+    ):
         cached.cache_clear()
     wrong = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
-    for cached in (flight.flight, flight.ending, derivatives.adjoint, derivatives.forward, derivatives.curvature):
+    for cached in (
+        graph.trajectory_expression,
+        graph.ending,
+        derivatives.adjoint,
+        derivatives.forward,
+        derivatives.curvature,
+    ):
         cached.cache_clear()
     for name in WRT:
         expected = right.elasticity["restitution"][name]
@@ -141,7 +153,7 @@ def test_a_criterion_true_at_first_touch() -> None:
 
 
 def test_a_criterion_true_at_first_touch_with_a_bridge() -> None:
-    """The jump comes before any flight; what follows is differentiated as ever."""
+    """The jump comes before any trajectory; what follows is differentiated as ever."""
     scene = GRANULATION.with_impact(stokes=30.0, angle="20 deg")
     names = ("particles.dry_restitution", "bridge.surface_tension", "impact.speed", "liquid.film_thickness")
     found = sensitivities(scene, ["restitution"], names, rtol=1e-10)
@@ -165,8 +177,8 @@ def flows(scene: Scene) -> list[Flow]:
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_no_switch_acts_along_a_flight(case: Any) -> None:
-    """Right-hand sides hold one switch, the guard against x <= 0, and no flight comes near it.
+def test_no_switch_acts_along_a_trajectory(case: Any) -> None:
+    """Right-hand sides hold one switch, the guard against x <= 0, and no trajectory comes near it.
 
     A switch that acts inside a phase costs derivatives 3 to 5 digits; the film's edge is an event for that reason.
     """
@@ -219,8 +231,8 @@ def test_a_failure_is_no_zero() -> None:
     """An integrator that gives up raises; zeros would look like a stick that depends on nothing."""
     problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
     path, _ = problem.located(("restitution",), 1e-9)
-    course = flight.course_of(path, path.model.choice)
-    whole = flight.flight(course, ("restitution",), "rosenbrock", Tolerance(1e-9, 1e-12))
+    course = graph.course_of(path, path.model.choice)
+    whole = graph.trajectory_expression(course, ("restitution",), "rosenbrock", Tolerance(1e-9, 1e-12))
     with pytest.raises(IntegrationFailed):
         evaluate(whole.function, path.p * np.nan, np.array([step.duration for step in path.steps]))
     durations = np.array([step.duration for step in path.steps]) / 3
@@ -229,7 +241,7 @@ def test_a_failure_is_no_zero() -> None:
 
 
 def test_located_durations_need_not_be_exact() -> None:
-    """The landing takes the rest: durations wrong by 1e-4 give the same derivatives after the flight has settled."""
+    """The landing takes the rest: durations wrong by 1e-4 give the same derivatives once they are settled."""
     problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
     path, _ = problem.located(("restitution",), 1e-9)
     right = problem.slopes(path, ("restitution",), "adjoint", "rosenbrock", 1e-10)

@@ -21,7 +21,7 @@ from wetdoublet.solvers.sensitivity.parameters import known
 
 from ...helpers.command import run
 from ...helpers.data import DATA
-from ...helpers.independent import flown
+from ...helpers.independent import integrated
 from ...helpers.sensitive import CASES, DRY, GRANULATION, PENDULUM, Case, apart, cancelling, varied
 
 pytestmark = pytest.mark.slow
@@ -96,7 +96,7 @@ def test_an_independent_model_has_the_same_derivatives() -> None:
     def e_n(name: str, part: float) -> float:
         changed = varied(scene, name, float(scene.entries[name]) * (1 + part))
         assert changed.stokes is not None
-        return flown(changed, changed.stokes, math.radians(45), rtol=1e-11).state[1] / float(scene.speed or 0)
+        return integrated(changed, changed.stokes, math.radians(45), rtol=1e-11).state[1] / float(scene.speed or 0)
 
     for name in names:
         slope = (e_n(name, 2e-3) - e_n(name, -2e-3)) / 4e-3
@@ -125,7 +125,7 @@ def test_dimensional_analysis() -> None:
 
 
 def test_work_of_the_bridge_is_a_function_of_its_ends() -> None:
-    """W_c depends on the bridge and the gaps at initial contact and rupture alone, not on the flight between."""
+    """W_c depends on the bridge and the gaps at initial contact and rupture alone, not on the trajectory between."""
     found = sensitivities(GRANULATION, ["energy.capillary", "energy.residual"], rtol=1e-10, method="adjoint")
     row = found.elasticity["energy.capillary"]
     for name in ("impact.speed", "impact.angle", "liquid.viscosity", "particles.reduced_mass"):
@@ -172,7 +172,7 @@ def test_head_on() -> None:
 
 
 def test_head_on_with_strings() -> None:
-    """As above with strings: rotation and spin by the angle, from a flight at a small one."""
+    """As above with strings: rotation and spin by the angle, from a trajectory at a small one."""
     found = sensitivities(PENDULUM, ["rotation", "final_spin", "restitution"], ["impact.angle"], stokes=2.0, angle=0.0)
     near = collide(PENDULUM, stokes=2.0, angle=1e-3, rtol=1e-11, engine="rosenbrock")
     assert found.value["rotation"] == found.value["final_spin"] == 0.0

@@ -23,7 +23,7 @@ from wetdoublet.solvers.verify.stress import run as stress_test
 from wetdoublet.solvers.verify.stress.answers import answer
 from wetdoublet.solvers.verify.stress.judge import judge
 from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
-from wetdoublet.solvers.verify.stress.scipy_engine import fly
+from wetdoublet.solvers.verify.stress.scipy_engine import locate_by_scipy
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Found
 
 pytestmark = pytest.mark.slow
@@ -105,7 +105,7 @@ def _case(scene: Scene, stokes: float) -> Case:
 
 
 def test_a_wrong_certificate_is_caught() -> None:
-    """A stick that is said to be proved is flown on without its proof, and found to separate."""
+    """A stick that is said to be proved is continued without its proof, and found to separate."""
     scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
     engines = checking.runs() | {FAST: lambda *_: Found("stick", 0.0, certified=True)}
     kinds = {issue.kind for issue in judge(Case("one", scene), engines).issues if not issue.explained}
@@ -208,7 +208,7 @@ def test_strings_that_pull_far_harder_than_the_approach() -> None:
 
 
 def test_half_a_turn_is_not_lost_beside_a_minimum() -> None:
-    """At rest on each other on strings, turned by more than half a turn in one step: the flight ends at half a turn."""
+    """At rest on each other on strings, turned by more than half a turn in one step: half a turn ends the collision."""
     scene = Scene.from_dict(
         {
             "particles": {
@@ -227,19 +227,19 @@ def test_half_a_turn_is_not_lost_beside_a_minimum() -> None:
     assert [event.kind for event in found.events][-2:] == ["rests", "half turn"]
 
 
-def test_a_flight_is_located_once_for_both_engines() -> None:
+def test_a_collision_is_located_once_for_both_engines() -> None:
     """What the second engine is spared it is charged with, and its answer is that of `collide`."""
-    flights = checking._FLIGHTS
-    flights.forget()
+    located = checking._LOCATED
+    located.forget()
     scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
     checking.chained(scene, RTOL, "rosenbrock")
-    before = flights.spared
-    assert checking.chained(scene, RTOL).cpu == flights.spared - before > 0.0
+    before = located.spared
+    assert checking.chained(scene, RTOL).cpu == located.spared - before > 0.0
     assert checking.chained(scene, RTOL).restitution == collide(scene, rtol=RTOL).restitution
 
 
 def test_no_tolerance_is_tried_twice() -> None:
-    """Where an engine never meets its events: a hundred times tighter down to 1e-13, then the located flight itself."""
+    """Where an engine never meets its events: 100 times tighter down to 1e-13, then the located trajectory itself."""
     asked: list[tuple[float, bool]] = []
 
     def find(model: Any, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Any:
@@ -251,7 +251,7 @@ def test_no_tolerance_is_tried_twice() -> None:
 
     scene = Scene.load("granulation")
     n = nondimensionalise(scene, *scene.need_impact())
-    found = by_casadi(scene, n, RTOL, "cvodes", False, False, find, fly=missed)
+    found = by_casadi(scene, n, RTOL, "cvodes", False, False, find, replay=missed)
     assert found.engine == "rosenbrock"
     assert asked == [(pytest.approx(10.0**-k), False) for k in (9, 11)] + [(1e-13, False), (1e-13, True)]
 
@@ -314,7 +314,7 @@ def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
 @pytest.mark.parametrize(("method", "rtol", "within"), [("LSODA", 1e-10, 1e-7), ("Radau", 1e-7, 1e-5)])
 def test_peers_solve_the_same_problem(reference: dict[str, Any], method: str, rtol: float, within: float) -> None:
     """Scipy's methods reach the reference's outcome, restitution and first criterion."""
-    path = fly(*_numbers(reference), rtol, method)
+    path = locate_by_scipy(*_numbers(reference), rtol, method)
     expected = reference["results"]
     assert path.outcome == expected["outcome"]
     if expected["outcome"] == "stick":
@@ -335,4 +335,4 @@ def test_a_hidden_graze_is_found_by_the_peers() -> None:
         low, high = (low, middle) if met else (middle, high)
     for stokes, kind in ((high * (1 + 1e-5), "glass"), (low * (1 - 1e-5), None)):
         n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-        assert fly(load(select_model(scene, True)), n.groups, 1e-8, "LSODA").reversal == kind
+        assert locate_by_scipy(load(select_model(scene, True)), n.groups, 1e-8, "LSODA").reversal == kind

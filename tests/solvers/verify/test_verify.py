@@ -59,8 +59,8 @@ def test_every_law_holds_on_the_presets(name: str) -> None:
 def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
     """Surface arm: the drift of L is reported, not held; it equals the integral of -x F_t to integration error."""
     scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
-    flown = sample.flights(scene, (0.0, 0.5, 1.3))
-    findings = [*conserved.conserved("g", flown), *surface.surface_arm("g", flown)]
+    collisions = sample.collisions(scene, (0.0, 0.5, 1.3))
+    findings = [*conserved.conserved("g", collisions), *surface.surface_arm("g", collisions)]
     found = {finding.name: finding for finding in findings}
     assert found["angular momentum"].ok is None
     drift = float(found["angular momentum"].figure.split()[1].rstrip(":"))
@@ -208,7 +208,7 @@ def test_the_command_draws(monkeypatch, tmp_path) -> None:
 
 
 @pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
-def test_closed_forms_stay_where_flights_go(engine: str) -> None:
+def test_closed_forms_stay_where_trajectories_go(engine: str) -> None:
     """So fast an impact that elasticity stops it at a third of the film: no closed form is asked for beneath that."""
     scene = Scene.load("granulation").with_impact(stokes=20.0, angle=0.0)
     assert (scene.elastic_length(scene.speed_of(20.0)) or 0) > 0.2 * scene.liquid.film_thickness
@@ -227,11 +227,11 @@ def off_by(error: Callable[[float], float]) -> sample.Collide:
     return run
 
 
-def test_a_flight_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
+def test_a_trajectory_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
     """Errors at rounding for every rtol have no slope; the check holds and says why."""
     one = collide("granulation", stokes=0.12, angle=1.0)
-    flown = sample.Sample(one.scene, [{"rosenbrock": one}])
-    (found,) = order.convergence("g", flown, collide=off_by(lambda rtol: 1e-15))
+    collisions = sample.Sample(one.scene, [{"rosenbrock": one}])
+    (found,) = order.convergence("g", collisions, collide=off_by(lambda rtol: 1e-15))
     assert (found.ok, found.figure) == (True, "all errors at rounding")
 
 
@@ -239,20 +239,24 @@ def test_a_flight_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
 def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> None:
     """Errors that fall as rtol^0.5 have too small a slope; that fails unless all are below a twentieth of rtol."""
     one = collide("granulation", stokes=0.12, angle=1.0)
-    flown = sample.Sample(one.scene, [{"rosenbrock": one}])
+    collisions = sample.Sample(one.scene, [{"rosenbrock": one}])
     last = sample.WHOLE.tolerances[-1]
     # the last one alone would be rounding: 0.01 rtol is 1e-13
-    (found,) = order.convergence("g", flown, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
+    (found,) = order.convergence("g", collisions, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
     assert (found.ok, "every error below 0.05 rtol" in found.figure) == (ok, ok)
     assert "slope 0.5" in found.figure
 
 
 def test_what_finds_nothing_to_look_at_says_so() -> None:
-    """A film so thin that glass is met at initial contact: every law without a flight is a note with that reason."""
+    """A film so thin that glass is met at initial contact: every law that needs a trajectory is a note that says so."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
-    flown = sample.flights(scene, (0.0, 0.5))
-    findings = [*conserved.conserved("g", flown), *backward.backward("g", flown), *order.convergence("g", flown)]
+    collisions = sample.collisions(scene, (0.0, 0.5))
+    findings = [
+        *conserved.conserved("g", collisions),
+        *backward.backward("g", collisions),
+        *order.convergence("g", collisions),
+    ]
     found = {finding.name: finding for finding in findings}
     for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
-        assert (found[law].ok, found[law].figure) == (None, "no flight lasts: all reverse at initial contact")
+        assert (found[law].ok, found[law].figure) == (None, "no trajectory lasts: all reverse at initial contact")
     assert found["angular momentum"].ok is None and "torque" in found["angular momentum"].figure

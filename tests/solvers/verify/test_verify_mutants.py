@@ -58,9 +58,9 @@ FEW = sample.Extent(angles=(0.0, BAD["angle"]))  # two angles of the sample
 
 
 @pytest.fixture(scope="module")
-def flown() -> sample.Sample:
+def collisions() -> sample.Sample:
     """The sample as it is, with nothing changed."""
-    return sample.flights(SCENE, extent=FEW)
+    return sample.collisions(SCENE, extent=FEW)
 
 
 def open_ledger(one: Collision) -> Collision:
@@ -80,8 +80,8 @@ def open_ledger(one: Collision) -> Collision:
 )
 def test_one_bad_collision_is_found_and_named(law, change, engine) -> None:
     """An open ledger, one that is no number, a drift, an engine off by 1e-6, another outcome: that law, that place."""
-    flown = sample.flights(SCENE, extent=FEW, collide=doctored(change, engine))
-    found = by_name(conserved.conserved("g", flown))
+    collisions = sample.collisions(SCENE, extent=FEW, collide=doctored(change, engine))
+    found = by_name(conserved.conserved("g", collisions))
     assert failures(found.values()) == [law]
     assert found[law].where.startswith("St 0.12, 60 deg")
 
@@ -92,14 +92,14 @@ def test_a_collision_that_fails_does_not_lose_the_others() -> None:
     def fail(one: Collision) -> Collision:
         raise ComputationError("no event within 1e9 x0/v0", phase="closing")
 
-    flown = sample.flights(SCENE, extent=FEW, collide=doctored(fail, "cvodes"))
-    found = by_name(conserved.conserved("g", flown))
+    collisions = sample.collisions(SCENE, extent=FEW, collide=doctored(fail, "cvodes"))
+    found = by_name(conserved.conserved("g", collisions))
     assert failures(found.values()) == ["completed"]
     assert "St 0.12, 60 deg, cvodes" in found["completed"].about[0] and "no event" in found["completed"].about[0]
     assert found["energy ledger"].ok and found["cvodes = rosenbrock"].ok
 
 
-def test_a_wrong_sign_on_the_way_back_is_found(flown) -> None:
+def test_a_wrong_sign_on_the_way_back_is_found(collisions) -> None:
     """Backward with the opening rate's sign kept: the stretch does not come back, in any engine."""
 
     def wrong(flow, engine, told):
@@ -109,8 +109,8 @@ def test_a_wrong_sign_on_the_way_back_is_found(flown) -> None:
         dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * vertcat(*rates)}
         return backward.Returning(integrator("wrong", engine, dae, 0, 1, told.options(engine)))
 
-    assert failures(backward.backward("g", flown)) == []
-    found = by_name(backward.backward("g", flown, wrong))
+    assert failures(backward.backward("g", collisions)) == []
+    found = by_name(backward.backward("g", collisions, wrong))
     assert failures(found.values()) == ["forward-back, cvodes", "forward-back, rosenbrock"]
     assert "St " in found["forward-back, cvodes"].where
 
@@ -120,8 +120,8 @@ def test_equations_that_are_off_miss_their_closed_forms(name) -> None:
     """Every group of the equations off by 1e-5: film, straight line, spin and swing all miss, bound 1e-7."""
 
     def off(flow, engine, told):
-        fly = plain(flow, engine, told)
-        return lambda y, p, duration: fly(y, p * (1 + 1e-5), duration)
+        integrate = plain(flow, engine, told)
+        return lambda y, p, duration: integrate(y, p * (1 + 1e-5), duration)
 
     swing = ["swinging"] if name == "pendulum" else []
     laws = ["film alone", "straight line", "spin relaxes", *swing]
@@ -141,14 +141,14 @@ def test_a_bounce_that_is_off_misses_the_film_alone() -> None:
     assert found.where.endswith("glass")
 
 
-def test_an_engine_that_does_not_converge_is_found(flown) -> None:
+def test_an_engine_that_does_not_converge_is_found(collisions) -> None:
     """e_n off by 1e-6 whatever the tolerance: the slope of the error breaks down, for that engine only."""
 
     def off(scene, **options):
         one = collide(scene, **options)
         return replace(one, restitution=one.restitution * (1 + 1e-6 * (one.engine == "cvodes")))
 
-    assert failures(order.convergence("g", flown, collide=off)) == ["convergence, cvodes"]
+    assert failures(order.convergence("g", collisions, collide=off)) == ["convergence, cvodes"]
 
 
 class Overeager:
@@ -164,7 +164,7 @@ class Overeager:
 
 
 class Deceived(locate.EventLocator):
-    """A flight that believes it."""
+    """A trajectory that believes it."""
 
     def __init__(self, *given: Any) -> None:
         super().__init__(*given)
@@ -173,17 +173,17 @@ class Deceived(locate.EventLocator):
 
 
 def test_a_certificate_that_proves_too_much_is_caught() -> None:
-    """Impacts that a false proof certifies escape when flown on; the audit counts them and names one."""
+    """Impacts that a false proof certifies escape when continued; the audit counts them and names one."""
     (honest,) = audit.stick_audit("g", SCENE, impacts=12)
     assert honest.ok and not honest.figure.startswith("0 of 0")
-    (found,) = audit.stick_audit("g", SCENE, impacts=12, flight=Deceived)
+    (found,) = audit.stick_audit("g", SCENE, impacts=12, trajectory=Deceived)
     assert (found.name, found.ok) == ("stick certificate", False)
     assert int(found.figure.split()[0]) > 0
     assert found.where.startswith("St ") and "apart at" in found.where
 
 
-def test_a_flight_without_proof_is_the_same_flight() -> None:
-    """What separates is not changed by flying without a certificate."""
+def test_without_a_proof_the_trajectory_is_the_same() -> None:
+    """What separates is not changed by integrating without a certificate."""
     from wetdoublet.solvers.model.dimensionless import nondimensionalise
     from wetdoublet.solvers.model.model import load, select_model
 
@@ -226,6 +226,6 @@ def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:
 
 def test_a_torque_that_is_off_is_found() -> None:
     """Surface arm: a drift of L that is not the integral of -x F_t fails by name."""
-    flown = sample.flights(SCENE.with_entries({"model.arm": "surface"}), extent=FEW)
-    off = surface.surface_arm("g", flown, lambda flight: surface.torque(flight) * (1 + 1e-4))
+    collisions = sample.collisions(SCENE.with_entries({"model.arm": "surface"}), extent=FEW)
+    off = surface.surface_arm("g", collisions, lambda trajectory: surface.torque(trajectory) * (1 + 1e-4))
     assert failures(off) == ["dL = -int x F_t dt"]

@@ -1,10 +1,10 @@
-/* Derivatives of the restitution by all groups at once: a flight's tape is read from its end.
+/* Derivatives of the restitution by all groups at once: a trajectory's tape is read from its end.
  *
  * `of` holds the restitution's derivatives by the states. What a step does to a direction (tangent_step.h) is linear, a
  * product of matrices; here the same product is taken from the other side, so that it costs one direction whatever the number
- * of groups, and is the same but for rounding. The flight goes first, without directions: its steps are those of the states, at a
+ * of groups, and is the same but for rounding. The trajectory goes first, without directions: its steps are those of the states, at a
  * tolerance that allows for that. What no tolerance allows for is a mode that decays faster than a step's series can tell;
- * such flights, and long ones, are for directions that hold the step.
+ * such trajectories, and long ones, are for directions that hold the step.
  */
 #pragma once
 
@@ -104,7 +104,7 @@ static void unstep(retreat *r, const taped_step *step, unsigned asked)
     }
 }
 
-/* A flight's end: what the restitution is by the states there. */
+/* A trajectory's end: what the restitution is by the states there. */
 static void unend(retreat *r, const struct tape *t, const taped_note *note)
 {
     int lane = note->lane;
@@ -151,7 +151,7 @@ static void unreverse(retreat *r, const taped_note *note)
         r->of[state][lane] = found[state][lane];
 }
 
-/* A flight's start: the groups' own influence there, and all that was found. */
+/* A trajectory's start: the groups' own influence there, and all that was found. */
 static void unbegin(retreat *r, const queue *q, const taped_note *note)
 {
     int lane = note->lane;
@@ -206,7 +206,7 @@ static int there_and_back(queue *q)
         q->next = first;
         q->count = count - first < BATCH ? count : first + BATCH;
         t.stepped = t.noted = t.ended = t.full = 0;
-        fly(q);
+        run(q);
         take_back(q, &r);
         in_quantities(q, first);
     }

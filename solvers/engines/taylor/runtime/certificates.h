@@ -116,11 +116,11 @@ static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;
-    vec hold, flight, rebound;
-    held_margins(c, y, &hold, &flight, &rebound);
+    vec hold, escape, rebound;
+    held_margins(c, y, &hold, &escape, &rebound);
     vec energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
     mask outside = y[GAP] >= contact_gap(c)*(1.0 - margin);
-    return outside & (hold > 0.0) & (rebound < -margin*hold) & (flight < -margin*energy);
+    return outside & (hold > 0.0) & (rebound < -margin*hold) & (escape < -margin*energy);
 }
 #endif
 
@@ -151,7 +151,7 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
 }
 #endif
 
-/* Lanes that are proved to stick, by what is looked at all along a flight. */
+/* Lanes that are proved to stick, by what is looked at all along a trajectory. */
 static inline mask proved_sticks(
     const constants *c, const vec *y, const barrier *b, vec contact, mask closing, mask resting, double tolerance)
 {
@@ -174,7 +174,7 @@ static inline mask proved_sticks(
 }
 
 /* When to look at what holds for good: where a phase starts, and after some steps. Beside a proof by energy, which most
- * sticks meet first, only once a flight has become long. */
+ * sticks meet first, only once a trajectory has become long. */
 enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, EVERY = PROOF_BY_ENERGY ? 64 : 16 };
 
 static inline mask now_and_then(mask fresh, mask phases, mask steps)

@@ -1,6 +1,6 @@
 /* Sums that stand long steps where a mode decays fast and all else creeps.
  *
- * A truncated series amplifies a mode exp(-z), z its rate times the step, beyond z of 4 or 5: a creeping flight is held to
+ * A truncated series amplifies a mode exp(-z), z its rate times the step, beyond z of 4 or 5: a creeping trajectory is held to
  * that step though nothing happens in it. With the last three coefficients times factors below one, the amplification
  *     R(z) = sum of w_k (-z)^k/k!,  w_k = 1 up to ORDER - 3,
  * stays below 0.75 up to z = 13: the mode dies within some steps and no longer shows in the coefficients, so the step grows

@@ -18,9 +18,9 @@
 #include "tangent_step.h"
 #include "tape.h"
 
-static void fly(queue *q)
+static void run(queue *q)
 {
-    flights l;
+    lanes l;
     fixed f;
     series s;
 #if GRADIENTS && !BACKWARD
@@ -54,7 +54,7 @@ static void fly(queue *q)
         /* a stick is as good a step later: the level is looked at in every second turn */
         mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
-            sticks |= proved_in_flight(&l, &f, q->rtol);
+            sticks |= proved_underway(&l, &f, q->rtol);
 #if WITH_TRAJECTORY
         sticks &= provable(q, l.closing);
 #endif

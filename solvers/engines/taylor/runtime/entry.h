@@ -1,4 +1,4 @@
-/* What Python calls: a task is looked at, its collisions flown. */
+/* What Python calls: a task is looked at, its collisions integrated. */
 #pragma once
 
 #include "adjoint.h"
@@ -91,7 +91,7 @@ const char *collide(task *t)
     if (!there_and_back(&q))
         return "no memory for its tape";
 #else
-    fly(&q);
+    run(&q);
 #if GRADIENTS
     in_quantities(&q, 0);
 #endif

@@ -121,7 +121,7 @@ static __attribute__((noinline)) void look(
     found->event = (first & event) | (~first & found->event);
 }
 
-static void find_events(const series *s, const flights *l, const fixed *f, vec h, first_event *found)
+static void find_events(const series *s, const lanes *l, const fixed *f, vec h, first_event *found)
 {
     const vec zero = splat(0.0), one = splat(1.0);
     found->time = splat(NO_ROOT);

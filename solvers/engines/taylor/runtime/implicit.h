@@ -1,4 +1,4 @@
-/* Flights that creep for long: past a saddle, or in a film that strings press, a slow mode is all that is left.
+/* Trajectories that creep for long: past a saddle, or in a film that strings press, a slow mode is all that is left.
  *
  * A Taylor step is held to 13 decay times of the fast modes (damped_sum.h), and near a separatrix there are 1e4 such steps.
  * Lanes that have crept for PATIENCE steps are parked; as soon as all lanes of a vector are such, or nothing else is left,
@@ -97,7 +97,7 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
 }
 
 /* Lanes where no event can lie between two states: what may fall to zero keeps half of what it had. */
-static mask clear_of_events(const slow *w, const flights *l, const fixed *f, const vec *from, const vec *to)
+static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const vec *from, const vec *to)
 {
     const vec zero = splat(0.0);
     mask opens = from[NORMAL_VELOCITY] > 0.0;
@@ -123,7 +123,7 @@ static mask clear_of_events(const slow *w, const flights *l, const fixed *f, con
 }
 
 /* One step of each lane: the changes, their errors over what is allowed, and whether an event could lie in it. */
-static vec extrapolated(slow *w, const flights *l, const fixed *f, const vec *rate, vec h, vec *change, mask *clear)
+static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate, vec h, vec *change, mask *clear)
 {
     vec table[COLUMNS][STATES], y[STATES], now[STATES], d[STATES], error = splat(0.0), carried = error;
     *clear = splat_mask(-1);
@@ -173,7 +173,7 @@ static vec extrapolated(slow *w, const flights *l, const fixed *f, const vec *ra
 /* Parked lanes, on to where they creep no longer: proved, or back in the queue with what they have come to. */
 static __attribute__((noinline)) void crawl(queue *q)
 {
-    flights l;
+    lanes l;
     fixed f;
     slow w;
     memset(&w, 0, sizeof w);
@@ -189,7 +189,7 @@ static __attribute__((noinline)) void crawl(queue *q)
     w.moving = ~l.resting;
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
-        mask sticks = proved_in_flight(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
+        mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
             settle(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         busy &= ~sticks;

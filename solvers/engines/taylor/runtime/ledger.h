@@ -1,5 +1,5 @@
-/* The energy ledger of a flight, in m v0^2: energies from the states at initial contact and at the end, losses and works as
- * integrals along the flight, and what reversals took. Nothing is made to close: what is left over is the flight's error.
+/* The energy ledger of a trajectory, in m v0^2: energies from the states at initial contact and at the end, losses and works as
+ * integrals along the trajectory, and what reversals took. Nothing is made to close: what is left over is the trajectory's error.
  */
 #pragma once
 
@@ -19,7 +19,7 @@ static void book_rest(ledger *book, const vec *y, int lane)
     book->dry += 0.5*y[NORMAL_VELOCITY][lane]*y[NORMAL_VELOCITY][lane];
 }
 
-/* The flight of a lane is over in this state. */
+/* The trajectory of a lane is over in this state. */
 static void close_book(ledger *book, const constants *c, const vec *y, int lane)
 {
     vec first[STATES], stored[2][ENERGIES];

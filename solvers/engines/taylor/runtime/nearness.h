@@ -1,4 +1,4 @@
-/* How near a flight comes to a boundary between outcomes, where derivatives jump or diverge: the measures of
+/* How near a trajectory comes to a boundary between outcomes, where derivatives jump or diverge: the measures of
  * solvers/sensitivity/boundary_distance.py, taken on the series of each step.
  *
  * They are looked at closely only where a bound leaves room for a value below WORTH_SAYING.
@@ -106,7 +106,7 @@ static double slowest(const series *s, double h, int lane)
 }
 #endif
 
-static void measure_event(carried *a, const flights *l, const fixed *f, const series *s, const vec *at, double h,
+static void measure_event(carried *a, const lanes *l, const fixed *f, const series *s, const vec *at, double h,
     int event, int lane)
 {
     double gap = at[GAP][lane], normal_velocity = at[NORMAL_VELOCITY][lane], contact = f->contact[lane];
@@ -146,7 +146,7 @@ static void measure_event(carried *a, const flights *l, const fixed *f, const se
 #endif
 }
 
-static void measure(flights *l, const fixed *f, const series *s, vec h, mask falls, mask event)
+static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls, mask event)
 {
     const vec(*a)[TERMS] = (const void *)s;
     carried *along = &l->along;

@@ -85,27 +85,27 @@ static void fill_queue(queue *q)
     }
 }
 
-typedef double word_of_lane __attribute__((may_alias)); /* a flight's fields are vectors of doubles or of integers */
+typedef double word_of_lane __attribute__((may_alias)); /* a trajectory's fields are vectors of doubles or of integers */
 
-/* A lane's flight to a row, and back. */
-static void pack(double *row, const flights *l, const fixed *f, int lane)
+/* A lane's trajectory to a row, and back. */
+static void pack(double *row, const lanes *l, const fixed *f, int lane)
 {
     for (int field = 0; field < FIXED; field++)
         row[field] = ((const vec *)f)[field][lane];
-    for (int field = 0; field < FLIGHT; field++)
+    for (int field = 0; field < LANE_STATE; field++)
         row[FIXED + field] = ((const word_of_lane *)l)[field*LANES + lane];
 }
 
-static void unpack(const double *row, flights *l, fixed *f, int lane)
+static void unpack(const double *row, lanes *l, fixed *f, int lane)
 {
     for (int field = 0; field < FIXED; field++)
         ((double *)&((vec *)f)[field])[lane] = row[field];
-    for (int field = 0; field < FLIGHT; field++)
+    for (int field = 0; field < LANE_STATE; field++)
         ((word_of_lane *)l)[field*LANES + lane] = row[FIXED + field];
 }
 
 /* Puts the next collision of the queue into a lane; the lane rests if there is none. */
-static void refill(queue *q, flights *l, fixed *f, int lane)
+static void refill(queue *q, lanes *l, fixed *f, int lane)
 {
     if (q->resumes) {
         unpack(q->resumed[--q->resumes], l, f, lane);
@@ -139,8 +139,8 @@ static void refill(queue *q, flights *l, fixed *f, int lane)
 #endif
 }
 
-/* A lane's flight waits for others that creep; it flies on if enough wait. */
-static void park(queue *q, flights *l, fixed *f, int lane)
+/* A lane's trajectory waits for others that creep; it integrates on if enough wait. */
+static void park(queue *q, lanes *l, fixed *f, int lane)
 {
     if (q->parks == LANES)
         return;
@@ -150,8 +150,8 @@ static void park(queue *q, flights *l, fixed *f, int lane)
 
 _Static_assert(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
 
-/* What came of a flight. */
-static void settle(queue *q, const flights *l, const fixed *f, int lane, int status, int outcome, int certified)
+/* What came of a trajectory. */
+static void settle(queue *q, const lanes *l, const fixed *f, int lane, int status, int outcome, int certified)
 {
     answer *a = &q->answers[l->index[lane]];
     put(q, l->index[lane], status, outcome, certified);
@@ -190,8 +190,8 @@ static void settle(queue *q, const flights *l, const fixed *f, int lane, int sta
 #endif
 }
 
-/* The flight of a lane is over: what came of it, and the next one. */
-static void finish(queue *q, flights *l, fixed *f, int lane, int status, int outcome, int certified)
+/* The trajectory of a lane is over: what came of it, and the next one. */
+static void finish(queue *q, lanes *l, fixed *f, int lane, int status, int outcome, int certified)
 {
     settle(q, l, f, lane, status, outcome, certified);
     refill(q, l, f, lane);

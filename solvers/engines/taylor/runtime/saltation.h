@@ -7,13 +7,13 @@
 #include "state.h"
 
 #if GRADIENTS
-/* What an event asks of the states: its function's derivatives by the states, along the flight, and by the groups. */
+/* What an event asks of the states: its function's derivatives by the states, along the trajectory, and by the groups. */
 typedef struct {
     mask gap, turned, glass;   /* lanes by what is zero */
     mask contact, end, edge;   /* of those at a gap, which one */
     vec rate[STATES];          /* of the states as the event is met */
     vec by_gap, by_approach;   /* of the glass criterion */
-    vec pace;                  /* of the event's function along the flight */
+    vec pace;                  /* of the event's function along the trajectory */
     vec at[STATES];            /* the states as it is met */
 } meeting;
 

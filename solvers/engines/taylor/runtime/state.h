@@ -1,4 +1,4 @@
-/* What is known of collisions on their way: enumerations, what is fixed for a flight, flights side by side, what was asked. */
+/* What is known of collisions on their way: enumerations, what is fixed for a trajectory, trajectories side by side, what was asked. */
 #pragma once
 
 #include "automaton.h"
@@ -12,7 +12,7 @@ static const double SLOW = 0.1; /* of v0: a normal velocity below counts as this
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
 
-/* What is fixed for a flight. */
+/* What is fixed for a trajectory. */
 typedef struct {
     constants c;
     barrier b;
@@ -35,9 +35,9 @@ typedef struct {
 #if GRADIENTS
     carried along;
 #endif
-} flights;
+} lanes;
 
-enum { FIXED = sizeof(fixed)/sizeof(vec), FLIGHT = sizeof(flights)/sizeof(vec) };
+enum { FIXED = sizeof(fixed)/sizeof(vec), LANE_STATE = sizeof(lanes)/sizeof(vec) };
 
 typedef struct {
     task *t; /* what was asked; its buffers are as large as they say (solvers/engines/taylor/layout.py) */
@@ -60,8 +60,8 @@ typedef struct {
     long waiting[LANES];
     double rows[LANES][FIXED];
     double starts[LANES][STATES];
-    int parks, resumes; /* flights that wait for implicit.h, and that come from there */
-    double parked[LANES][FIXED + FLIGHT], resumed[LANES][FIXED + FLIGHT];
+    int parks, resumes; /* trajectories that wait for implicit.h, and that come from there */
+    double parked[LANES][FIXED + LANE_STATE], resumed[LANES][FIXED + LANE_STATE];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
     nearness *near;
@@ -73,7 +73,7 @@ typedef struct {
 } queue;
 
 #if WITH_TRAJECTORY
-/* Lanes whose stick may be proved, for the purpose of a flight. */
+/* Lanes whose stick may be proved, for the purpose of a trajectory. */
 static mask provable(const queue *q, mask closing)
 {
     long purpose = q->t->purpose;
@@ -107,13 +107,13 @@ static void note(queue *q, long index, int kind, double time)
 }
 
 /* Lanes that are proved to stick as they are. */
-static mask proved_in_flight(const flights *l, const fixed *f, double tolerance)
+static mask proved_underway(const lanes *l, const fixed *f, double tolerance)
 {
     return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
 }
 
 /* Where the film acts: a liquid that cavitates does not while it is opened. */
-static inline vec acting(const flights *l)
+static inline vec acting(const lanes *l)
 {
 #if defined(FILM_CAVITATES)
     return only(l->closing, l->film);

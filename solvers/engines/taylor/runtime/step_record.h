@@ -1,4 +1,4 @@
-/* The steps of a flight as they were taken, a row each: states as polynomials in the time since the step's start. */
+/* The steps of a trajectory as they were taken, a row each: states as polynomials in the time since the step's start. */
 #pragma once
 
 #include "events.h"
@@ -26,7 +26,7 @@ const int row_turned = -1;
 #endif
 
 /* Rows beyond the room that there is are counted and not written: the caller asks again with more room. */
-static void keep_steps(queue *q, const flights *l, const vec (*a)[TERMS], vec length)
+static void keep_steps(queue *q, const lanes *l, const vec (*a)[TERMS], vec length)
 {
     for (unsigned left = bits(l->alive); left; left &= left - 1) {
         int lane = __builtin_ctz(left);
@@ -51,7 +51,7 @@ enum { LOOKS = 8 };
 
 /* The margin of the glass criterion where it is largest within a step, as the logarithm of the gap at which this speed
  * would meet it over the gap that there is, twice: ln(pressure/limit) for the literal criterion. */
-static __attribute__((noinline)) void note_peaks(const queue *q, const flights *l, const fixed *f, const series *s, vec h)
+static __attribute__((noinline)) void note_peaks(const queue *q, const lanes *l, const fixed *f, const series *s, vec h)
 {
     vec largest = splat(0.0);
     for (int k = 0; k <= LOOKS; k++) {
@@ -67,8 +67,8 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const flights *
 }
 #endif
 
-/* What an event does, and whether the purpose of the flight is fulfilled with it. */
-static void act_for_purpose(queue *q, flights *l, fixed *f, int lane, int event)
+/* What an event does, and whether the purpose of the trajectory is fulfilled with it. */
+static void act_for_purpose(queue *q, lanes *l, fixed *f, int lane, int event)
 {
     long purpose = q->t->purpose, index = l->index[lane];
     int closing = l->closing[lane] != 0;

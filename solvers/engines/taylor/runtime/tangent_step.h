@@ -20,7 +20,7 @@ static const vec NOTHING[TERMS];
 
 /* The derivatives' series, and what each coefficient is measured by: its own size, and what the state would change by if
  * its elasticity were one. A mode that decays fast may be gone from the states and not from these: they share the step. */
-static void expand_along(tangents *all, const flights *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
+static void expand_along(tangents *all, const lanes *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
     vec own[STATES];
     for (int state = 0; state < STATES; state++)
@@ -43,7 +43,7 @@ static void expand_along(tangents *all, const flights *l, const fixed *f, const 
 }
 
 /* The derivatives at the end of a step, on the surface of the event that ends it. */
-static void carry(flights *l, const fixed *f, const series *s, const tangents *all, vec h, mask falls, mask event,
+static void carry(lanes *l, const fixed *f, const series *s, const tangents *all, vec h, mask falls, mask event,
     unsigned asked)
 {
     carried *a = &l->along;

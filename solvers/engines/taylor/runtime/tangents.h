@@ -1,4 +1,4 @@
-/* Derivatives carried along a flight, a direction for each group that was asked for.
+/* Derivatives carried along a trajectory, a direction for each group that was asked for.
  *
  * A phase starts on its event, so a derivative of its start is one of the state on a surface that moves with the groups;
  * time is no variable of it, only a sum whose parts change with the events that end them (saltation).
@@ -12,7 +12,7 @@
 enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED };
 _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
 
-/* How near a flight comes to a boundary between outcomes, by its own measures (solvers/sensitivity/boundary_distance.py). */
+/* How near a trajectory comes to a boundary between outcomes, by its own measures (solvers/sensitivity/boundary_distance.py). */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
 
 /* What the glass criterion's clearance is of that without motion: one less the pressure over its limit. */

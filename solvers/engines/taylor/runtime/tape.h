@@ -1,4 +1,4 @@
-/* What a flight leaves for the way back: where each step began and what ended it, and what happened to lanes in between. */
+/* What a trajectory leaves for the way back: where each step began and what ended it, and what happened to lanes in between. */
 #pragma once
 
 #include "state.h"
@@ -18,7 +18,7 @@ typedef struct {
     long index;
     int kind, lane;
     double y[STATES];
-    long row; /* of what was fixed for a flight, where it ended */
+    long row; /* of what was fixed for a trajectory, where it ended */
 } taped_note;
 
 enum {
@@ -37,13 +37,13 @@ struct tape {
 /* A mode that is gone from the states may not be from their derivatives: no step that would enlarge it (damped_sum.h). */
 static const double STEADY = 6.0, STEADY_DAMPED = 13.0;
 
-static inline vec held_for_derivatives(const flights *l, const fixed *f, const series *s, vec h, mask creeps)
+static inline vec held_for_derivatives(const lanes *l, const fixed *f, const series *s, vec h, mask creeps)
 {
     vec most = choose(creeps, splat(STEADY_DAMPED), splat(STEADY));
     return vec_min(h, most/contraction(s, &f->c, acting(l), l->shear)); /* infinite where nothing decays */
 }
 
-static void keep_on_tape(const queue *q, const flights *l, vec h, mask creeps, mask falls, mask event)
+static void keep_on_tape(const queue *q, const lanes *l, vec h, mask creeps, mask falls, mask event)
 {
     struct tape *t = q->tape;
     if (t->stepped == STEP_ROOM) {
@@ -82,7 +82,7 @@ static void note_on_tape(const queue *q, int kind, long index, int lane, const v
     }
 }
 
-/* Where there is no room left, flights end without an answer. */
+/* Where there is no room left, trajectories end without an answer. */
 static inline mask only_if_full(const queue *q, mask alive)
 {
     return q->tape->full ? alive : splat_mask(0);

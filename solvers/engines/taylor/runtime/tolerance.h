@@ -11,7 +11,7 @@ static const double SHARP = 2e-13; /* below it nothing tighter can be asked for,
 static const double TIGHTEST = 1e-14;
 #endif
 
-/* Those of flights whose constants are known; returns the lanes that are beyond any tolerance. */
+/* Those of trajectories whose constants are known; returns the lanes that are beyond any tolerance. */
 static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;

@@ -9,14 +9,14 @@
 #include "tangents.h"
 #include "tape.h"
 
-static void separated(queue *q, flights *l, fixed *f, int lane)
+static void separated(queue *q, lanes *l, fixed *f, int lane)
 {
     note(q, l->index[lane], KIND_RUPTURE, l->time[lane]);
     finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);
 }
 
 /* The phase that opens from here; from initial contact, beyond the film at once. */
-static void opens(flights *l, const fixed *f, int lane)
+static void opens(lanes *l, const fixed *f, int lane)
 {
     l->closing[lane] = 0;
     l->resting[lane] = 0;
@@ -27,14 +27,14 @@ static void opens(flights *l, const fixed *f, int lane)
 }
 
 /* A new phase begins, and what holds on its entry is looked at. */
-static void new_phase(flights *l, int lane)
+static void new_phase(lanes *l, int lane)
 {
     l->phases[lane]++;
     l->fresh[lane] = -1;
 }
 
 /* Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left. */
-static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
+static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
     vec after[STATES];
 #if WITH_LEDGER
@@ -80,7 +80,7 @@ static void reverse(queue *q, flights *l, fixed *f, int lane, int kind)
 }
 
 /* A criterion already true where a closing phase starts, by rule: the first of the table. */
-static void criteria_met(queue *q, flights *l, fixed *f)
+static void criteria_met(queue *q, lanes *l, fixed *f)
 {
     mask asked = l->fresh & l->alive & l->closing & ~l->resting;
     l->fresh = splat_mask(0);

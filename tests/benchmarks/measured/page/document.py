@@ -77,8 +77,8 @@ at initial contact, against the largest absolute error in e_n among those that s
 
 * **The same for all**: equations from the emitted modules, stop rule, stick certificate with its margin.
 * **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the impact is checked, the path located
-  (by the interpreted Rosenbrock), then flown again by the engine, and a result made with its SI quantities. Locating is
-  never looser than 1e-6.
+  (by the interpreted Rosenbrock), then integrated again by the engine, and a result made with its SI quantities.
+  Locating is never looser than 1e-6.
 * **Engines of many collisions** (`rosenbrock, compiled` and `taylor` by `collide_many` of outcome and restitution, the
   kernel without what that adds, heyoka, diffrax) get the whole set twenty times in one call; what they compile is not
   counted.
@@ -88,8 +88,8 @@ at initial contact, against the largest absolute error in e_n among those that s
   that level are computed beforehand, for nothing. Its events are isolated on the step's polynomial, so that it misses
   no graze.
 * **CVODE of scikit-sundae** has rates, Jacobian and events as machine code by numba; **scipy's** methods call CasADi
-  functions with parameters bound once. Both stop at terminal events, with the rules of our own flights between them.
-  scipy's look for grazing minima afterwards, CVODE does not.
+  functions with parameters bound once. Both stop at terminal events, with the rules of our own trajectories between
+  them. scipy's look for grazing minima afterwards, CVODE does not.
 * **diffrax**: Tsit5, jitted and vectorised over the set, its own events with a Newton root finder.
 * An engine whose collisions take more than two seconds at one tolerance is not asked for the next.
 * A peer that is not installed is named at the top, and so is a compiler that is missing. AMICI is not among the peers:
@@ -101,10 +101,10 @@ STRESS = """\
 `wetdoublet verify --stress N`: a quasi-random sample of everything a scene may say, and points set at 1e-3 to 1e-12 of
 boundaries, each by every engine. Two engines disagree where their outcomes differ, or e_n by more than 1e3 rtol times
 its conditioning; that is explained only where a change of outcome lies within 1e3 rtol of the Stokes number, found by
-moving it. Certified sticks are flown on without their certificate; ledgers must close."""
+moving it. Certified sticks are continued without their certificate; ledgers must close."""
 
 SHARE = """\
-Both engines fly the same located paths with the same landing on events, told the same relative tolerance; median
+Both engines integrate the same located paths with the same landing on events, told the same relative tolerance; median
 error in e_n of the separating collisions among those drawn, and the median of the collisions' own ratios to
 Rosenbrock."""
 

@@ -1,6 +1,6 @@
 """Collisions by diffrax: Tsit5 with events, jitted and vectorised over all collisions, from the emitted equations.
 
-A flight is a loop over phases, each ended by diffrax's own event with a Newton root finder; like scipy's methods it
+A trajectory is a loop over phases, each ended by diffrax's own event with a Newton root finder; like scipy's methods it
 looks at signs at the ends of steps. The level that proves a stick is an event of the energy, computed beforehand.
 """
 
@@ -31,14 +31,14 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     jax.config.update("jax_enable_x64", True)
     numbers = [dimensionless(scene, impact) for impact in impacts]
     choice = select_model(scene, numbers[0].oblique)
-    flights = [EventLocator(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(flight.watch.tangential_edge or flight.model.choice != choice for flight in flights):
+    trajectories = [EventLocator(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers]
+    if any(trajectory.watch.tangential_edge or trajectory.model.choice != choice for trajectory in trajectories):
         raise ComputationError("the tangential edge lies within reach, or head-on is mixed with oblique")
-    names = tuple(flights[0].model.groups)
-    begun = starts(flights, numbers, names)
+    names = tuple(trajectories[0].model.groups)
+    begun = starts(trajectories, numbers, names)
     states, parameters = (np.array([getattr(each, name) for each in begun]) for name in ("state", "parameters"))
     reversed_ = np.array([each.reversed for each in begun])
-    run = jax.jit(jax.vmap(flight(choice, names, flights[0].watch.certificate, rtol)))
+    run = jax.jit(jax.vmap(trajectory(choice, names, trajectories[0].watch.certificate, rtol)))
 
     def every() -> list[np.ndarray]:
         return [np.asarray(each) for each in run(states, parameters, reversed_)]
@@ -56,8 +56,8 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     return Bulk(every, read)
 
 
-def flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:
-    """The flight of one collision as a function that jax can transform."""
+def trajectory(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:
+    """The trajectory of one collision as a function that jax can transform."""
     import diffrax
     import jax
     import jax.numpy as jnp
@@ -74,7 +74,9 @@ def flight(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float)
         found = list(structure.right_hand_side(state, groups, laws, film, 1).values())
         if proved == "energy" and bridge:
             found.append(structure.energy_rates(state, groups, laws, film, 1)["capillary"])
-        return args[-2] * jnp.stack([jnp.asarray(each, float) for each in found])  # at rest where a flight has ended
+        return args[-2] * jnp.stack(
+            [jnp.asarray(each, float) for each in found]
+        )  # at rest where a trajectory has ended
 
     def events(y: Any, args: Any) -> dict[str, Any]:
         state, groups, film, level = unpacked(y, args)

@@ -1,6 +1,6 @@
 """Derivatives of e_n by diffrax: forward mode through its solver and through the root that ends each phase.
 
-What a user of jax would write: `jacfwd` of the flight of `peer_diffrax`. An event's time is the solution of a root
+What a user of jax would write: `jacfwd` of the trajectory of `peer_diffrax`. An event's time is the solution of a root
 find of optimistix, which differentiates it implicitly; with it the state at the event carries the saltation. Jitted,
 all parameters and all collisions vectorised.
 """
@@ -17,7 +17,7 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..gradient_task import Gradients
-from .diffrax_engine import SEPARATED, flight
+from .diffrax_engine import SEPARATED, trajectory
 from .heyoka_engine import starts
 from .translated import translated
 
@@ -49,7 +49,7 @@ def prepare(
     parameters = np.array([each.parameters for each in begun])
     reversed_ = np.array([each.reversed for each in begun])
     structure, laws = translated(choice, lambda word: getattr(jnp, word))
-    fly = flight(choice, names, None, rtol)  # no stick is to be proved
+    integrate = trajectory(choice, names, None, rtol)  # no stick is to be proved
 
     def restitution(theta: jax.Array, p: jax.Array, slope: jax.Array, met: jax.Array) -> tuple[jax.Array, jax.Array]:
         moved = p.at[: len(names)].add(slope @ theta)
@@ -57,7 +57,7 @@ def prepare(
         first = {name: jnp.asarray(value, float) for name, value in structure.start({}, groups, laws).items()}
         after = structure.reversal(first, groups, laws)
         y = jnp.stack([jnp.where(met, after[name], first[name]) for name in first])
-        ended, e_n, _ = fly(y, moved, met)
+        ended, e_n, _ = integrate(y, moved, met)
         return e_n, ended
 
     columns = jax.jit(jax.vmap(jax.jacfwd(restitution, has_aux=True), in_axes=(None, 0, 0, 0)))

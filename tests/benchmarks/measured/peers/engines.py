@@ -17,7 +17,7 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
-from wetdoublet.solvers.verify.stress.scipy_engine import fly
+from wetdoublet.solvers.verify.stress.scipy_engine import locate_by_scipy
 
 from .bulk import Bulk, Collide
 
@@ -142,11 +142,11 @@ def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
 def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
     """One collision after another by CVODE."""
-    from .sundials_engine import fly as flown
+    from .sundials_engine import locate_by_scipy as run_by_sundials
 
     def one(k: int) -> Answer:
         n = dimensionless(scene, impacts[k])
-        return answer(flown(load(select_model(scene, n.oblique)), n.groups, rtol))
+        return answer(run_by_sundials(load(select_model(scene, n.oblique)), n.groups, rtol))
 
     return one
 
@@ -156,6 +156,6 @@ def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
 
     def one(k: int) -> Answer:
         n = dimensionless(scene, impacts[k])
-        return answer(fly(load(select_model(scene, n.oblique)), n.groups, rtol, method))
+        return answer(locate_by_scipy(load(select_model(scene, n.oblique)), n.groups, rtol, method))
 
     return one

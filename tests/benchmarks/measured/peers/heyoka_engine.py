@@ -25,7 +25,7 @@ from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
 from .translated import translated
 
-HORIZON = 1e10  # x0/v0: a flight that has not ended by then has failed
+HORIZON = 1e10  # x0/v0: a trajectory that has not ended by then has failed
 STEPS = 2000
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
@@ -121,7 +121,7 @@ class Start:
     state: np.ndarray
     parameters: np.ndarray
     reversed: bool
-    flight: EventLocator
+    locator: EventLocator
 
 
 @dataclass
@@ -171,11 +171,11 @@ class Batch:
         return True
 
     def _proved(self, lane: int) -> bool:
-        flight = self.starts[self.lanes[lane].collision].flight
-        if not flight.watch.certificate:
+        locator = self.starts[self.lanes[lane].collision].locator
+        if not locator.watch.certificate:
             return False
-        proof = energy_proof(flight.proof) or flight.proof  # the cheap one alone, as in the kernel
-        return proof.decided(self.integrator.state[:, lane].copy(), flight.phase)
+        proof = energy_proof(locator.proof) or locator.proof  # the cheap one alone, as in the kernel
+        return proof.decided(self.integrator.state[:, lane].copy(), locator.phase)
 
     def ended(self, lane: int, separated: bool) -> bool:
         """Record how a collision ended and take the next."""
@@ -203,8 +203,8 @@ class Batch:
 
         def inside(ta: Any, _: int, lane: int) -> bool:
             """A barrier inside the film is ahead from here on."""
-            flight = self.starts[self.lanes[lane].collision].flight
-            level = flight.proof.level(ta.state[:, lane].copy(), flight.phase)
+            locator = self.starts[self.lanes[lane].collision].locator
+            level = locator.proof.level(ta.state[:, lane].copy(), locator.phase)
             ta.pars[self.film + 2, lane] = _NEVER if level is None else level
             return self.ended(lane, False) if self._proved(lane) else True
 
@@ -240,13 +240,13 @@ def prepare(
     if any(select_model(scene, each.oblique) != choice for each in numbers):
         raise ComputationError("head-on and oblique collisions are different structures")
     model = load(choice)
-    flights = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(flight.watch.tangential_edge for flight in flights):
+    locators = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
+    if any(locator.watch.tangential_edge for locator in locators):
         raise ComputationError("the tangential edge lies within reach")
-    proved = flights[0].proof.watches
+    proved = locators[0].proof.watches
     equations = system(choice, [each.groups for each in numbers], proved, inside)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
-    batch.starts = starts(flights, numbers, equations.varying)
+    batch.starts = starts(locators, numbers, equations.varying)
     if inside:
         for start in batch.starts:
             start.parameters = np.append(start.parameters, _below(start))
@@ -275,28 +275,28 @@ def prepare(
 
 def _below(start: Start) -> float:
     """The gap just below the outermost barrier."""
-    proof = energy_proof(start.flight.proof)
-    barriers = () if proof is None else proof.barriers(start.flight.y)
+    proof = energy_proof(start.locator.proof)
+    barriers = () if proof is None else proof.barriers(start.locator.y)
     return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
 
 
 def starts(
-    flights: Sequence[EventLocator], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
+    locators: Sequence[EventLocator], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
 ) -> list[Start]:
     """State and parameters at initial contact; a criterion that is met there reverses there.
 
     Parameters are the groups named, then film, active and level.
     """
     found = []
-    for flight, each in zip(flights, numbers):
-        y, film, reversed_ = flight.y, 1.0, False
-        values = flight.model.values("events", y, flight.p)
+    for locator, each in zip(locators, numbers):
+        y, film, reversed_ = locator.y, 1.0, False
+        values = locator.model.values("events", y, locator.p)
         if min(values[name] for name in CRITERIA) <= 0:
-            after = flight.model.values("reversal", y, flight.p)
+            after = locator.model.values("reversal", y, locator.p)
             y, film, reversed_ = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
-        level = flight.proof.level(y, flight.phase) if flight.watch.certificate else None
+        level = locator.proof.level(y, locator.phase) if locator.watch.certificate else None
         parameters = [*(each.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
-        found.append(Start(y, np.array(parameters), reversed_, flight))
+        found.append(Start(y, np.array(parameters), reversed_, locator))
     return found
 
 

@@ -257,13 +257,13 @@ def prepare(
     if any(select_model(scene, each.oblique) != choice for each in numbers):
         raise ComputationError("head-on and oblique collisions are different structures")
     model = load(choice)
-    flights = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(flight.watch.tangential_edge for flight in flights):
+    locators = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
+    if any(locator.watch.tangential_edge for locator in locators):
         raise ComputationError("the tangential edge lies within reach")
     criteria = [name for name in CRITERIA if name != "elastic" or numbers[0].groups["elastic_gap"] != 0.0]
     equations = variational(choice, criteria)
     batch = Gradients(film=len(equations.groups), equations=equations, slopes=slopes)
-    batch.starts = [_begin(equations, flight, each) for flight, each in zip(flights, numbers, strict=True)]
+    batch.starts = [_begin(equations, locator, each) for locator, each in zip(locators, numbers, strict=True)]
     batch.lanes = [Lane() for _ in range(size)]
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     arguments = [heyoka.par[equations.groups.index(name)] for name in equations.smooth]
@@ -283,13 +283,13 @@ def prepare(
     return batch
 
 
-def _begin(equations: Variational, flight: EventLocator, numbers: DimensionlessGroups) -> Start:
+def _begin(equations: Variational, locator: EventLocator, numbers: DimensionlessGroups) -> Start:
     """At initial contact; a criterion that is met there reverses there, at a moment that nothing moves."""
-    values = flight.model.values("events", flight.y, flight.p)
+    values = locator.model.values("events", locator.y, locator.p)
     reversed_ = min(values[name] for name in CRITERIA) <= 0
     film = 0.0 if reversed_ else 1.0
     parameters = np.array([*(numbers.groups[name] for name in equations.groups), film, 1.0])
-    count = len(flight.model.state)
+    count = len(locator.model.state)
     first = equations.begin[reversed_]
     state = first(np.zeros(count * (1 + equations.columns)), pars=parameters[: first.nparams])
-    return Start(np.array(state), parameters, reversed_, flight)
+    return Start(np.array(state), parameters, reversed_, locator)

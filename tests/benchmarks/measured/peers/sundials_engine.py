@@ -1,7 +1,7 @@
 """Collisions by scikit-sundae's CVODE, with rates, Jacobian and events compiled by numba from the emitted equations.
 
-CVODE's own root finding ends a flight at its events; grazing minima are looked for as by scipy's methods. The functions
-are straight-line code, compiled once for a flow.
+CVODE's own root finding ends a trajectory at its events; grazing minima are looked for as by scipy's methods. The
+functions are straight-line code, compiled once for a flow.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from wetdoublet.solvers.engines.casadi.integrators import EventHit
 from wetdoublet.solvers.engines.casadi.locate import EventSequence
 from wetdoublet.solvers.model.model import Model
 from wetdoublet.solvers.verify.stress.numpy_equations import Equations
-from wetdoublet.solvers.verify.stress.scipy_engine import Flight
+from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 
 _WORDS = {
     "ADD": "{0} + {1}", "SUB": "{0} - {1}", "MUL": "{0} * {1}", "DIV": "{0} / {1}", "NEG": "-{0}", "EXP": "exp({0})",
@@ -76,8 +76,8 @@ def compiled(found: Equations) -> Compiled:
     return Compiled(*(numba.njit(space[name]) for name in parts))
 
 
-class Sundae(Flight):
-    """A flight by CVODE; rules, phases and proofs are those of our own engines."""
+class Sundae(ScipyLocator):
+    """A trajectory by CVODE; rules, phases and proofs are those of our own engines."""
 
     def __init__(self, model: Model, groups: dict[str, float], rtol: float) -> None:
         super().__init__(model, groups, rtol, "CVODE")
@@ -121,6 +121,6 @@ def _met(solution: Any, count: int) -> int | None:
     return next((k for k in range(count) if hit[k]), None)
 
 
-def fly(model: Model, groups: dict[str, float], rtol: float) -> EventSequence:
-    """The flight of a collision. ComputationError if it does not come to an end."""
+def locate_by_scipy(model: Model, groups: dict[str, float], rtol: float) -> EventSequence:
+    """The trajectory of a collision. ComputationError if it does not come to an end."""
     return Sundae(model, groups, rtol).run()

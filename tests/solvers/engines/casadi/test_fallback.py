@@ -1,4 +1,4 @@
-"""Flights that an integrator cannot fly at the tolerance it is told, or lands beside their events, come to an end."""
+"""Collisions end where an integrator fails at the tolerance it is given, or lands beside their events."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ IMPACTS = {"granulation": (0.06, "60 deg"), "pendulum": (1.5, "45 deg")}
 
 @pytest.mark.parametrize("preset", IMPACTS)
 @pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
-def test_the_located_flight_answers_where_an_engine_cannot(preset: str, engine: str) -> None:
-    """It has the outcome, events, outputs and ledger of the flight; the result names Rosenbrock's method."""
+def test_the_located_trajectory_is_returned_where_an_engine_cannot(preset: str, engine: str) -> None:
+    """It has the outcome, events, outputs and ledger of the trajectory; the result names Rosenbrock's method."""
     stokes, angle = IMPACTS[preset]
     usual = collide(preset, stokes=stokes, angle=angle, engine="rosenbrock")
 

@@ -15,29 +15,29 @@ from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
-from ....helpers.independent import Spheres, flown
+from ....helpers.independent import Spheres, integrated
 
 
 @pytest.mark.parametrize(
     ("entries", "criterion"), [({"model.arm": "surface"}, "elastic"), ({"particles.roughness": "4 um"}, "rough")]
 )
 def test_chatter_rests(entries: dict[str, object], criterion: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A stick that is not proved and flown on is pulled onto the solids, chatters, and comes to rest at their gap."""
+    """A stick that is not proved and continued is pulled onto the solids, chatters, and comes to rest at their gap."""
     monkeypatch.setattr(locate, "STRETCHES", 4)
     scene = Scene.load("granulation").with_entries(entries)
     n = nondimensionalise(scene, scene.speed_of(0.05), math.radians(40))
-    flight = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
-    flight.proof, flight.watch = NoProof(), replace(flight.watch, certificate=None)
+    locator = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
+    locator.proof, locator.watch = NoProof(), replace(locator.watch, certificate=None)
     with pytest.raises(ComputationError, match="no event within .* in phase resting contact"):
-        flight.run()
-    found = flight.path.kinds
+        locator.run()
+    found = locator.path.kinds
     assert found[-1] == "rests"
     assert set(found[:-1]) - {"turned"} == {criterion, "fell back"}
     assert found.count("rests") == 1
     # a series of rebounds, each slower by at least e_dry = 0.99, from some 1e-1 v0 to 1e-9: at most ln(1e8)/0.01
     assert len(found) < 2 * math.log(1e8) / 0.01
-    assert flight.y[0] == pytest.approx(flight.contact_gap, rel=1e-12)
-    assert not flight.path.separated
+    assert locator.y[0] == pytest.approx(locator.contact_gap, rel=1e-12)
+    assert not locator.path.separated
 
 
 def test_resting_turns_on(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -86,7 +86,7 @@ def test_cut_offs(
     # relative to omega0 and to pi; the integration's error at 1e-10 with room
     scale = math.pi if kind == "half turn" else float(found.trajectory.rotation_rate[0])
     assert abs(last - value) < 1e-8 * scale
-    other = flown(found.scene, stokes, math.radians(angle))
+    other = integrated(found.scene, stokes, math.radians(angle))
     assert other.events == [event.kind for event in found.events]
     assert other.time == pytest.approx(found.until, rel=1e-7)
 
@@ -116,13 +116,13 @@ def test_rest_without_shear_is_for_good() -> None:
         }
     )
     n = nondimensionalise(scene, scene.speed_of(187.815), 1.40734)
-    flight: Any = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
-    flight.proof = flight.proof.beside  # the orbit's momentum proves it sooner
-    found = flight.run()
+    locator: Any = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
+    locator.proof = locator.proof.beside  # the orbit's momentum proves it sooner
+    found = locator.run()
     assert found.kinds[-2:] == ["elastic", "rests"]
     assert (found.outcome, found.certified) == ("stick", True)
-    state = dict(zip(flight.model.state, flight.y, strict=False))
+    state = dict(zip(locator.model.state, locator.y, strict=False))
     assert state["gap"] > 1
-    assert flight.model.values("inward_force", flight.y, flight.p)["inward_force"] > 0
-    rates = flight.model.values("resting_rates", flight.y, flight.p, film=0, shear=0)
+    assert locator.model.values("inward_force", locator.y, locator.p)["inward_force"] > 0
+    rates = locator.model.values("resting_rates", locator.y, locator.p, film=0, shear=0)
     assert not any(rates.values())

@@ -1,4 +1,4 @@
-"""The Dataset of a flight."""
+"""The Dataset of a trajectory."""
 
 from importlib.metadata import version
 
@@ -8,7 +8,7 @@ from wetdoublet.solvers.engines.casadi import trajectory
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed
 
 
-def test_attributes_suffice_to_repeat_the_flight():
+def test_attributes_suffice_to_repeat_the_collision():
     """The Dataset carries scene, outcome, engine, tolerance and version: enough to compute it again."""
     first = collide("granulation", stokes=0.14, angle="40 deg", rtol=1e-8, engine="rosenbrock", trajectory=True)
     attrs = first.trajectory.attrs
@@ -27,10 +27,10 @@ def test_attributes_survive_a_file(tmp_path):
     """They are text and numbers that NetCDF takes."""
     import xarray
 
-    flight = collide("pendulum", trajectory=True).trajectory
-    flight.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    trajectory = collide("pendulum", trajectory=True).trajectory
+    trajectory.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
-        assert {name: read.attrs[name] for name in flight.attrs} == flight.attrs
+        assert {name: read.attrs[name] for name in trajectory.attrs} == trajectory.attrs
 
 
 def test_a_trajectory_that_fails_is_an_answer(monkeypatch):

@@ -1,4 +1,4 @@
-"""The damped sum of creeping flights (solvers/engines/taylor/runtime/damped_sum.h): its table, and what comes of it."""
+"""The damped sum of creeping trajectories (solvers/engines/taylor/runtime/damped_sum.h): its table and its effect."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_a_decaying_mode_dies(order: int):
 
 
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
-def test_a_creeping_flight_takes_long_steps():
+def test_a_creeping_trajectory_takes_long_steps():
     """Past the saddle at 42.6 deg the tangential mode decays at a rate that is known in closed form: mean z beyond 6.
 
     At rest in the gap s the slip decays at (4/3)(x0/a)/St ln(2a/x) (1/4 + 5/16 2) or so, both arms of the couple; an

@@ -1,4 +1,4 @@
-"""Flights that creep for long (runtime/implicit.h): beside a saddle, and in a film that opens slowly."""
+"""Trajectories that creep for long (runtime/implicit.h): beside a saddle, and in a film that opens slowly."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ....helpers.data import BOUNDARIES
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
 
-def flown(scene: Scene, stokes: list[float], angle: float, rtol: float) -> np.ndarray:
+def collided(scene: Scene, stokes: list[float], angle: float, rtol: float) -> np.ndarray:
     """Answers of the kernel."""
     speed = scene.speed_of(1.0) * np.array(stokes)
     found = engine.run_kernel(engine.Impacts(scene, speed, np.full(len(stokes), angle), {}), rtol)
@@ -40,7 +40,7 @@ def test_every_decade_nearer_the_saddle_costs_the_same_time():
     """
     scene, angle, boundary = escape()
     distances = [1e-4, 1e-5, 1e-6, 1e-7]
-    found = flown(scene, [boundary * (1 + side * d) for side in (1, -1) for d in distances], angle, 1e-12)
+    found = collided(scene, [boundary * (1 + side * d) for side in (1, -1) for d in distances], angle, 1e-12)
     away, held = found[:4], found[4:]
     assert away["outcome"].tolist() == [1] * 4
     assert held["outcome"].tolist() == [0] * 4
@@ -58,7 +58,7 @@ def test_beside_the_saddle_as_rosenbrock():
     """At relative distances of 1e-6 and 1e-8 outcome and restitution are Rosenbrock's, on both sides."""
     scene, angle, boundary = escape()
     stokes = [boundary * (1 + side * d) for d in (1e-6, 1e-8) for side in (-1, 1)]
-    found = flown(scene, stokes, angle, 1e-10)
+    found = collided(scene, stokes, angle, 1e-10)
     exact = collide_many(scene, stokes=stokes, angle=angle, rtol=1e-10, engine="rosenbrock")
     assert found["outcome"].tolist() == exact.outcome.values.tolist()
     np.testing.assert_allclose(found["shown"][:, 0] * (found["outcome"] > 0), exact.restitution, atol=1e-8)
@@ -72,7 +72,7 @@ def test_creeping_in_a_film_as_rosenbrock():
     del changes["bridge"]
     scene = Scene.from_dict(changes)
     stokes = [0.004, 0.01, 0.03]
-    found = flown(scene, stokes, math.radians(70), 1e-9)
+    found = collided(scene, stokes, math.radians(70), 1e-9)
     wanted = ("outcome", "contact_time")
     exact = collide_many(scene, stokes=stokes, angle=math.radians(70), rtol=1e-11, engine="rosenbrock", of=wanted)
     assert found["outcome"].tolist() == exact.outcome.values.tolist()
@@ -84,9 +84,9 @@ def test_creeping_in_a_film_as_rosenbrock():
     np.testing.assert_allclose(seconds[separated], exact.contact_time[separated], rtol=1e-6)
 
 
-def test_flights_that_crawl_to_no_avail_keep_to_their_budget():
+def test_collisions_that_creep_to_no_avail_keep_to_their_budget():
     """At 1e-9 rad without a bridge rounding decides when the doublet parts: handed over once the budget is spent, but
-    for what one stay in implicit.h may take beyond it (its 4000 tries, and the flight to there).
+    for what one stay in implicit.h may take beyond it (its 4000 tries, and the trajectory to there).
     """
     scene = Scene.load("granulation-dry-bridge")
     impact = engine.Impacts(scene, scene.speed_of(np.array([1e-3])), np.array([1e-9]), {})

@@ -69,7 +69,7 @@ def _agrees(scene: Scene, stokes: Any, angle: Any) -> np.ndarray:
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.usefixtures("quick")
 def test_equals_rosenbrock(kind: str):
-    """Outcome, proof and every quantity are those of Rosenbrock; some sticks are proved, some flights separate."""
+    """Outcome, proof and every quantity are those of Rosenbrock; some sticks are proved, some trajectories separate."""
     _, _, stokes, angle = KINDS[kind]
     certified = _agrees(_scene(kind), stokes, angle)
     assert 0 < certified.sum() < certified.size
@@ -134,7 +134,7 @@ def thinning(derived: Path, monkeypatch: pytest.MonkeyPatch) -> Scene:
 
 @pytest.mark.usefixtures("quick")
 def test_a_users_model_has_its_kernel(thinning: Scene, derived: Path):
-    """Laws of one's own, with a group of their own and the velocity, fly in the kernel, derived once into the cache."""
+    """Laws of one's own, with a group of their own and the velocity, run in the kernel, derived once into the cache."""
 
     def kept() -> dict[str, int]:
         return {path.name.split("-", 3)[3]: path.stat().st_mtime_ns for path in derived.glob("emitted-*.h")}

@@ -20,7 +20,7 @@ from ....helpers.data import COLLISIONS as REFERENCE
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9
 # Every variant is compiled once for all tests here.
-FLIGHTS: dict[str, tuple[str, dict[str, Any]]] = {
+IMPACTS: dict[str, tuple[str, dict[str, Any]]] = {
     "separates": ("granulation", {"stokes": 0.02, "angle": "75 deg"}),
     "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),
     "on strings": ("pendulum", {"stokes": 1.3, "angle": "45 deg"}),
@@ -38,17 +38,17 @@ CASES = [
 
 @cache
 def by_kernel(name: str) -> Collision:
-    scene, impact = FLIGHTS[name]
+    scene, impact = IMPACTS[name]
     return collide(scene, engine="taylor", trajectory=True, rtol=RTOL, **impact)
 
 
 @cache
 def by_rosenbrock(name: str) -> Collision:
-    scene, impact = FLIGHTS[name]
+    scene, impact = IMPACTS[name]
     return collide(scene, engine="rosenbrock", trajectory=True, rtol=1e-11, **impact)
 
 
-@pytest.mark.parametrize("name", FLIGHTS)
+@pytest.mark.parametrize("name", IMPACTS)
 def test_the_ledger_is_that_of_rosenbrock(name: str):
     """Each term is the one of an independent integration, to the tolerance of every step that it was summed over."""
     mine, other = by_kernel(name), by_rosenbrock(name)
@@ -60,7 +60,7 @@ def test_the_ledger_is_that_of_rosenbrock(name: str):
         assert getattr(mine.energy, term) == pytest.approx(value, rel=0, abs=bound), term
 
 
-@pytest.mark.parametrize("name", FLIGHTS)
+@pytest.mark.parametrize("name", IMPACTS)
 def test_the_residual_is_an_error(name: str):
     """Energies of states and integrals of losses differ by the tolerance of the steps, and not by nothing: no term of
     the ledger is made of the others.
@@ -103,7 +103,7 @@ def test_reference_energies(case: dict[str, Any]):
         assert value == pytest.approx(expected["energy"][term], rel=1e-14, abs=bound), term
 
 
-@pytest.mark.parametrize("name", FLIGHTS)
+@pytest.mark.parametrize("name", IMPACTS)
 def test_the_trajectory_is_that_of_rosenbrock(name: str):
     """At 65 times in each phase, which no step of the kernel ends at, all is as by an independent integration."""
     mine, other = by_kernel(name).trajectory, by_rosenbrock(name).trajectory
@@ -160,8 +160,8 @@ def test_decided_at_first_touch():
         np.testing.assert_allclose(mine.trajectory[name], values, rtol=1e-14, atol=0, err_msg=str(name))
 
 
-def flown(room: tuple[int, int], keep: bool = True) -> record.Recorded:
-    """Chatter on a rough pendulum, and a short flight beside it, with this room for events and steps at first."""
+def collided(room: tuple[int, int], keep: bool = True) -> record.Recorded:
+    """Chatter on a rough pendulum, and a short trajectory beside it, with this room for events and steps at first."""
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
     speeds = np.array([scene.speed_of(0.06760659), scene.speed_of(3.0)])
     found = record.run_recorded(
@@ -174,7 +174,7 @@ def flown(room: tuple[int, int], keep: bool = True) -> record.Recorded:
 @pytest.mark.parametrize("room", [(1, 256), (64, 3), (1, 3), (0, 0)])
 def test_too_little_room_is_asked_for_again(room: tuple[int, int]):
     """A log of one event, rows for three steps, or no room at all give what ample room gives."""
-    found, ample = flown(room), flown((1000, 5000))
+    found, ample = collided(room), collided((1000, 5000))
     np.testing.assert_array_equal(found.answers, ample.answers)
     for mine, whole, count in zip(found.events, ample.events, found.answers["events"], strict=True):
         np.testing.assert_array_equal(mine[:count], whole[:count])
@@ -184,11 +184,11 @@ def test_too_little_room_is_asked_for_again(room: tuple[int, int]):
 
 
 def test_steps_that_are_not_kept_are_not_written():
-    """A kernel that could write its steps flies without a place for them, also where the log was too small at first."""
-    found = flown((1, 256), keep=False)
+    """A kernel that could write its steps runs without a place for them, also where the log was too small at first."""
+    found = collided((1, 256), keep=False)
     assert found.steps is None
     assert found.answers["events"].max() > 64
-    np.testing.assert_array_equal(found.answers["outcome"], flown((1000, 5000)).answers["outcome"])
+    np.testing.assert_array_equal(found.answers["outcome"], collided((1000, 5000)).answers["outcome"])
 
 
 @pytest.mark.parametrize("short", ["answers", "books", "quantities", "peaks"])
@@ -226,6 +226,6 @@ def test_who_does_not_ask_does_not_pay(reduced: bool):
     seen = subprocess.run(
         command, input=library.source(variant, paths), capture_output=True, text=True, check=True
     ).stdout
-    assert "static void fly(" in seen
+    assert "static void run(" in seen
     for name in ("loss", "ledger", "book_", "booked", "step_row", "keep_steps", "energies"):
         assert name not in seen, name

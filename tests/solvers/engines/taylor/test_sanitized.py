@@ -1,6 +1,6 @@
 """The kernel writes and reads nothing that is not its own, and does nothing that C leaves undefined.
 
-A sample that compiles quickly; `python tests/helpers/sanitized.py` flies everything.
+A sample that compiles quickly; `python tests/helpers/sanitized.py` integrates everything.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Located flights of one case, for all that ask for them."""
+"""Located trajectories of one case, for all that ask for them."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from ...errors import ComputationError
 from ...model.model import Model
 
 
-class Flights:
-    """Flights that several engines, and the audit, ask for: located once, as nothing in it is left to chance."""
+class LocatedTrajectories:
+    """Trajectories that several engines, and the audit, ask for: located once, as nothing in it is left to chance."""
 
     def __init__(self) -> None:
         self._known: dict[Any, tuple[EventLocator, ComputationError | None, float]] = {}
@@ -23,26 +23,28 @@ class Flights:
 
     def find(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
         """What `locate` does."""
-        return self._flown(model, groups, rtol, extras).path
+        return self._located(model, groups, rtol, extras).path
 
     def handed_out(self, model: Model, groups: dict[str, float], rtol: float) -> EventLocator:
-        """A located flight, for its taker to fly on: nobody is given it again."""
-        flight = self._flown(model, groups, rtol)
+        """A located trajectory, for its taker to continue: nobody is given it again."""
+        located = self._located(model, groups, rtol)
         self.forget()
-        return flight
+        return located
 
-    def _flown(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()) -> EventLocator:
+    def _located(
+        self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()
+    ) -> EventLocator:
         key = model.choice, tuple(groups.items()), rtol, extras
         if key in self._known:
             self.spared += self._known[key][2]
         else:
-            start, flight, failure = time.process_time(), EventLocator(model, groups, rtol, extras), None
+            start, located, failure = time.process_time(), EventLocator(model, groups, rtol, extras), None
             try:
-                flight.run()
+                located.run()
             except ComputationError as error:
                 failure = error
-            self._known[key] = flight, failure, time.process_time() - start
-        flight, failure, _ = self._known[key]
+            self._known[key] = located, failure, time.process_time() - start
+        located, failure, _ = self._known[key]
         if failure is not None:
             raise failure
-        return flight
+        return located
