@@ -79,13 +79,9 @@ static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
         opens(l, f, lane);
 }
 
-/* A criterion already true where a closing phase starts, by rule: the first of the table. */
-static void criteria_met(queue *q, lanes *l, fixed *f)
+/* The lanes of `asked`, which start a closing phase: a criterion that is already true, by rule the first of the table. */
+static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
 {
-    mask asked = l->fresh & l->alive & l->closing & ~l->resting;
-    l->fresh = splat_mask(0);
-    if (!bits(asked))
-        return;
     unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
 #if WITH_TRAJECTORY
     glass = q->t->purpose == APPROACH ? 0 : glass;
@@ -101,4 +97,18 @@ static void criteria_met(queue *q, lanes *l, fixed *f)
     EACH_LANE(lane)
         if (any >> lane & 1)
             reverse(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
+}
+
+/* Criteria on entry into a closing phase. A rebound at initial contact may end its collision: the next one that takes the
+ * lane is looked at before it moves.
+ */
+static void criteria_met(queue *q, lanes *l, fixed *f)
+{
+    mask asked = l->fresh & l->alive & l->closing & ~l->resting;
+    l->fresh = splat_mask(0);
+    while (bits(asked)) {
+        criteria_met_by(q, l, f, asked);
+        asked = l->fresh & l->alive & l->closing & ~l->resting;
+        l->fresh &= ~asked;
+    }
 }

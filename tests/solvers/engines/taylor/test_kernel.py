@@ -95,6 +95,29 @@ def test_neighbours_do_not_matter():
         np.testing.assert_array_equal(together[name].values[9], alone[name].values[0])
 
 
+def test_collisions_that_end_at_initial_contact_do_not_move():
+    """Solids that meet at x0 rebound and separate there: e_n = e_dry, e_t = 1, no time, whoever had the lane before."""
+    soft = {"particles.youngs_modulus": "1 MPa", "particles.poisson_ratio": 0.3, "particles.dry_restitution": 0.9}
+    scene = Scene.from_dict(
+        {
+            "particles": {"radius": "170 um", "density": "2500 kg/m^3", "roughness": "0.4 um", "dry_restitution": 0.9},
+            "liquid": {"viscosity": "1.5 Pa s", "film_thickness": "5 um", "glass_transition_pressure": "1 GPa"},
+        }
+    ).with_entries(soft)
+    count = 40  # more than are computed side by side, several times over
+    found = collide_many(
+        scene,
+        stokes=np.geomspace(0.5, 5.0, count),
+        angle=np.linspace(0.1, 1.5, count),
+        engine="taylor",
+        of=("outcome", "restitution", "tangential_restitution", "contact_time", "smallest_gap"),
+    )
+    assert (found["outcome"] == 2).all() and (found["contact_time"] == 0.0).all()
+    np.testing.assert_allclose(found["restitution"], 0.9, rtol=1e-15)
+    np.testing.assert_allclose(found["tangential_restitution"], 1.0, rtol=1e-14)
+    np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
+
+
 def test_fewer_lanes_give_the_same(monkeypatch: pytest.MonkeyPatch):
     """Scalar code and the widest vectors agree (to some units in the last place: compilers fuse differently)."""
     stokes, _ = _impacts("pendulum", 20)
