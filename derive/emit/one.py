@@ -16,7 +16,6 @@ from ..user_model.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .casadi.modules import (
     law_kernel,
-    law_module,
     law_slopes,
     structure_kernel,
     structure_module,
@@ -36,11 +35,6 @@ def named(name: str) -> Structure:
 def structure_text(name: str) -> str:
     """Text of a structure's module."""
     return structure_module(derive(named(name)))
-
-
-def law_text(slot: str, name: str) -> str:
-    """Text of a law's module."""
-    return law_module(LAWS[slot][name])
 
 
 def user_structure_text(source: str, model: str, name: str) -> str:

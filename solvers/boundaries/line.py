@@ -16,7 +16,7 @@ import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..certificates import Barrier, energy_proof
-from ..engines.casadi.integrators import IntegrationFailed, locator, plain, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, locator, tolerance
 from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocator, EventSequence
 from ..engines.taylor.build import compile_all, supported
 from ..engines.taylor.call import variant
@@ -29,6 +29,7 @@ from ..scene.scene import Scene
 from ..settings import RTOL
 from . import by_kernel
 from .by_kernel import Escaping
+from .resampled import resampled
 from .saddle import barrier_of, saddle_of
 
 _NEVER = 1e30  # a glass number that no pressure meets
@@ -61,12 +62,14 @@ class Line:
 
     Arguments:
         kernel: let the Taylor kernel integrate; what it hands over goes to Rosenbrock all the same. Default: if it can.
+        machine_code: use integrators compiled to C.
     """
 
     scene: Scene
     angle: float
     rtol: float
     kernel: bool | None = None
+    machine_code: bool = True
     collisions: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
@@ -97,7 +100,7 @@ class Line:
             found = by_kernel.approach(
                 self.scene, n, self.rtol, solids, len(model.state), lambda y: _pressures(model, y, p), _CREEPING
             )
-        pressure, smallest = found or approach(model, groups, self.rtol)
+        pressure, smallest = found or approach(model, groups, self.rtol, self.machine_code)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
@@ -107,8 +110,8 @@ class Line:
         n = self.numbers(stokes)
         groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
         solids = {} if reversed_ else self._no_glass(n.groups) | NEVER_MET
-        probe = UnstoppedTrajectory(self.model, groups, self.rtol)
         for steps in _ESCAPE_STEPS if self.kernel else ():
+            probe = UnstoppedTrajectory(self.model, groups, self.rtol)
             escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
             if escaped is None:
                 break
@@ -116,24 +119,14 @@ class Line:
             separates = escaped.separated if escaped.decided else _creeps_out(probe)
             if separates is not None:
                 return Escape(separates, _smooth(probe, escaped))
-            probe.y = probe.path.y.copy()
-        return smooth_escape(self.model, n.groups, self.rtol, reversed_)
+        probe = UnstoppedTrajectory(self.model, groups, self.rtol, machine_code=self.machine_code)
+        path = probe.run()
+        return Escape(path.separated, _smooth(probe, _Located(probe, path)))
 
     def _no_glass(self, groups: dict[str, float]) -> dict[str, float]:
         """A glass-transition pressure that no film has."""
         pressure = self.scene.liquid.glass_transition_pressure
         return {"glass_transition_pressure": pressure * (_NEVER / groups["glass_number"])}
-
-
-def smooth_escape(
-    model: Model, groups: dict[str, float], rtol: float, reversed_: bool, machine_code: bool = True
-) -> Escape:
-    """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
-    if not reversed_:
-        groups = groups | WITHOUT_SOLIDS
-    probe = UnstoppedTrajectory(model, groups, rtol, machine_code=machine_code)
-    path = probe.run()
-    return Escape(path.separated, _smooth(probe, _Located(probe, path)))
 
 
 def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
@@ -266,16 +259,12 @@ def _saddle_amplitude(probe: EventLocator, escaped: Escaping | _Located, barrier
 def _sampled(probe: EventLocator, path: EventSequence) -> tuple[np.ndarray, np.ndarray]:
     """Times and states of the trajectory: ends of phases, and a grid over phases that do not end at rest in the gap."""
     times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
-    before = states[0]
-    for step, end in zip(path.steps, path.ends, strict=True):
-        if step.event != "turning" and step.duration > 0:
-            flow = Flow(probe.model.choice, step.phase.region, path.extras)
-            told = tolerance(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
-            inside = plain(flow, "rosenbrock", told, _GRID)(before, path.p, step.duration)
+    told = tolerance(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
+    for step, _, inside, end in resampled(path, told, _GRID, lambda step: step.event != "turning", path.extras):
+        if inside is not None:
             times += [clock + part * step.duration for part in _GRID]
             states += list(inside.T)
         clock += step.duration
         times.append(clock)
         states.append(end)
-        before = end
     return np.array(times), np.array(states).T

@@ -33,26 +33,6 @@ def sample(function: Function, stokes: float) -> Sample:
     return Sample(math.log(stokes), *function(stokes))
 
 
-def around(function: Function, stokes: float, doubt: float, low: float, high: float) -> tuple[Sample, Sample] | None:
-    """A bracket (negative, positive) about a prediction, widened fourfold until it holds; None if it never does.
-
-    Arguments:
-        doubt: relative uncertainty of the prediction.
-        low, high: Stokes numbers not to be left.
-    """
-    first = sample(function, stokes)
-    reach = doubt
-    for _ in range(5):
-        other = math.exp(first.at - reach if first.positive else first.at + reach)
-        if not low < other < high:
-            return None
-        second = sample(function, other)
-        if second.positive != first.positive:
-            return (second, first) if first.positive else (first, second)
-        first, reach = second, 4 * reach
-    return None
-
-
 def root(function: Function, negative: Sample, positive: Sample) -> float:
     """Stokes number of the root between a negative and a positive sample (the negative one lower).
 

@@ -22,8 +22,3 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 def ms(seconds: float) -> str:
     """Milliseconds with three digits."""
     return f"{seconds * 1e3:#.3g}".removesuffix(".")
-
-
-def us(seconds: float) -> str:
-    """Microseconds with three digits."""
-    return f"{seconds * 1e6:.3g}" if seconds < 1e-3 else f"{seconds * 1e6:.0f}"

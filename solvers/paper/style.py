@@ -18,7 +18,7 @@ COLUMN = 8.8  # cm
 DPI = 300
 _INCH = 2.54
 
-BLUE, ORANGE, GREEN, PURPLE, YELLOW, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"  # Okabe-Ito
+BLUE, ORANGE, GREEN, PURPLE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9"  # Okabe-Ito
 INK, GREY = "#202020", "#6E6E6E"
 FILLS = dict(zip(OUTCOMES, ("#BFDDF0", "#FBE3A6", "#F4F4F4"), strict=True))
 LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))

@@ -10,22 +10,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from casadi import Function, densify, jtimes, vertcat
 
 from ...generated.automaton import CLOSING, KINDS, EventKind
-from ..boundaries.line import approach, smooth_escape
+from ..boundaries.line import Line
+from ..boundaries.resampled import resampled
 from ..certificates import energy_proof
-from ..engines.casadi.integrators import IntegrationFailed, plain, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, tolerance
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.contact import GAPS, contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
-from ..model.phases import Flow
 from ..scene.scene import Scene
 from .result import Near
 
@@ -233,61 +232,31 @@ def _pressures(model: Model, film: int, shear: int) -> Function:
 
 def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseRun, np.ndarray]]:
     """Steps and states along each: coarse, and sharper where the coarse ones would decide something."""
-    size = len(finder.model.state)
-    before = finder.model.start(path.p)
     told = tolerance(_COARSE, "rosenbrock", finder.groups)
-    for step, end in zip(path.steps, path.ends, strict=True):
+    for step, before, inside, end in resampled(path, told, _GRID, lambda step: not step.phase.resting, lenient=True):
+        if step.phase.resting:
+            continue
         y = before[:, None]
-        if step.duration > 0 and not step.phase.resting:
-            flow = Flow(finder.model.choice, step.phase.region, ())
-            try:
-                inside = plain(flow, "rosenbrock", told, _GRID)(before, path.p, step.duration)
-                y = np.column_stack([before, inside])
-            except IntegrationFailed:
-                y = np.column_stack([before, end[:size]])
-            y[:, -1] = np.where(np.arange(size) == 1, y[:, -1], end[:size])  # the speed is the one before a jump
+        if step.duration > 0:
+            y = np.column_stack([before, end if inside is None else inside])
+            y[:, -1] = np.where(np.arange(end.size) == 1, y[:, -1], end)  # the speed is the one before a jump
             if not step.reverses:
                 y[1, -1] = end[1]
-        if not step.phase.resting:
-            yield step, y
-        before = end[:size]
+        yield step, y
 
 
 # ---- distances in the Stokes number, by functions that are smooth through the boundary
 
 
-@dataclass(frozen=True)
-class _Aside:
-    """A collision's scene at other Stokes numbers."""
-
-    scene: Scene
-    n: DimensionlessGroups
-
-    def groups(self, stokes: float) -> dict[str, float]:
-        return nondimensionalise(self.scene, self.scene.speed_of(stokes), self.n.angle).groups
-
-    def criterion(self, stokes: float) -> float:
-        """Largest pressure over p_gt, or contact gap over smallest gap, as a logarithm, of the approach alone."""
-        groups = self.groups(stokes)
-        model = load(select_model(self.scene, self.n.oblique))
-        contact = contact_gap(groups)
-        pressure, smallest = approach(model, groups, _FINE, machine_code=False)
-        glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
-        return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
-
-    def escape(self, stokes: float, reversed_: bool) -> float | None:
-        model = load(select_model(self.scene, self.n.oblique))
-        return smooth_escape(model, self.groups(stokes), _FINE, reversed_, machine_code=False).value
-
-
 def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
     """The distance in the Stokes number of a boundary that looks near."""
-    aside = _Aside(scene, n)
+    line = Line(scene, n.angle, _FINE, kernel=False, machine_code=False)
+    escapes = (lambda stokes: line.escape(stokes, True).value, lambda stokes: line.escape(stokes, False).value)
     functions: dict[str, tuple[Callable[[float], float | None], ...]] = {
-        GLASS: (aside.criterion,),
-        CONTACT: (aside.criterion,),
-        SADDLE: (lambda stokes: aside.escape(stokes, True), lambda stokes: aside.escape(stokes, False)),
-        RIM: (lambda stokes: aside.escape(stokes, True), lambda stokes: aside.escape(stokes, False)),
+        GLASS: (line.criterion,),
+        CONTACT: (line.criterion,),
+        SADDLE: escapes,
+        RIM: escapes,
     }
     for function in functions.get(near.boundary, ()):
         try:

@@ -15,6 +15,7 @@ from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute
 from ...generated.automaton import CRITERIA, KINDS, EventKind
 from ..boundaries.changes import FREE, GRAZE, REVERSED, Change
 from ..boundaries.line import WITHOUT_SOLIDS, UnstoppedTrajectory
+from ..boundaries.resampled import resampled
 from ..boundaries.saddle import Saddle, barrier_of, saddle_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
@@ -186,20 +187,18 @@ def _active(course: Course, probe: EventLocator) -> np.ndarray:
 
 def _nearest(probe: EventLocator, path: EventSequence, saddle: Saddle, told: Tolerance) -> tuple[int, float] | None:
     """Which phase comes nearest to the saddle, and how long into it; of those on the saddle's side of the film edge."""
-    size = len(probe.model.state)
-    film, shear = int(saddle.gap < 1), int(saddle.gap < probe.edge)
-    before = probe.model.start(path.p)
+    region = Region(int(saddle.gap < 1), int(saddle.gap < probe.edge), resting=False)
+
+    def beside(step: PhaseRun) -> bool:
+        return replace(step.phase.region, cavitated=False) == region
+
     best: tuple[float, int, float] | None = None
-    for k, (step, end) in enumerate(zip(path.steps, path.ends, strict=True)):
-        phase = step.phase
-        if step.duration > 0 and (phase.film, phase.shear, phase.resting) == (film, shear, False):
-            inside = plain(Flow(probe.model.choice, phase.region, ()), "rosenbrock", told, _GRID)
-            states = inside(before, path.p, step.duration)
-            at, amplitudes = saddle.nearest(states)
+    for k, (step, _, inside, _) in enumerate(resampled(path, told, _GRID, beside)):
+        if inside is not None:
+            at, amplitudes = saddle.nearest(inside)
             distance = float(np.linalg.norm(amplitudes))
             if best is None or distance < best[0]:
                 best = (distance, k, _GRID[at] * step.duration)
-        before = end[:size]
     return None if best is None or best[0] > saddle.gap / 2 else best[1:]
 
 

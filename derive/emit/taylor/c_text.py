@@ -120,6 +120,30 @@ def _roots_together(node: sp.Mul) -> list[sp.Expr]:
     return factors + roots
 
 
+# Recurrence of an operation, and its value at order zero: `{0}`, `{1}` its series; `whole` its own; `over`, `slope` and
+# `inner` what it keeps beside it (functions of `engines/taylor/runtime/series.h`).
+_RECURRENCES = {
+    "square": "square({0}, k)",
+    "reciprocal": "reciprocal({0}, {whole}, k)",
+    "quotient": "quotient({0}, {1}, {whole}, {over}, k)",
+    "sqrt": "root({0}, {whole}, {over}, k)",
+    "power": "power({0}, {whole}, {factor}, {over}, k)",
+    "exp": "exponential({0}, {inner}, {whole}, k)",
+    "log": "logarithm({0}, {whole}, {slope}, {over}, k)",
+}
+_VALUES = {
+    "square": "{0}*{0}",
+    "reciprocal": "1.0/{0}",
+    "quotient": "{0}/{1}",
+    "power": "vec_exp({factor}*vec_log({0}))",
+    "sqrt": "vec_sqrt({0})",
+    "exp": "vec_exp({0})",
+    "log": "vec_log({0})",
+    "sine": "vec_sin({0})",
+    "cosine": "vec_cos({0})",
+}
+
+
 def number(value: sp.Expr) -> str:
     """The double nearest a number, as a C literal."""
     text = repr(float(value.evalf(30)))
@@ -268,20 +292,13 @@ class Recurrences:
         if kind == "product":
             older, newer = (self.array(part) for part in sorted(operation.series, key=self._age))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
-        if kind == "square":
-            return f"{target} = square({series[0]}, k);"
-        if kind == "reciprocal":
-            return f"{target} = reciprocal({series[0]}, {whole}, k);"
-        if kind == "quotient":
-            return f"{target} = quotient({series[0]}, {series[1]}, {whole}, &{place}over_{name}, k);"
-        if kind == "sqrt":
-            return f"{target} = root({series[0]}, {whole}, &{place}over_{name}, k);"
-        if kind == "power":
-            return f"{target} = power({series[0]}, {whole}, {factors[0]}, &{place}over_{name}, k);"
-        if kind == "exp":
-            return f"{target} = exponential({series[0]}, {place}slope_of_{operation.series[0]}, {whole}, k);"
-        if kind == "log":
-            return f"{target} = logarithm({series[0]}, {whole}, {place}slope_of_{name}, &{place}over_{name}, k);"
+        if kind in _RECURRENCES:
+            inner = f"{place}slope_of_{operation.series[0]}"
+            over, slope = f"&{place}over_{name}", f"{place}slope_of_{name}"
+            made = _RECURRENCES[kind].format(
+                *series, whole=whole, over=over, slope=slope, inner=inner, factor=factors[0] if factors else ""
+            )
+            return f"{target} = {made};"
         if kind == "sine":
             inner = operation.series[0]
             cosine = self.array(f"cosine_of_{inner}")
@@ -314,20 +331,11 @@ class Recurrences:
             return terms if factors[-1] == "0.0" else f"{terms} + {factors[-1]}"
         if kind == "product":
             return f"{_times(factors[0])}{series[0]}*{series[1]}"
-        if kind == "square":
-            return f"{series[0]}*{series[0]}"
-        if kind == "reciprocal":
-            return f"1.0/{series[0]}"
-        if kind == "quotient":
-            return f"{series[0]}/{series[1]}"
-        if kind == "power":
-            return f"vec_exp({factors[0]}*vec_log({series[0]}))"
         if kind == "call":
             assert operation.call is not None
             slot, function, _ = operation.call
             return f"{slot}_{function}_value(&c->{operation.name}, {', '.join(series)})"
-        function = {"sqrt": "sqrt", "exp": "exp", "log": "log", "sine": "sin", "cosine": "cos"}[kind]
-        return f"vec_{function}({series[0]})"
+        return _VALUES[kind].format(*series, factor=factors[0] if factors else "")
 
 
 def _times(factor: str) -> str:

@@ -22,7 +22,6 @@ from .ledger import Ledger
 from .program import Program
 
 _FLAGS = (FILM, SHEAR)
-RESTING = "moving"  # mask: zero where the gap is held
 
 
 @dataclass(frozen=True)

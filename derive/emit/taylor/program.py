@@ -149,7 +149,7 @@ class Program:
         if isinstance(node, sp.Pow):
             return self._power(node, name)
         if isinstance(node, AppliedUndef) and is_slot_call(node):
-            return self._call(node, name)
+            return self._call(node)
         if isinstance(node, (sp.exp, sp.log)):
             inner = self.series(node.args[0])
             kind = "exp" if isinstance(node, sp.exp) else "log"
@@ -250,7 +250,7 @@ class Program:
         self._moving[sp.sin(angle)], self._moving[sp.cos(angle)] = sine, cosine
         return sine if isinstance(node, sp.sin) else cosine
 
-    def _call(self, node: AppliedUndef, name: str | None) -> str:
+    def _call(self, node: AppliedUndef) -> str:
         slot, function = node.func.__name__.split(".")
         arguments = [self.series(argument) if self.moves(argument) else argument for argument in node.args]
         series = tuple(argument for argument in arguments if isinstance(argument, str))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from wetdoublet.solvers.formatting.markdown import table, us
+from wetdoublet.solvers.formatting.markdown import table
 
 from ..near import GENERATED
 from ..peers.engines import HEYOKA
@@ -28,6 +28,11 @@ def _least(rows: list[tuple[str, float, float | None, bool]], name: str) -> floa
     """Least cost of an engine within the bound; None if it never is."""
     found = [cost for own, cost, error, good in rows if own == name and good and error is not None and error <= BOUND]
     return min(found, default=None)
+
+
+def us(seconds: float) -> str:
+    """Microseconds with three digits."""
+    return f"{seconds * 1e6:.3g}" if seconds < 1e-3 else f"{seconds * 1e6:.0f}"
 
 
 def _ratio(slow: float, fast: float) -> str:
