@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c6a96c0e98aa38144244bb29f40bf8e97a8a8a28eee14d0e1646196573f01ab2
+# Equations sha256 37a3af5934449c938faeebca6160e3b5102375ca8e5cf4fd7d568728ba01508c
 """Oblique doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -56,14 +56,14 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
-    "held",
-    "orbital",
+    "attraction_margins",
+    "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c6a96c0e98aa38144244bb29f40bf8e97a8a8a28eee14d0e1646196573f01ab2"
+DIGEST = "37a3af5934449c938faeebca6160e3b5102375ca8e5cf4fd7d568728ba01508c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -314,7 +314,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
     escape < 0 and rebound < 0 prove a stick.
 
@@ -346,7 +346,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbital momentum.
 

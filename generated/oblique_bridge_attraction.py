@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b5472255da5c1345ac615ed2c9318e10f5923f3b885c1aff8f584de5954725f5
+# Equations sha256 454629460735cc81113993ef3e8d2623f687e93ac6061c226ce5ec1338216cf4
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -64,14 +64,14 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
-    "held",
-    "orbital",
+    "attraction_margins",
+    "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "b5472255da5c1345ac615ed2c9318e10f5923f3b885c1aff8f584de5954725f5"
+DIGEST = "454629460735cc81113993ef3e8d2623f687e93ac6061c226ce5ec1338216cf4"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -341,7 +341,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
     escape < 0 and rebound < 0 prove a stick.
 
@@ -380,7 +380,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbital momentum.
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 de20d0bccf0d3cdcdbf5b4f6c7748047a94d0776937f4f39e4b36b1778793289
+# Equations sha256 3a6d59d577e7e1771134b9d876d49a22699831ebf77ef9574dec9694051ebc04
 """Oblique doublet with a liquid bridge and another attraction, spin eliminated through the conserved angular
 momentum.
 
@@ -63,14 +63,14 @@ FUNCTIONS = (
     "energy_rates",
     "reversal_loss",
     "outputs",
-    "held",
-    "orbital",
+    "attraction_margins",
+    "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "de20d0bccf0d3cdcdbf5b4f6c7748047a94d0776937f4f39e4b36b1778793289"
+DIGEST = "3a6d59d577e7e1771134b9d876d49a22699831ebf77ef9574dec9694051ebc04"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -314,7 +314,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
     escape < 0 and rebound < 0 prove a stick.
 
@@ -352,7 +352,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbital momentum.
 

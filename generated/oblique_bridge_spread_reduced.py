@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e3a1f45627cd3e6f8eebab3d201a91e2961d4cd284e5220f4c9292cbd7c31efb
+# Equations sha256 404bca94641ac1319a876d55b8463c32c54b00911cdeeabcb1945b9f91f1164c
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -61,14 +61,14 @@ FUNCTIONS = (
     "energy_rates",
     "reversal_loss",
     "outputs",
-    "held",
-    "orbital",
+    "attraction_margins",
+    "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e3a1f45627cd3e6f8eebab3d201a91e2961d4cd284e5220f4c9292cbd7c31efb"
+DIGEST = "404bca94641ac1319a876d55b8463c32c54b00911cdeeabcb1945b9f91f1164c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -302,7 +302,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
     escape < 0 and rebound < 0 prove a stick.
 
@@ -336,7 +336,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbital momentum.
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3be2eedebad9ce2417cb91d2799cdde57c49985125b3aaa88421fe88718c7368
+# Equations sha256 51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -67,11 +67,11 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
-    "held",
-    "orbital",
+    "attraction_margins",
+    "orbital_margins",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3be2eedebad9ce2417cb91d2799cdde57c49985125b3aaa88421fe88718c7368"
+DIGEST = "51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -372,7 +372,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): hold > 0,
     escape < 0 and rebound < 0 prove a stick.
 
@@ -417,7 +417,7 @@ def held(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def orbital(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for
     either arm: margins of the proof by the orbital momentum.
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c
+# Equations sha256 7a734b4a6c44c83ac341c55ee258725f6d23360101b9178b3d9ff58e26e79f61
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -59,10 +59,10 @@ FUNCTIONS = (
     "reversal_loss",
     "angular_momentum",
     "outputs",
-    "tethered",
+    "pendulum_margins",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c"
+DIGEST = "7a734b4a6c44c83ac341c55ee258725f6d23360101b9178b3d9ff58e26e79f61"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -342,7 +342,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def tethered(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.
 
     Total operations: 67

@@ -12,6 +12,7 @@ from functools import cache
 from ..physics.laws import LAWS, Law
 from ..vocabulary.quantities import gap
 from .admission import Certificate, certificate, certificates
+from .attraction_certificate import attraction_certificate
 from .attractions import law_checks
 from .base import Check
 from .certificate import least_energy, least_energy_is_a_minimum
@@ -26,7 +27,6 @@ from .groups import (
     normalisation_of_the_paper,
     number_of_groups,
 )
-from .held import held
 from .laws import (
     film_ends,
     head_on_closed_form,
@@ -36,10 +36,10 @@ from .laws import (
 )
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
-from .orbital import orbital
+from .orbital_momentum_certificate import orbital_momentum_certificate
 from .partners import partner_checks
+from .pendulum_certificate import pendulum_certificate
 from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
-from .tethered import tethered
 
 __all__ = ["Certificate", "Check", "certificate", "symbolic_checks"]
 
@@ -86,9 +86,9 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _once(rotation_can_be_released)
     yield from _once(least_energy)
     yield from _once(least_energy_is_a_minimum)
-    yield from _once(tethered)
-    yield from _once(held)
-    yield from _once(orbital)
+    yield from _once(pendulum_certificate)
+    yield from _once(attraction_certificate)
+    yield from _once(orbital_momentum_certificate)
     yield from certificates(own)
     yield from _once(groups_span_the_nullspace)
     yield from _once(groups_are_the_papers)

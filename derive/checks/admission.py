@@ -23,7 +23,7 @@ from .dissipation import (
     torque,
 )
 from .mechanics import strings_are_conservative
-from .tethered import tethered
+from .pendulum_certificate import pendulum_certificate
 
 _DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}
 
@@ -101,7 +101,7 @@ def _on_strings(structure: Structure, laws: Mapping[str, Law], checks: list[Chec
     elif laws["film"] is not LAWS["film"]["finite"]:
         against.append("strings exert a torque, dL/dt = -r S_t, and the proof without energy is of the finite film")
     else:
-        checks += tethered()
+        checks += pendulum_certificate()
 
 
 def _has_barrier(structure: Structure) -> bool:
@@ -118,7 +118,7 @@ def _argument(structure: Structure) -> str:
     if not (structure.oblique or structure.bridge or structure.strings):
         return "momentum: the film's integral up to its rim, u - Lf(s)/St < 0, stops the opening"
     if structure.oblique and structure.strings:
-        return "momenta: the strings outweigh the rotation for good and the film stops every rebound (derive/tethered)"
+        return "momenta: the strings outweigh the rotation for good and the film stops every rebound"
     parts = ["L^2/(2 I(x))"] * structure.oblique + ["W_c(x)"] * structure.bridge + ["U_s(x)"] * structure.strings
     return f"energy below the barrier ahead of U_eff = {' + '.join(parts)}, which no loss can make up for"
 

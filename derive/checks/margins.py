@@ -1,10 +1,10 @@
-"""The emitted margins of the stick proof on strings: the bounds of `checks.tethered` at their extremal arguments."""
+"""The emitted margins of the pendulum certificate: the bounds that its checks prove, at their extremal arguments."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ..equations.certificates.strings import outward_at, pull_at, rigid_momentum
+from ..equations.certificates.pendulum import outward_at, pull_at, rigid_momentum
 from ..equations.events import contact_gap
 from ..equations.intermediates import CENTRIFUGAL_FORCE, STRING_PULL
 from ..equations.model import derive
@@ -24,7 +24,7 @@ from ..vocabulary.quantities import (
 )
 from .base import Check, readable, vanishing
 
-_TETHERED = Structure(oblique=True, bridge=False, strings=True)
+_PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 
 
 def _bounds() -> dict[str, tuple[sp.Expr, str]]:
@@ -46,8 +46,8 @@ def _bounds() -> dict[str, tuple[sp.Expr, str]]:
 
 def margins_are_the_lemmas() -> tuple[Check, ...]:
     """What is emitted, opened, is each lemma's bound: at contact, initial contact and half a turn, now."""
-    model = derive(_TETHERED)
-    emitted = {name: model.expanded(value) for name, value in model["tethered"].outputs}
+    model = derive(_PENDULUM)
+    emitted = {name: model.expanded(value) for name, value in model["pendulum_margins"].outputs}
     checks = []
     for name, (bound, words) in _bounds().items():
         rest = sp.expand(emitted[name] - model.expanded(bound))  # the same Max and calls on both sides: no simplify
@@ -64,9 +64,9 @@ def margins_are_the_lemmas() -> tuple[Check, ...]:
 
 def closing_gains_the_pull() -> Check:
     """u_max: nothing but the strings speeds a closing doublet up, by their pull over the gap, which is at most x0."""
-    model = derive(_TETHERED)
+    model = derive(_PENDULUM)
     left = [
-        rates(_TETHERED)[normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
+        rates(_PENDULUM)[normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
         model.expanded(STRING_PULL) - pull_at(gap, beta),  # what the lemmas bound is what is emitted
         model.expanded(CENTRIFUGAL_FORCE) - outward_at(orbital_momentum, 4 + aspect * gap),
     ]

@@ -37,10 +37,10 @@ from ..vocabulary.quantities import (
     volume,
     weight,
 )
-from .certificates import attraction as held
-from .certificates import orbital_momentum as orbital
-from .certificates.strings import definitions as tether_definitions
-from .certificates.strings import margins as tether_margins
+from .certificates import attraction as attraction_certificate
+from .certificates import orbital_momentum as orbital_certificate
+from .certificates.pendulum import definitions as pendulum_definitions
+from .certificates.pendulum import margins as pendulum_margins
 from .events import CONTACT_GAPS, events, reversal, reversal_loss, start
 from .intermediates import intermediates
 from .invariants import Invariant, conserved_momentum
@@ -93,12 +93,12 @@ def derive(structure: Structure) -> Model:
     states = _states(structure)
     functions = _functions(structure, states)
     definitions = intermediates(structure, _conserved(structure) if structure.reduced else None)
-    if _tethered(structure):
-        definitions += tether_definitions()
-    elif held.admits(structure):
-        definitions += held.definitions(structure)
-    if orbital.admits(structure):
-        definitions += orbital.definitions(structure)
+    if _pendulum(structure):
+        definitions += pendulum_definitions()
+    elif attraction_certificate.admits(structure):
+        definitions += attraction_certificate.definitions(structure)
+    if orbital_certificate.admits(structure):
+        definitions += orbital_certificate.definitions(structure)
     used = _closure(functions, definitions)
     return Model(
         structure,
@@ -110,8 +110,8 @@ def derive(structure: Structure) -> Model:
     )
 
 
-def _tethered(structure: Structure) -> bool:
-    """Whether the stick proof of `tethered` is about this structure: strings that turn, and a film alone."""
+def _pendulum(structure: Structure) -> bool:
+    """Whether the pendulum certificate applies to this structure: strings that turn, and a film alone."""
     return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
 
 
@@ -233,30 +233,30 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             tuple(outputs(structure).items()),
         )
     )
-    if _tethered(structure):
+    if _pendulum(structure):
         functions.append(
             ModelFunction(
-                "tethered",
+                "pendulum_margins",
                 "Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.",
-                tuple(tether_margins().items()),
+                tuple(pendulum_margins().items()),
             )
         )
-    if held.admits(structure):
+    if attraction_certificate.admits(structure):
         functions.append(
             ModelFunction(
-                "held",
+                "attraction_margins",
                 "Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): "
                 "hold > 0, escape < 0 and rebound < 0 prove a stick.",
-                tuple(held.margins(structure).items()),
+                tuple(attraction_certificate.margins(structure).items()),
             )
         )
-    if orbital.admits(structure):
+    if orbital_certificate.admits(structure):
         functions.append(
             ModelFunction(
-                "orbital",
+                "orbital_margins",
                 "Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for "
                 "either arm: margins of the proof by the orbital momentum.",
-                tuple(orbital.margins(structure).items()),
+                tuple(orbital_certificate.margins(structure).items()),
             )
         )
     if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 1c95cbf83ebdd2020860f015bdb1aa4fc40f9ccd382438e3a362b4f5bac5e83a */
+ * Equations sha256 9b8708e2cb100d4f8fe939671c8fcc318080b54c0414eedfa1f05077f16fd269 */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -412,7 +412,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
 enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py). */
-static inline void orbital(const constants *c, const vec *y, vec *found)
+static inline void orbital_margins(const constants *c, const vec *y, vec *found)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
@@ -489,9 +489,10 @@ static inline vec angular_momentum(const constants *c, const vec *y)
 }
 
 #if defined(BRIDGE_FORCE_FALLS)
-#define HELD (REDUCED || MIDGAP_ARM)
+#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
 /* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
-static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec *rebound)
+static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
+    *rebound)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
@@ -507,7 +508,7 @@ static inline void held_margins(const constants *c, const vec *y, vec *hold_marg
     *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;
 }
 #else
-#define HELD 0
+#define ATTRACTION_MARGINS 0
 #endif
 
 #if !CAPILLARY_STATE

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f81521baa26f1f12ef2324a9040939cbc8d07a6918b66c84c73e8ccd0ce9c2db */
+ * Equations sha256 eb39dcb9df13bdb8688829df507be1ca9a19b061cab1d6fc214503692bb2680b */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -361,9 +361,10 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
 }
 
 #if defined(BRIDGE_FORCE_FALLS)
-#define HELD (REDUCED || MIDGAP_ARM)
+#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
 /* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
-static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec *rebound)
+static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
+    *rebound)
 {
     vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], c->spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
@@ -377,7 +378,7 @@ static inline void held_margins(const constants *c, const vec *y, vec *hold_marg
     *rebound = (c->dry_restitution*c->dry_restitution)*least_attraction - hold;
 }
 #else
-#define HELD 0
+#define ATTRACTION_MARGINS 0
 #endif
 
 #if !CAPILLARY_STATE

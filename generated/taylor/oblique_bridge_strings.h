@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3be2eedebad9ce2417cb91d2799cdde57c49985125b3aaa88421fe88718c7368 */
+ * Equations sha256 51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -440,7 +440,7 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };
 /* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
  * arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py). */
-static inline void orbital(const constants *c, const vec *y, vec *found)
+static inline void orbital_margins(const constants *c, const vec *y, vec *found)
 {
     (void)c; (void)y;
     vec distance = c->aspect*y[GAP] + 4.0;
@@ -480,9 +480,10 @@ static inline void orbital(const constants *c, const vec *y, vec *found)
 }
 
 #if defined(BRIDGE_FORCE_FALLS)
-#define HELD (REDUCED || MIDGAP_ARM)
+#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
 /* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
-static inline void held_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec *rebound)
+static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
+    *rebound)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
@@ -504,7 +505,7 @@ static inline void held_margins(const constants *c, const vec *y, vec *hold_marg
     *rebound = (c->dry_restitution*c->dry_restitution)*(largest_pull + least_attraction) - hold;
 }
 #else
-#define HELD 0
+#define ATTRACTION_MARGINS 0
 #endif
 
 #if !CAPILLARY_STATE

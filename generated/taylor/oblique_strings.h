@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c */
+ * Equations sha256 7a734b4a6c44c83ac341c55ee258725f6d23360101b9178b3d9ff58e26e79f61 */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -384,9 +384,9 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 }
 
 #if defined(FILM_STOPPING) && defined(GLASS_REACH)
-#define TETHERED MIDGAP_ARM
-/* The strings outweigh the rotation for good where outward < pull (equations/certificates/strings.py). */
-static inline void tethered_inward(const constants *c, const vec *y, vec *outward, vec *pull)
+#define PENDULUM MIDGAP_ARM
+/* The strings outweigh the rotation for good where outward < pull (equations/certificates/pendulum.py). */
+static inline void pendulum_inward(const constants *c, const vec *y, vec *outward, vec *pull)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
@@ -399,7 +399,7 @@ static inline void tethered_inward(const constants *c, const vec *y, vec *outwar
         4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
 }
 /* Then the film stops the motion and every rebound where film < 0 and recoil < 0. */
-static inline void tethered_stops(const constants *c, const vec *y, vec *film, vec *recoil)
+static inline void pendulum_stops(const constants *c, const vec *y, vec *film, vec *recoil)
 {
     vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect) + 4.0*c->aspect + 16.0);
@@ -410,7 +410,7 @@ static inline void tethered_stops(const constants *c, const vec *y, vec *film, v
     *recoil = c->dry_restitution*fastest*c->stokes - film_stopping(reach);
 }
 #else
-#define TETHERED 0
+#define PENDULUM 0
 #endif
 
 #if WITH_LEDGER

@@ -141,7 +141,7 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
     # the proof on strings reckons with the criteria, which are left out here
-    watch = replace(start.watch, certificate=None) if start.watch.certificate == "tethered" else start.watch
+    watch = replace(start.watch, certificate=None) if start.watch.certificate == "pendulum" else start.watch
     for _ in range(10 * STRETCHES):
         level = start.proof.level(y, phase) if watch.certificate else None
         find = locator(Flow(model.choice, phase.region, start.extras), watch, start.tolerance, machine_code)

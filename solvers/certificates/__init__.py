@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from .attraction import HeldProof
-from .base import Certainty, NoProof, Proof, at_maximum
-from .chatter import ChatterProof
+from .attraction import AttractionCertificate
+from .base import Certainty, Certificate, NoCertificate, at_maximum
+from .chatter import ChatterCertificate
 from .choice import energy_proof, proof_for
 from .circling import comes_to
-from .energy_barrier import Barrier, BarrierProof
-from .film import FilmProof
-from .orbital_momentum import OrbitalProof
-from .strings import TetherProof
+from .energy_barrier import Barrier, EnergyCertificate
+from .film import FilmCertificate
+from .orbital_momentum import OrbitalMomentumCertificate
+from .pendulum import PendulumCertificate
 
 __all__ = [
+    "AttractionCertificate",
     "Barrier",
-    "BarrierProof",
     "Certainty",
-    "ChatterProof",
-    "FilmProof",
-    "HeldProof",
-    "NoProof",
-    "OrbitalProof",
-    "Proof",
-    "TetherProof",
+    "Certificate",
+    "ChatterCertificate",
+    "EnergyCertificate",
+    "FilmCertificate",
+    "NoCertificate",
+    "OrbitalMomentumCertificate",
+    "PendulumCertificate",
     "at_maximum",
     "comes_to",
     "energy_proof",

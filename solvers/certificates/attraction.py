@@ -10,18 +10,18 @@ from ...generated.automaton import SAFETY
 from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Certainty, NoProof, Proof
+from .base import Certainty, Certificate, NoCertificate
 
 
-class HeldProof:
+class AttractionCertificate:
     """Something attracts so strongly that the gap's maxima only fall from now on.
 
     Arguments:
         beside: another proof for the same model, tried first; it is what a trajectory watches for.
     """
 
-    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof | None = None) -> None:
-        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside or NoProof()
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate | None = None) -> None:
+        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside or NoCertificate()
         self.watches: str | None = self.beside.watches
         groups = dict(zip(model.groups, p, strict=True))
         self._nearest = contact_gap(groups) * (1 - self.margin)
@@ -35,7 +35,7 @@ class HeldProof:
     def _held(self, y: np.ndarray) -> bool:
         if not y[0] >= self._nearest:
             return False  # the margins take the solids for the nearest it gets; initial contact may lie inside them
-        found = self.model.values("held", y, self.p)
+        found = self.model.values("attraction_margins", y, self.p)
         hold = found["hold"]
         # each by more than the error of what it is made of; a NaN proves nothing
         energy = max(float(y[1]) ** 2, 1.0)

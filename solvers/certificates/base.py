@@ -33,7 +33,7 @@ def at_maximum(y: np.ndarray, phase: Phase) -> bool:
     return not phase.resting and phase.motion == CLOSING and abs(y[1]) <= STILL
 
 
-class Proof(Protocol):
+class Certificate(Protocol):
     """The interface of a proof, which has no state of its own.
 
     `y` is the locating state: the model's states, then the works against attractions.
@@ -55,8 +55,8 @@ class Proof(Protocol):
         """
 
 
-class NoProof:
-    """No certificate: an oblique doublet with a film alone always parts; on strings none but `TetherProof` is known."""
+class NoCertificate:
+    """No certificate. An oblique doublet with a film alone always parts; on strings it has `PendulumCertificate` or none."""
 
     watches: str | None = None
 

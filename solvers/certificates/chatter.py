@@ -9,7 +9,7 @@ import numpy as np
 from ...generated.automaton import SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Certainty, Proof, at_maximum
+from .base import Certainty, Certificate, at_maximum
 from .quadrature import panels
 
 CYCLES = 20  # maxima that are taken for chatter, if none of the next is above the one before
@@ -28,7 +28,7 @@ def chatters(maxima: Sequence[np.ndarray], kept: slice, margin: float) -> bool:
     return len(last) > CYCLES and not bool(np.any(last[1:] > last[:-1] * (1 + margin)))
 
 
-class ChatterProof:
+class ChatterCertificate:
     """Between unequal spheres, or with laws of one's own, an attraction that holds what has rebounded many times.
 
     At a gap that stays the same, the orbit's momentum is that of rigid rotation and two modes that decay. Where it
@@ -39,7 +39,7 @@ class ChatterProof:
         beside: the proof that is tried first.
     """
 
-    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate) -> None:
         self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
         self.end = dict(zip(model.groups, p, strict=True)).get("rupture_gap", 1.0)
         self.watches = beside.watches

@@ -5,53 +5,53 @@ from __future__ import annotations
 import numpy as np
 
 from ..model.model import Model
-from .attraction import HeldProof
-from .base import NoProof, Proof
-from .chatter import ChatterProof
-from .energy_barrier import BarrierProof
-from .film import FilmProof
-from .film_and_attraction import AttractedProof
-from .orbital_momentum import OrbitalProof, covers
-from .strings import TetherProof
+from .attraction import AttractionCertificate
+from .base import Certificate, NoCertificate
+from .chatter import ChatterCertificate
+from .energy_barrier import EnergyCertificate
+from .film import FilmCertificate
+from .film_and_attraction import FilmAndAttractionCertificate
+from .orbital_momentum import OrbitalMomentumCertificate, covers
+from .pendulum import PendulumCertificate
 
 
-def proof_for(model: Model, p: np.ndarray, rtol: float) -> Proof:
+def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     """The certificate that holds for a model."""
     found = _first(model, p, rtol)
     if covers(model):
-        return OrbitalProof(model, p, rtol, found)
+        return OrbitalMomentumCertificate(model, p, rtol, found)
     chatters = model.oblique and not model.wall and not model.strings and model.works
-    return ChatterProof(model, p, rtol, found) if chatters else found
+    return ChatterCertificate(model, p, rtol, found) if chatters else found
 
 
-def _first(model: Model, p: np.ndarray, rtol: float) -> Proof:
+def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     """What is asked first, or alone."""
-    if model.has("tethered") and model.choice.law("arm") == "midgap" and _integrable(model):
-        return TetherProof(model, p, rtol)
+    if model.has("pendulum_margins") and model.choice.law("arm") == "midgap" and _integrable(model):
+        return PendulumCertificate(model, p, rtol)
     turning = model.oblique and not model.wall
     if turning and _holds(model):
-        return HeldProof(model, p, rtol, None if model.strings else BarrierProof(model, p, rtol))
+        return AttractionCertificate(model, p, rtol, None if model.strings else EnergyCertificate(model, p, rtol))
     if turning and (model.strings or not model.works):
-        return NoProof()
+        return NoCertificate()
     if model.works and not turning and not model.strings and model.edged and _momentum(model):
-        return AttractedProof(model, p, rtol)
+        return FilmAndAttractionCertificate(model, p, rtol)
     if model.works or model.strings:
-        return BarrierProof(model, p, rtol)
-    return FilmProof(model, p, rtol) if _momentum(model) else NoProof()
+        return EnergyCertificate(model, p, rtol)
+    return FilmCertificate(model, p, rtol) if _momentum(model) else NoCertificate()
 
 
-def energy_proof(proof: Proof) -> BarrierProof | None:
+def energy_proof(proof: Certificate) -> EnergyCertificate | None:
     """The proof by energy that a trajectory has, alone or beside another."""
-    while isinstance(proof, HeldProof | OrbitalProof | ChatterProof):
+    while isinstance(proof, AttractionCertificate | OrbitalMomentumCertificate | ChatterCertificate):
         proof = proof.beside
-    return proof if isinstance(proof, BarrierProof) else None
+    return proof if isinstance(proof, EnergyCertificate) else None
 
 
 def _holds(model: Model) -> bool:
     """Whether attraction alone can prove a stick: the forces fall with the gap, and the arm conserves L."""
     attracting = [getattr(model.laws, slot) for slot in ("bridge", "attraction") if model.choice.law(slot)]
     falling = all(getattr(law, "FALLS", False) for law in attracting)
-    return model.has("held") and falling and model.choice.law("arm") in (None, "midgap")
+    return model.has("attraction_margins") and falling and model.choice.law("arm") in (None, "midgap")
 
 
 def _momentum(model: Model) -> bool:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model.contact import contact_gap
-from .orbital_momentum import OrbitalProof
+from .orbital_momentum import OrbitalMomentumCertificate
 from .quadrature import panels
 
 _SHALLOW = 0.1  # a dip is shallow below this part of the film
@@ -24,7 +24,7 @@ _GROWTH = 1.05  # of that ratio, between two states, which counts as none
 _GAPS = 201
 
 
-def comes_to(proof: OrbitalProof, earlier: np.ndarray, y: np.ndarray) -> bool | None:
+def comes_to(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y: np.ndarray) -> bool | None:
     """Whether a doublet that circles is held in the limit of many turns; None where that is not clear.
 
     Arguments:
@@ -46,7 +46,7 @@ class _Turn:
     ahead: float
 
 
-def _turn(proof: OrbitalProof, y: np.ndarray) -> _Turn | None:
+def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
     """None for a doublet that does not dip shallowly into its film, pushed outwards at the edge.
 
     Nor with the surface arm, whose angular momentum drifts on while the dips get shallower.
@@ -65,7 +65,7 @@ def _turn(proof: OrbitalProof, y: np.ndarray) -> _Turn | None:
     return _Turn(radial, barrier, _barrier(proof, y, edge) - barrier)
 
 
-def _inward(proof: OrbitalProof, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
+def _inward(proof: OrbitalMomentumCertificate, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
     """What pulls inward at these gaps, with the momenta of a state."""
     states = np.repeat(y[: len(proof.model.state), None], gaps.size, axis=1)
     states[0] = gaps
@@ -73,13 +73,13 @@ def _inward(proof: OrbitalProof, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
     return force
 
 
-def _work(proof: OrbitalProof, y: np.ndarray, start: float, end: float) -> float:
+def _work(proof: OrbitalMomentumCertificate, y: np.ndarray, start: float, end: float) -> float:
     """Work against what pulls inward."""
     edges = start + (end - start) * np.linspace(0.0, 1.0, 9)
     return float(np.sum(panels(lambda gaps: _inward(proof, gaps, y), edges)))
 
 
-def _barrier(proof: OrbitalProof, y: np.ndarray, edge: float) -> float:
+def _barrier(proof: OrbitalMomentumCertificate, y: np.ndarray, edge: float) -> float:
     """The most work that it takes from the edge to any gap further out."""
     gaps = np.geomspace(edge, proof.end, _GAPS)
     work = np.concatenate([[0.0], np.cumsum(panels(lambda at: _inward(proof, at, y), gaps))])

@@ -28,7 +28,7 @@ class Barrier:
     height: float
 
 
-class BarrierProof:
+class EnergyCertificate:
     """Energy below a barrier of the effective potential that lies further out.
 
     For the surface arm angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite; there

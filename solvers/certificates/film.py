@@ -18,7 +18,7 @@ from .quadrature import panels
 PARTS = 50  # panels of the quadrature between two depths
 
 
-class FilmProof:
+class FilmCertificate:
     """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
 
     watches: str | None = None

@@ -10,14 +10,14 @@ from ...generated.automaton import ATTRACTED_FILM_DEPTHS, CLOSING
 from ..model.model import Model
 from ..model.phases import Phase
 from .base import Certainty
-from .energy_barrier import BarrierProof
-from .film import PARTS, FilmProof
+from .energy_barrier import EnergyCertificate
+from .film import PARTS, FilmCertificate
 from .quadrature import panels
 
 _WEAK = 1e-3  # of m v0^2; the error of a level is 3e-5 at most, that of the loosest tolerance
 
 
-class AttractedProof(BarrierProof):
+class FilmAndAttractionCertificate(EnergyCertificate):
     """Head-on or beside a wall, a film and what attracts: energy, or the film that stops the approach.
 
     An attraction too weak to show in the energy still holds what the film has stopped. What would close at w under
@@ -28,7 +28,7 @@ class AttractedProof(BarrierProof):
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         super().__init__(model, p, rtol)
-        self._film = FilmProof(model, p, rtol)
+        self._film = FilmCertificate(model, p, rtol)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         return super().decided(y, phase, maxima) or Certainty.of(

@@ -13,7 +13,7 @@ import numpy as np
 from ...generated.automaton import CLOSING, SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import STILL, Certainty, Proof, at_maximum
+from .base import STILL, Certainty, Certificate, at_maximum
 from .chatter import chatters
 from .quadrature import panels
 
@@ -23,10 +23,10 @@ _GAPS = 49  # at which the doublet is asked whether it gets there
 
 def covers(model: Model) -> bool:
     """Whether the proof is about this model: equal spheres that turn, the library's laws, something that attracts."""
-    return model.has("orbital") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
+    return model.has("orbital_margins") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
 
 
-class OrbitalProof:
+class OrbitalMomentumCertificate:
     """Asks, after another proof, whether some gap ahead is out of reach for good.
 
     On strings no proof covers the slip that their torque makes; there it ends chatter, after some cycles whose maxima
@@ -37,7 +37,7 @@ class OrbitalProof:
             trajectory watches for.
     """
 
-    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Proof) -> None:
+    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate) -> None:
         self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
         self.groups = groups = dict(zip(model.groups, p, strict=True))
         self.end = groups.get("rupture_gap", 1.0)
@@ -85,13 +85,17 @@ class OrbitalProof:
         gap, normal_velocity, orbital_momentum = map(float, y[:3])
         if not gap < self.end:
             return False
-        turning = orbital_momentum / (4 + self.aspect * gap) ** 2 - self.model.values("orbital", y, self.p)["slip"]
+        turning = (
+            orbital_momentum / (4 + self.aspect * gap) ** 2 - self.model.values("orbital_margins", y, self.p)["slip"]
+        )
         if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbital_momentum:
             return False  # beyond what is proved of the surface arm's exchange: rho < 4 a
         edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
         inward, attraction = self._work(edges, y, orbital_momentum), self._work(edges, y, 0.0)
-        found = np.asarray(self.model.function("orbital")(self._states(edges[1:], y, orbital_momentum), self.p).full())
-        slips = found[self.model.names("orbital").index("slip")]
+        found = np.asarray(
+            self.model.function("orbital_margins")(self._states(edges[1:], y, orbital_momentum), self.p).full()
+        )
+        slips = found[self.model.names("orbital_margins").index("slip")]
         needed = normal_velocity**2 / 2 - inward + self._exchange(edges[1:], y, found, settled or not self._drifts)
         turned = (self.obliquity**2 / 16) * abs(orbital_momentum) * np.maximum(-slips, 0.0)
         error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
@@ -102,7 +106,7 @@ class OrbitalProof:
 
         Beyond the edge of the shear only what it does before omega = xi there.
         """
-        names = self.model.names("orbital")
+        names = self.model.names("orbital_margins")
         slips, energy = found[names.index("slip")], found[names.index(self.lever)]
         possible: np.ndarray = np.where(slips < 0, energy, 0.0)
         beyond = gaps > self.edge
@@ -113,7 +117,9 @@ class OrbitalProof:
             return np.where(beyond, 0.0, possible)
         at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbit, and spin where it is a state
         left = np.asarray(
-            self.model.function("orbital")(self._states(gaps, at_edge, rigid["orbital_momentum"]), self.p).full()
+            self.model.function("orbital_margins")(
+                self._states(gaps, at_edge, rigid["orbital_momentum"]), self.p
+            ).full()
         )
         return np.where(beyond, energy - left[names.index(self.lever)], possible)
 

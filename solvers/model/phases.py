@@ -123,7 +123,7 @@ class WatchedEvents:
 
     Arguments:
         tangential_edge: the edge of the tangential force lies within reach and is not the film's own.
-        certificate: watch for the proof of a stick: "energy" below a level, or "tethered" by a margin.
+        certificate: watch for the proof of a stick: "energy" below a level, or "pendulum" by a margin.
     """
 
     tangential_edge: bool = False
@@ -151,8 +151,8 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
     ]
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
-    elif watch.certificate == "tethered":
-        table.append(Event("certified", tethered_margin(model, level)))
+    elif watch.certificate == "pendulum":
+        table.append(Event("certified", pendulum_margin(model, level)))
     return tuple(table)
 
 
@@ -169,12 +169,12 @@ def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
     return if_else(motion == directions[0], value, 1) if directions else value
 
 
-def tethered_margin(model: Model, margin: SX | float) -> SX:
+def pendulum_margin(model: Model, margin: SX | float) -> SX:
     """Negative where the proof on strings holds by the relative `margin`: the worst of its three inequalities.
 
     Not negative where one of them is not a number: fmax would leave that one out.
     """
-    found = model("tethered")
+    found = model("pendulum_margins")
     outward, pull = found["outward"], found["pull"]
     slack = margin * fmax(model.groups["stokes"], 1)
     parts = (outward - pull + margin * (outward + pull), found["film"] + slack, found["recoil"] + slack)

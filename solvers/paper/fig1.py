@@ -13,7 +13,7 @@ from .desk import Desk, Job, Line
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
 from .style import COLUMN, LETTERS, sheet
-from .variants import STRING_VARIANTS, TETHERED, described, variant
+from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _BEFORE, _AFTER = 1, 4  # frames before and after initial contact
 _MS = 1e3
@@ -22,7 +22,7 @@ _MS = 1e3
 def make(desk: Desk, folder: Path) -> Part:
     """Collide the three, and draw them."""
     desk.say("fig. 1: frames of the three collisions")
-    scene = variant(TETHERED, {})
+    scene = variant(PENDULUM, {})
     shown = {"angle": SHOT_ANGLE, "ledger": False, "trajectory": True, "engine": "taylor"}
     collisions = [collide(scene, stokes=shot.stokes, **shown) for shot in SHOTS]  # type: ignore[arg-type]  # by keyword
     _draw(collisions, folder / "fig1.png")
@@ -45,7 +45,7 @@ def make(desk: Desk, folder: Path) -> Part:
         comparisons=comparisons,
         pictures=(Picture("fig1.png", caption, COLUMN),),
         tables=(_moved(desk),),
-        scenes=(TETHERED,),
+        scenes=(PENDULUM,),
     )
 
 
@@ -58,7 +58,7 @@ def _said(one: Collision) -> str:
 
 def _moved(desk: Desk) -> Table:
     """Outcomes, and the boundaries along the line of Fig. 1, under the variants."""
-    scenes = {name: variant(TETHERED, changes) for name, changes in STRING_VARIANTS.items()}
+    scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     desk.say("fig. 1: variants")
     traced = desk.many([Job(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
     rows = []

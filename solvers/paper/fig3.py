@@ -12,7 +12,7 @@ from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shared_ou
 from .parts import Comparison, Part, Picture, Table, number
 from .printed import PRINTED
 from .style import ANGLE, COLUMN, GREY, STOKES, panel, sheet
-from .variants import STRING_VARIANTS, TETHERED, described, variant
+from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _REACH = 2.5  # St at the right edge
 _BESIDE = 1 + 1e-6
@@ -22,7 +22,7 @@ _BELOW = 0.8  # of the boundary: where the search for the criterion starts
 def make(desk: Desk, folder: Path) -> Part:
     """Trace and draw the map; St* at theta0 = 0 under the variants."""
     desk.say("fig. 3: tracing the pendulum's boundaries")
-    scene = variant(TETHERED, {})
+    scene = variant(PENDULUM, {})
     angles, lines = desk.map(scene, _REACH)
     _draw(angles, lines, folder / "fig3.png")
     used = described(scene)
@@ -61,7 +61,7 @@ def make(desk: Desk, folder: Path) -> Part:
         comparisons=rows,
         pictures=(Picture("fig3.png", caption, COLUMN),),
         tables=(_moved(desk),),
-        scenes=(TETHERED,),
+        scenes=(PENDULUM,),
     )
 
 
@@ -81,7 +81,7 @@ def _along(line: Line) -> str:
 def _moved(desk: Desk) -> Table:
     """Both readings of St* under the variants; arm and log have no part in a head-on collision."""
     desk.say("fig. 3: variants")
-    scenes = {name: variant(TETHERED, changes) for name, changes in STRING_VARIANTS.items()}
+    scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
     rows = shared_out(_row, [(name, scene, line) for (name, scene), [line] in zip(scenes.items(), traced)])
     rows.append(["paper", PRINTED["stokes_3"].text, ""])

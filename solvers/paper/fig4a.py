@@ -1,4 +1,4 @@
-"""Fig. 4a: regime map of the untethered granules, the lines of constant Ce and St, and without capillary force."""
+"""Fig. 4a: regime map of the granules, the lines of constant Ce and St, and without capillary force."""
 
 from __future__ import annotations
 

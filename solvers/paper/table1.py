@@ -12,7 +12,7 @@ from ..scene.scene import Scene
 from .desk import Desk
 from .parts import Part, Picture
 from .style import GREY, INK, sheet
-from .variants import BRIDGED, TETHERED, described
+from .variants import BRIDGED, PENDULUM, described
 
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation
@@ -25,9 +25,9 @@ _WRAP = 37  # letters of a note in a line beside no formula
 def make(desk: Desk, folder: Path) -> Part:
     """Typeset the equations of the presets' laws into `folder`."""
     desk.say("table 1: deriving")
-    bridged, tethered = Scene.load(BRIDGED), Scene.load(TETHERED)
+    bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
-    assert tethered.pendulum is not None
+    assert hung.pendulum is not None
     from ...derive.emit.document.theory import theory  # imports sympy
 
     model = bridged.model
@@ -37,14 +37,14 @@ def make(desk: Desk, folder: Path) -> Part:
             "shear": model.tangential,
             "glass": model.glass,
             "bridge": bridged.bridge.law,
-            "strings": tethered.pendulum.law,
+            "strings": hung.pendulum.law,
         }
     )
     _draw(lines, folder / "table1.png")
     files.write(folder / "table1.tex", document(lines))
     words = (
         "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
-        f"typed in. Laws: {described(bridged)}; {described(tethered)}. The paper's own table is a "
+        f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a "
         "picture that its text does not have: these are rebuilt from first principles and held against what it prints."
     )
     picture = Picture("table1.png", "Table 1: theory. LaTeX in table1.tex.", _WIDTH)

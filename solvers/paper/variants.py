@@ -7,7 +7,7 @@ from typing import Any
 
 from ..scene.scene import Scene
 
-BRIDGED, DRY, TETHERED = "granulation", "granulation-dry-bridge", "pendulum"
+BRIDGED, DRY, PENDULUM = "granulation", "granulation-dry-bridge", "pendulum"
 AS_PRINTED = "preset"
 
 _SHARED: dict[str, dict[str, Any]] = {

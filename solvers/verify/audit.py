@@ -32,7 +32,7 @@ class _Long(Exception):
     """The trajectory has lasted as long as was asked for."""
 
 
-class WithoutProof(EventLocator):
+class WithoutCertificate(EventLocator):
     """A trajectory that no certificate ends; it runs to an event that ends it, or until a time."""
 
     until = math.inf
@@ -145,7 +145,7 @@ def _ended_early(path: EventSequence) -> bool:
 def _without_proof(found: Audit, scene: Scene, n: DimensionlessGroups, path: EventSequence, where: str) -> None:
     found.proved += path.certified
     found.settled += not path.certified
-    locator = WithoutProof(load(select_model(scene, n.oblique)), n.groups, _RTOL)
+    locator = WithoutCertificate(load(select_model(scene, n.oblique)), n.groups, _RTOL)
     try:
         on = locator.on(path.time + LONG)
     except ComputationError as failure:

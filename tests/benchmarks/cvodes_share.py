@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance
 from wetdoublet.solvers.engines.casadi.locate import locate
-from wetdoublet.solvers.engines.casadi.replay import Stopped, integrate
+from wetdoublet.solvers.engines.casadi.replay import Stopped, replay
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
@@ -41,7 +41,7 @@ def errors(task: Task, impact: Impact) -> dict[str, list[float | None]] | None:
 
     def error(plugin: str, rtol: float) -> float | None:
         try:
-            collided = integrate(path, plugin, Tolerance(rtol, 1e-3 * rtol), flow, model.start(path.p))
+            collided = replay(path, plugin, Tolerance(rtol, 1e-3 * rtol), flow, model.start(path.p))
         except Stopped:
             return None
         return abs(model.values("outputs", collided.y, path.p)["restitution"] - truth.restitution)

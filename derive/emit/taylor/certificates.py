@@ -15,52 +15,52 @@ from .layout import comment, function
 
 # On strings two functions, the cheap and telling margin first.
 PARTS = {
-    "tethered_inward": (
+    "pendulum_inward": (
         ("outward", "pull"),
-        "The strings outweigh the rotation for good where outward < pull (equations/certificates/strings.py).",
+        "The strings outweigh the rotation for good where outward < pull (equations/certificates/pendulum.py).",
     ),
-    "tethered_stops": (
+    "pendulum_stops": (
         ("film", "recoil"),
         "Then the film stops the motion and every rebound where film < 0 and recoil < 0.",
     ),
 }
 
 
-def tethered_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
     """The functions of PARTS, in the region of laws that have what the proof asks.
 
     Arguments:
         constants: of the structure; what does not move is added to them.
         prepared: by slot and function, the law's constants in those of the structure.
     """
-    outputs = dict(model["tethered"].outputs)
+    outputs = dict(model["pendulum_margins"].outputs)
     asked = {
         node.func.__name__.replace(".", "_").upper()
         for _, expression in (*needed(list(outputs.values()), model.definitions)[0], *outputs.items())
         for node in sp.sympify(expression).atoms(AppliedUndef)
         if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in prepared
     }
-    lines = [f"#if {' && '.join(f'defined({name})' for name in sorted(asked))}", "#define TETHERED MIDGAP_ARM"]
+    lines = [f"#if {' && '.join(f'defined({name})' for name in sorted(asked))}", "#define PENDULUM MIDGAP_ARM"]
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     for name, (keys, doc) in PARTS.items():
         kept, _ = needed([outputs[key] for key in keys], model.definitions)
         lines += _function(name, doc, kept, {key: outputs[key] for key in keys}, moving, constants, prepared)
-    return [*lines, "#else", "#define TETHERED 0", "#endif", ""]
+    return [*lines, "#else", "#define PENDULUM 0", "#endif", ""]
 
 
-def held_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+def attraction_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
     """The margins of the attraction certificate, for laws whose force falls with the gap; arguments as above."""
-    outputs = dict(model["held"].outputs)
+    outputs = dict(model["attraction_margins"].outputs)
     falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     kept, _ = needed(list(outputs.values()), model.definitions)
     doc = "What attracts holds for good where hold > 0, escape < 0 and rebound < 0."
     return [
         f"#if {' && '.join(falling)}",
-        "#define HELD (REDUCED || MIDGAP_ARM)",
-        *_function("held_margins", doc, kept, outputs, moving, constants, prepared),
+        "#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)",
+        *_function("attraction_margins", doc, kept, outputs, moving, constants, prepared),
         "#else",
-        "#define HELD 0",
+        "#define ATTRACTION_MARGINS 0",
         "#endif",
         "",
     ]

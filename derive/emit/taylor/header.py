@@ -14,7 +14,7 @@ from ...physics.laws.base import is_slot_call
 from ...vocabulary.quantities import VOCABULARY, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
-from .certificates import held_functions, tethered_functions
+from .certificates import attraction_functions, pendulum_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, function
@@ -297,14 +297,16 @@ class Header:
                     f"static inline vec potential_{key}(const constants *c, const vec *y)",
                     {key: "return"},
                 )
-        if any(key == "surface" for each in model.functions if each.name == "orbital" for key, _ in each.outputs):
+        if any(
+            key == "surface" for each in model.functions if each.name == "orbital_margins" for key, _ in each.outputs
+        ):
             lines += [
                 "#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS",
                 "enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };",
             ]
             lines += self._value(
-                "orbital",
-                "static inline void orbital(const constants *c, const vec *y, vec *found)",
+                "orbital_margins",
+                "static inline void orbital_margins(const constants *c, const vec *y, vec *found)",
                 {
                     "slip": "found[SLIP_RATE]",
                     "orbital_energy": "found[ORBITAL_ENERGY]",
@@ -332,10 +334,10 @@ class Header:
                 {"angular_momentum": "return"},
             )
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
-        if any(each.name == "tethered" for each in model.functions):
-            lines += tethered_functions(model, self.constants, prepared)
-        if any(each.name == "held" for each in model.functions):
-            lines += held_functions(model, self.constants, prepared)
+        if any(each.name == "pendulum_margins" for each in model.functions):
+            lines += pendulum_functions(model, self.constants, prepared)
+        if any(each.name == "attraction_margins" for each in model.functions):
+            lines += attraction_functions(model, self.constants, prepared)
         if attracting(self.model):
             lines += work_function(model, self.constants, self.calls)
         if (shape.partner == "wall" or not shape.oblique) and not (shape.bridge or shape.strings):

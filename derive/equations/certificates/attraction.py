@@ -2,7 +2,7 @@
 
 Oblique, with attractions F that fall with the gap, strings or not, midgap arm, per unit mass:
 
-1. As on strings (`tethered`), L never grows and F_t pulls omega and xi together: J = r^2 omega never exceeds J_max.
+1. As in `pendulum`, L never grows and F_t pulls omega and xi together: J = r^2 omega never exceeds J_max.
 2. F falls with the gap, S_n grows with gap and angle: at every gap, from now on, at least
    `hold` = F(x_f) + S_n(contact, beta) - J_max^2/r^3 (in contact) pulls inward, beside lubrication; it must be > 0.
 3. What moves outward now, or rebounds with e_dry of the present approach, is stopped before x_f: its kinetic energy is
@@ -30,7 +30,7 @@ from ...vocabulary.quantities import (
 )
 from ..events import contact_gap
 from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermediates
-from .strings import (
+from .pendulum import (
     CONTACT,
     FARTHEST,
     LARGEST_MOMENTUM,

@@ -7,7 +7,7 @@ Per unit mass, r = d a the centre distance there, J = r^2 omega the momentum of 
    omega >= xi, since F_t then pulls J down, whatever the arm. (Strings pull J down as well, and their pull only grows.)
 2. J may grow where xi > omega. F_t exchanges momenta at a fixed rate, dJ = -(32/5) a^2 (d/2 lever) dxi. Let
    `slip_energy` be what that exchange, at the distance d, can still take from the rotation: zero where omega = xi
-   there, never negative. G + slip_energy never grows, wherever the exchange happens (`checks.orbital`).
+   there, never negative. G + slip_energy never grows, wherever the exchange happens (proved in `checks`).
 3. So while omega >= xi at d for the J of now, G < 0 holds the doublet; once omega = xi there, slip_energy = 0, and
    from then on G + slip_energy < 0 does. One test: G + slip_energy (where xi > omega) < 0.
 

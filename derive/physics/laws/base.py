@@ -16,7 +16,7 @@ class LawFunction:
     """One function of a law: `definitions` name intermediates, in order, for `result`.
 
     `for_proof`: only a stick certificate asks for it; without it collisions have no such certificate.
-    `falls`: it never grows with its first argument (`checks.held` proves it), which a certificate needs to know.
+    `falls`: it never grows with its first argument (proved in `checks`), which a certificate needs to know.
     """
 
     name: str

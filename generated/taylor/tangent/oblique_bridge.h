@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 1c95cbf83ebdd2020860f015bdb1aa4fc40f9ccd382438e3a362b4f5bac5e83a */
+ * Equations sha256 9b8708e2cb100d4f8fe939671c8fcc318080b54c0414eedfa1f05077f16fd269 */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f81521baa26f1f12ef2324a9040939cbc8d07a6918b66c84c73e8ccd0ce9c2db */
+ * Equations sha256 eb39dcb9df13bdb8688829df507be1ca9a19b061cab1d6fc214503692bb2680b */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

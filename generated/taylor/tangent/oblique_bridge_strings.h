@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3be2eedebad9ce2417cb91d2799cdde57c49985125b3aaa88421fe88718c7368 */
+ * Equations sha256 51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *

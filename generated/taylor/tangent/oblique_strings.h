@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e614448d188134cab34fda45b36136ec2c32c2ea81beba655d38d28efb239e6c */
+ * Equations sha256 7a734b4a6c44c83ac341c55ee258725f6d23360101b9178b3d9ff58e26e79f61 */
 
 /* Oblique doublet with pendulum strings.
  *

@@ -26,7 +26,7 @@ from ....generated.automaton import (
     Event,
     EventKind,
 )
-from ...certificates import Certainty, OrbitalProof, Proof, at_maximum, proof_for
+from ...certificates import Certainty, Certificate, OrbitalMomentumCertificate, at_maximum, proof_for
 from ...errors import CheckFailed, ComputationError
 from ...model.contact import contact_gap, contact_word
 from ...model.model import Model
@@ -111,7 +111,7 @@ class EventLocator:
         self.tolerance = tolerance(rtol, "rosenbrock", groups)
         self.p = model.group_values(groups)
         self.groups = groups
-        self.proof: Proof = proof_for(model, self.p, rtol)
+        self.proof: Certificate = proof_for(model, self.p, rtol)
         self.contact_gap = contact_gap(groups)
         self.rupture_gap = groups["rupture_gap"] if model.bridge else 1.0
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
@@ -149,7 +149,7 @@ class EventLocator:
         if (
             phases < CHATTER_PHASES
             or phases % _NOW_AND_THEN
-            or not isinstance(proof, OrbitalProof)
+            or not isinstance(proof, OrbitalMomentumCertificate)
             or self.model.strings
         ):
             return False

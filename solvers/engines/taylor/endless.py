@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....generated.automaton import OUTCOMES, STICK, Status
-from ...certificates import OrbitalProof, comes_to, proof_for
+from ...certificates import OrbitalMomentumCertificate, comes_to, proof_for
 from ...model.dimensionless import nondimensionalise
 from ...model.model import ModelKey, load
 from ...scene.scene import Scene
@@ -52,11 +52,15 @@ def limits(
     return found
 
 
-def _proof(scene: Scene, speed: float, angle: float, choice: ModelKey, rtol: float) -> OrbitalProof | None:
+def _proof(
+    scene: Scene, speed: float, angle: float, choice: ModelKey, rtol: float
+) -> OrbitalMomentumCertificate | None:
     model = load(choice)
     found = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
-    return found if isinstance(found, OrbitalProof) and not model.strings else None  # strings may feed the slip
+    return (
+        found if isinstance(found, OrbitalMomentumCertificate) and not model.strings else None
+    )  # strings may feed the slip
 
 
-def _state(proof: OrbitalProof, told: np.void) -> np.ndarray:
+def _state(proof: OrbitalMomentumCertificate, told: np.void) -> np.ndarray:
     return np.array([told["final_gap"], *told["shown"][: len(proof.model.state) - 1]])

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ....generated.automaton import OUTCOMES
-from ...certificates import Certainty, NoProof
+from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
 from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant
@@ -239,7 +239,7 @@ def _ledger(name: str, each: Found, case: Case) -> list[Issue]:
     return issues
 
 
-class Audit(NoProof):
+class Audit(NoCertificate):
     """No certificate: a trajectory is followed until nothing happens any more, or for long."""
 
     def __init__(self) -> None:

@@ -65,7 +65,7 @@ def gradients(preset: str, repeats: int = 3, impacts: Sequence[tuple[float, floa
     for engine in ("rosenbrock", "cvodes"):
         runs: Runs = {
             "collision": partial(_collided, engine=engine),
-            "its trajectory alone": partial(_flown, engine=engine),
+            "its trajectory alone": partial(_replay_alone, engine=engine),
             "adjoint": partial(_elasticities, names=names, method="adjoint", engine=engine),
             "forward": partial(_elasticities, names=names, method="forward", engine=engine),
             "central differences": partial(_differences, names=names, engine=engine),
@@ -143,7 +143,7 @@ def _known(scene: Scene) -> tuple[Course, np.ndarray, np.ndarray, dict[str, floa
     return course, path.p, np.array([step.duration for step in path.steps]), n.groups
 
 
-def _flown(scene: Scene, engine: str) -> None:
+def _replay_alone(scene: Scene, engine: str) -> None:
     course, p, durations, groups = _known(scene)
     evaluate(
         trajectory_expression(course, ("restitution",), engine, tolerance(RTOL, engine, groups)).function, p, durations

@@ -18,7 +18,7 @@ from wetdoublet.derive.checks.emitted import (
 from wetdoublet.derive.checks.margins import margins, margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
 from wetdoublet.derive.equations import events, observables, rates
-from wetdoublet.derive.equations.certificates import strings as tethered
+from wetdoublet.derive.equations.certificates import pendulum
 from wetdoublet.derive.equations.events import reversal_loss
 from wetdoublet.derive.physics.laws import slot_call
 from wetdoublet.derive.physics.mechanics import F_t
@@ -32,8 +32,8 @@ pytestmark = pytest.mark.slow
 
 def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
     """The margins with a recoil at a share of its speed."""
-    right = tethered.margins()
-    slower = right["recoil"].subs(tethered.FASTEST, share * tethered.FASTEST)
+    right = pendulum.margins()
+    slower = right["recoil"].subs(pendulum.FASTEST, share * pendulum.FASTEST)
     assert slower != right["recoil"]
     return {**right, "recoil": slower}
 
@@ -41,43 +41,43 @@ def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
 def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
     """A rebound taken at a tenth of its speed: the film stops it where it would not."""
     wrong = _recoil_of(sp.Rational(1, 10))
-    mutate(tethered.margins, lambda: wrong)
+    mutate(pendulum.margins, lambda: wrong)
     caught(margins(), healthy, "margin of the stick proof: recoil")
 
 
 def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
     """A rebound that starts in contact always, and never where the glass criterion is met."""
-    right = tethered.margins()
-    wrong = {**right, "recoil": right["recoil"].subs(tethered.REACH, tethered.CONTACT)}
-    mutate(tethered.margins, lambda: wrong)
+    right = pendulum.margins()
+    wrong = {**right, "recoil": right["recoil"].subs(pendulum.REACH, pendulum.CONTACT)}
+    mutate(pendulum.margins, lambda: wrong)
     caught(margins(), healthy, "margin of the stick proof: recoil")
 
 
 @pytest.mark.parametrize(
     ("name", "wrong", "margin"),
     [
-        (tethered.NEAREST, 4 + q.aspect, "outward"),
-        (tethered.FARTHEST, 4 + q.aspect * tethered.CONTACT, "outward"),
-        (tethered.LARGEST_MOMENTUM, q.orbital_momentum, "outward"),
-        (tethered.CONTACT, q.rough_gap, "outward, pull, recoil"),
-        (tethered.LARGEST_PULL, tethered.pull_at(sp.Integer(1), q.beta), "recoil"),
-        (tethered.FASTEST, sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + tethered.LARGEST_PULL), "recoil"),
-        (tethered.FASTEST, sp.sqrt(2 * tethered.LARGEST_PULL), "recoil"),
+        (pendulum.NEAREST, 4 + q.aspect, "outward"),
+        (pendulum.FARTHEST, 4 + q.aspect * pendulum.CONTACT, "outward"),
+        (pendulum.LARGEST_MOMENTUM, q.orbital_momentum, "outward"),
+        (pendulum.CONTACT, q.rough_gap, "outward, pull, recoil"),
+        (pendulum.LARGEST_PULL, pendulum.pull_at(sp.Integer(1), q.beta), "recoil"),
+        (pendulum.FASTEST, sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PULL), "recoil"),
+        (pendulum.FASTEST, sp.sqrt(2 * pendulum.LARGEST_PULL), "recoil"),
     ],
     ids=["nearest", "farthest", "orbital_momentum", "contact", "pull at beta", "half the pull", "from rest"],
 )
 def test_a_bound_taken_elsewhere(mutate: Mutate, healthy: Healthy, name, wrong, margin):
     """Least and largest distance, orbit, contact, pull and speed taken where they are not the worst."""
-    right = dict(tethered.definitions())
+    right = dict(pendulum.definitions())
     assert right[name] != wrong
-    mutate(tethered.definitions, lambda: tuple({**right, name: wrong}.items()))
+    mutate(pendulum.definitions, lambda: tuple({**right, name: wrong}.items()))
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in margin.split(", ")))
 
 
 def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
     """The pull at x0 is larger than at contact: the inward force is taken for too large."""
-    wrong = {**tethered.margins(), "pull": tethered.pull_at(sp.Integer(1), q.beta)}
-    mutate(tethered.margins, lambda: wrong)
+    wrong = {**pendulum.margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
+    mutate(pendulum.margins, lambda: wrong)
     caught(margins(), healthy, "margin of the stick proof: pull")
 
 

@@ -115,7 +115,7 @@ def test_margins_of_what_attracts():
     """An attraction on strings, or without, has the margins of its own proof, for laws that fall with the gap alone."""
     for strings in (False, True):
         text = structure_header(derive(Structure(oblique=True, strings=strings, bridge=True)), "0", "by a test", "")
-        assert "#if defined(BRIDGE_FORCE_FALLS)\n#define HELD" in text
+        assert "#if defined(BRIDGE_FORCE_FALLS)\n#define ATTRACTION_MARGINS" in text
         assert "*hold_margin = hold;" in text
         assert not re.search(r"vec_(max|min)\(", text)
     assert "BRIDGE_FORCE_FALLS" in law_header(LAWS["bridge"]["mikami"], "0", "by a test")
@@ -129,4 +129,4 @@ def test_margins_of_the_stick_proof_hand_nan_on():
     assert "vec_larger(y[ORBITAL_MOMENTUM], spun_up)" in text
     assert not re.search(r"vec_(max|min)\(", text)
     without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)), "0", "by a test", "")
-    assert "tethered" not in without
+    assert "pendulum_margins" not in without

@@ -130,6 +130,6 @@ def test_certificates_are_admitted_where_their_premises_hold():
     assert "no barrier" in certificate(Structure(oblique=True, bridge=False, strings=False)).describe()
     assert "torque" in certificate(Structure(oblique=True, bridge=True, strings=True)).describe()
     assert certificate(Structure(oblique=False, bridge=False, strings=True)).admitted
-    tethered = Structure(oblique=True, bridge=False, strings=True)
-    assert "momenta" in certificate(tethered).describe()
-    assert not certificate(tethered, SURFACE).admitted
+    hung = Structure(oblique=True, bridge=False, strings=True)
+    assert "momenta" in certificate(hung).describe()
+    assert not certificate(hung, SURFACE).admitted

@@ -8,14 +8,14 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide
-from wetdoublet.solvers.certificates import HeldProof, NoProof
+from wetdoublet.solvers.certificates import AttractionCertificate, NoCertificate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.verify.audit import WithoutProof
+from wetdoublet.solvers.verify.audit import WithoutCertificate
 
 pytestmark = pytest.mark.slow
 
-_HELD_LAWS = ("mikami", "willett-simple", "lambert", "soulie", "constant")
+_FALLING_BRIDGES = ("mikami", "willett-simple", "lambert", "soulie", "constant")
 
 
 def _random_held(rng: np.random.Generator) -> tuple[Scene, float, float]:
@@ -36,7 +36,7 @@ def _random_held(rng: np.random.Generator) -> tuple[Scene, float, float]:
         "liquid.glass_transition_pressure": log_uniform(1e3, 1e8),
         "bridge.surface_tension": log_uniform(1e-3, 1),
         "bridge.volume": max(log_uniform(1e-2, 1), (0.6 * film / a) ** 3),
-        "bridge.law": _HELD_LAWS[rng.integers(len(_HELD_LAWS))],
+        "bridge.law": _FALLING_BRIDGES[rng.integers(len(_FALLING_BRIDGES))],
     }
     scene = Scene.load("granulation").with_entries(entries)
     if rng.integers(2):
@@ -54,11 +54,11 @@ def _held_sticks(count: int, seed: int) -> tuple[int, int]:
         n = nondimensionalise(scene, scene.speed_of(stokes), angle)
         model = load(select_model(scene, oblique=True))
         start = model.start(model.group_values(n.groups))
-        if not HeldProof(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
+        if not AttractionCertificate(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
             continue
         held += 1
-        trajectory = WithoutProof(model, n.groups, 1e-9, steps=5_000)
-        trajectory.proof = NoProof()
+        trajectory = WithoutCertificate(model, n.groups, 1e-9, steps=5_000)
+        trajectory.proof = NoCertificate()
         with contextlib.suppress(ComputationError):  # it creeps without end
             trajectory.on(6e5)
         escaped += trajectory.path.separated
@@ -88,7 +88,7 @@ def test_what_the_hold_does_not_prove(margin: str, stokes: float, angle: float, 
     n = nondimensionalise(scene, found.speed, found.angle)
     model = load(select_model(scene, oblique=True))
     p = model.group_values(n.groups)
-    margins = model.values("held", model.start(p), p)
+    margins = model.values("attraction_margins", model.start(p), p)
     met = {"hold": margins["hold"] > 0, "escape": margins["escape"] < 0, "rebound": margins["rebound"] < 0}
     assert not met[margin]
     if margin == "escape":

@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 from wetdoublet.solvers import ComputationError, Scene, collide
-from wetdoublet.solvers.certificates import BarrierProof, NoProof, energy_proof
-from wetdoublet.solvers.certificates.film_and_attraction import AttractedProof
+from wetdoublet.solvers.certificates import EnergyCertificate, NoCertificate, energy_proof
+from wetdoublet.solvers.certificates.film_and_attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
@@ -60,7 +60,7 @@ def test_a_bridge_that_pushes_proves_nothing() -> None:
         Scene.load("granulation").with_entries({"bridge.law": "lambert", "bridge.contact_angle": "90 deg"}), 0.05, 0
     )
     proof = energy_proof(one.proof)
-    assert isinstance(proof, AttractedProof)
+    assert isinstance(proof, FilmAndAttractionCertificate)
     assert proof.decided(one.y, one.phase)
     proof._slope = lambda gaps, _: np.full(gaps.size, -1e-18)
     assert not proof.decided(one.y, one.phase)
@@ -88,7 +88,7 @@ def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatc
             continue
         certified += 1
         with monkeypatch.context() as patch:
-            patch.setattr(locate, "proof_for", lambda *_: NoProof())
+            patch.setattr(locate, "proof_for", lambda *_: NoCertificate())
             patch.setattr(locate, "STRETCHES", 4)  # 16 (8^4 - 1)/7 = 9360 x0/v0 a phase
             on = trajectory(scene, stokes, angle, steps=20_000)  # some breathe about x0, where the film hardly damps
             with pytest.raises(ComputationError, match="no event within|phases have not decided"):
@@ -155,7 +155,7 @@ def test_barrier_height(law: str, stokes: float, angle: float) -> None:
     top, gap = max((-float(found.fun), float(found.x)), (effective(body.x_f), body.x_f))
     one = trajectory(scene, stokes, theta)
     proof = energy_proof(one.proof)
-    assert isinstance(proof, BarrierProof)
+    assert isinstance(proof, EnergyCertificate)
     barrier = max(proof.barriers(one.y), key=lambda b: b.height)
     assert barrier.height == pytest.approx(top, rel=1e-10)
     # at a maximum of curvature k rounding of 1e-16 leaves the search 1e-8/sqrt(k) of the gap

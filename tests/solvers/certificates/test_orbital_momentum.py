@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many
-from wetdoublet.solvers.certificates import NoProof, OrbitalProof
+from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.host.compiler import compiler
@@ -17,7 +17,7 @@ from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 from wetdoublet.solvers.settings import STEPS
-from wetdoublet.solvers.verify.audit import WithoutProof
+from wetdoublet.solvers.verify.audit import WithoutCertificate
 
 pytestmark = pytest.mark.slow
 
@@ -53,10 +53,10 @@ def test_what_separates_is_never_held(arm: str, shear: str) -> None:
     parted = held = kept = 0
     for scene in impacts(32, arm, 5, shear):
         n = nondimensionalise(scene, *scene.need_impact())
-        followed = WithoutProof(load(select_model(scene, oblique=True)), n.groups, 1e-9, steps=3_000)
-        proof, followed.proof = followed.proof, NoProof()
+        followed = WithoutCertificate(load(select_model(scene, oblique=True)), n.groups, 1e-9, steps=3_000)
+        proof, followed.proof = followed.proof, NoCertificate()
         followed.watch = locate.WatchedEvents(tangential_edge=followed.watch.tangential_edge)
-        assert isinstance(proof, OrbitalProof)
+        assert isinstance(proof, OrbitalMomentumCertificate)
         start = followed.y
         with contextlib.suppress(ComputationError):  # it chatters, or creeps, without end
             followed.on(7.5e4)
@@ -121,8 +121,8 @@ def test_spin_that_is_locked_out_does_not_count() -> None:
     one = trajectory(scene)
     y = one.run().y
     turning = y[2] / (4 + one.groups["aspect"] * y[0]) ** 2
-    assert one.model.values("orbital", y, one.p)["slip"] < 0 < turning  # it does spin faster
-    whole = OrbitalProof(one.model, one.p, 1e-9, NoProof())
+    assert one.model.values("orbital_margins", y, one.p)["slip"] < 0 < turning  # it does spin faster
+    whole = OrbitalMomentumCertificate(one.model, one.p, 1e-9, NoCertificate())
     assert whole.holds(y)
     whole.edge = whole.end
     assert not whole.holds(y)
@@ -139,10 +139,12 @@ def test_both_forms_take_the_same_away() -> None:
         y[0], y[2:3] = 1.2, 8.0
         if y.size > 3:
             y[3] = ((4 + one.groups["aspect"]) ** 2 - 8.0) / 6.4  # L is that of initial contact
-        proof = OrbitalProof(model, p, 1e-9, NoProof())
+        proof = OrbitalMomentumCertificate(model, p, 1e-9, NoCertificate())
         gaps = np.linspace(1.2, proof.end, 5)
         both.append(
-            proof._exchange(gaps, y, np.asarray(model.function("orbital")(proof._states(gaps, y, 8.0), p)), True)
+            proof._exchange(
+                gaps, y, np.asarray(model.function("orbital_margins")(proof._states(gaps, y, 8.0), p)), True
+            )
         )
     assert both[0] == pytest.approx(both[1], rel=1e-12)
     assert both[0][-1] > 0
@@ -154,7 +156,7 @@ def test_slip_energy_is_the_energy_above_rigid_rotation() -> None:
     model, p = one.model, one.p
     for gap, orbit in ((0.3, 14.0), (1.0, 9.0), (4.0, 12.0)):
         y = np.array([gap, 0.0, orbit])
-        found = model.values("orbital", y, p)
+        found = model.values("orbital_margins", y, p)
         rest = model.values("energies", y, p)["kinetic"] - model.values("effective_potential", y, p)["energy"]
         assert found["midgap"] == pytest.approx(rest, rel=1e-12)
 

@@ -187,7 +187,7 @@ def test_energy_and_angular_momentum(data: st.DataObject) -> None:
 
 
 def test_long_strings_do_nothing() -> None:
-    """Strings of near-infinite length at no gravity to speak of leave the untethered collision."""
+    """Strings of near-infinite length at no gravity to speak of leave the collision without strings."""
     strings = Scene.load("pendulum").with_entries({"pendulum.length": "1e9 m", "pendulum.gravity": "1e-6 m/s^2"})
     tables = {key: value for key, value in strings.to_dict().items() if key != "pendulum"}
     free = Scene.from_dict(tables)

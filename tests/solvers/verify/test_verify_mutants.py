@@ -189,7 +189,7 @@ def test_without_a_proof_the_trajectory_is_the_same() -> None:
 
     n = nondimensionalise(SCENE, SCENE.speed_of(0.05), math.radians(70))
     model = load(select_model(SCENE, oblique=True))
-    free, kept = audit.WithoutProof(model, n.groups, 1e-9).on(1e5), locate.locate(model, n.groups, 1e-9)
+    free, kept = audit.WithoutCertificate(model, n.groups, 1e-9).on(1e5), locate.locate(model, n.groups, 1e-9)
     assert free.separated and kept.separated
     assert free.y[1] == pytest.approx(float(kept.y[1]), rel=1e-7)  # 100 rtol: the energy is watched in one only
 

@@ -94,30 +94,30 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #endif
 #endif
 
-#if TETHERED
-/* Strings that turn and a film: lanes where the margins of derive/equations/certificates/strings.py hold by more than their error, as
- * solvers/model/phases.py `tethered_margin` has it. */
+#if PENDULUM
+/* Strings that turn and a film: lanes where the margins of derive/equations/certificates/pendulum.py hold by more than their error, as
+ * solvers/model/phases.py `pendulum_margin` has it. */
 static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;
     vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
-    tethered_inward(c, y, &outward, &pull);
+    pendulum_inward(c, y, &outward, &pull);
     mask held = outward - pull + margin*(outward + pull) < 0.0;
     if (!bits(held))
         return held;
-    tethered_stops(c, y, &film, &recoil);
+    pendulum_stops(c, y, &film, &recoil);
     return held & (film + slack < 0.0) & (recoil + slack < 0.0);
 }
 #endif
 
-#if HELD
+#if ATTRACTION_MARGINS
 /* What attracts holds for good by more than the error of the margins of derive/equations/certificates/attraction.py; a NaN proves nothing. They take
  * the solids for the nearest it gets: initial contact may lie inside them, and there nothing is proved. */
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;
     vec hold, escape, rebound;
-    held_margins(c, y, &hold, &escape, &rebound);
+    attraction_margins(c, y, &hold, &escape, &rebound);
     vec energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
     mask outside = y[GAP] >= contact_gap(c)*(1.0 - margin);
     return outside & (hold > 0.0) & (rebound < -margin*hold) & (escape < -margin*energy);
@@ -167,7 +167,7 @@ static inline mask proved_sticks(
 #if PROOF_BY_FILM
     proved |= ~resting & stopped_by_film(c, y, contact, closing, tolerance);
 #endif
-#if TETHERED
+#if PENDULUM
     proved |= held_by_strings(c, y, tolerance);
 #endif
     return proved;
@@ -186,7 +186,7 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)asked; (void)tolerance;
-#if HELD
+#if ATTRACTION_MARGINS
     if (bits(asked))
         return asked & held_by_attraction(c, y, tolerance);
 #endif

@@ -188,8 +188,8 @@ static inline mask out_of_reach(const constants *c, const vec *y, const barrier 
     vec here[ORBITAL], there[ORBITAL], beyond[STATES];
     memcpy(beyond, y, sizeof beyond);
     beyond[GAP] = gap;
-    orbital(c, y, here);
-    orbital(c, beyond, there);
+    orbital_margins(c, y, here);
+    orbital_margins(c, beyond, there);
     vec needed = 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY] + work_done(c, y, b) - work + here[ORBITAL_ENERGY] - there[ORBITAL_ENERGY]
                  + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite, and so the test false, without a barrier */

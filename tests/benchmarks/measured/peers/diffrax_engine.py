@@ -89,8 +89,8 @@ def trajectory(choice: Any, names: tuple[str, ...], proved: str | None, rtol: fl
         if proved == "energy":
             energy = sum(structure.energies(state, groups, laws).values())
             found["certified"] = energy + (y[-1] if bridge else 0.0) - level
-        elif proved == "tethered":
-            held = structure.tethered(state, groups, laws)
+        elif proved == "pendulum":
+            held = structure.pendulum_margins(state, groups, laws)
             inward = held["outward"] - held["pull"]
             found["certified"] = jnp.maximum(inward, jnp.maximum(held["film"], held["recoil"])) + level
         return found

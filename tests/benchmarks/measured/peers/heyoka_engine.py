@@ -99,8 +99,8 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str 
             rates.append((work, active * rate))
             energy = energy + work
         events["certified"] = energy - level
-    elif proved == "tethered":
-        held, larger = structure.tethered(y, p, laws), elementary("fmax")
+    elif proved == "pendulum":
+        held, larger = structure.pendulum_margins(y, p, laws), elementary("fmax")
         inward = held["outward"] - held["pull"]
         events["certified"] = larger(inward, larger(held["film"], held["recoil"])) + level
     return System(rates, events, varying)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import ComputationError, Scene, collide
-from wetdoublet.solvers.certificates import NoProof
+from wetdoublet.solvers.certificates import NoCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
@@ -27,7 +27,7 @@ def test_chatter_rests(entries: dict[str, object], criterion: str, monkeypatch: 
     scene = Scene.load("granulation").with_entries(entries)
     n = nondimensionalise(scene, scene.speed_of(0.05), math.radians(40))
     locator = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
-    locator.proof, locator.watch = NoProof(), replace(locator.watch, certificate=None)
+    locator.proof, locator.watch = NoCertificate(), replace(locator.watch, certificate=None)
     with pytest.raises(ComputationError, match="no event within .* in phase resting contact"):
         locator.run()
     found = locator.path.kinds
@@ -45,7 +45,7 @@ def test_resting_turns_on(monkeypatch: pytest.MonkeyPatch) -> None:
 
     Wholly inelastic spheres on strings: the first contact is at rest at once. (The stick is proved long before.)
     """
-    monkeypatch.setattr(locate, "proof_for", lambda *_: NoProof())
+    monkeypatch.setattr(locate, "proof_for", lambda *_: NoCertificate())
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "350 um", "particles.dry_restitution": 0.0})
     found = collide(scene, stokes=0.05, angle="30 deg", rtol=1e-11, trajectory=True)
     assert (found.outcome, [event.kind for event in found.events]) == ("stick", ["rough", "rests", "rotation reverses"])
@@ -76,7 +76,7 @@ def test_cut_offs(
     stokes: float, angle: float, kind: str, variable: str, value: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Strings end a stick that nothing proved where omega passes through zero, or where beta is pi."""
-    monkeypatch.setattr(locate, "proof_for", lambda *_: NoProof())
+    monkeypatch.setattr(locate, "proof_for", lambda *_: NoCertificate())
     found = collide("pendulum", stokes=stokes, angle=math.radians(angle), rtol=1e-10, trajectory=True)
     assert (found.outcome, [event.kind for event in found.events][-1]) == ("stick", kind)
     assert found.until == found.events[-1].time

@@ -13,19 +13,18 @@ import pytest
 from casadi import SX
 from wetdoublet.generated import oblique_strings
 from wetdoublet.solvers import ComputationError, Scene
-from wetdoublet.solvers.certificates import NoProof
-from wetdoublet.solvers.certificates import strings as tethered
+from wetdoublet.solvers.certificates import NoCertificate, pendulum
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model, load, select_model
-from wetdoublet.solvers.verify.audit import WithoutProof
+from wetdoublet.solvers.verify.audit import WithoutCertificate
 
 pytestmark = pytest.mark.slow
 
 
 @dataclass(frozen=True)
-class Tethered:
+class Hung:
     """A random doublet on strings, ready to be located, and whether it separates when no proof ends its trajectory."""
 
     model: Model
@@ -49,7 +48,7 @@ def _variants(rng: np.random.Generator) -> dict[str, str]:
     }
 
 
-def _random_tethered(rng: np.random.Generator) -> tuple[Scene, float, float]:
+def _random_pendulum(rng: np.random.Generator) -> tuple[Scene, float, float]:
     """A scene of two spheres on strings, its Stokes number and angle."""
     a = _log_uniform(rng, 1e-3, 1e-2)
     scene = Scene.load("pendulum").with_entries(
@@ -68,7 +67,7 @@ def _random_tethered(rng: np.random.Generator) -> tuple[Scene, float, float]:
     return scene, _log_uniform(rng, 1e-2, 30), math.radians(rng.uniform(0.5, 88))
 
 
-def _rebounding_tethered(rng: np.random.Generator) -> tuple[Scene, float, float]:
+def _rebounding_pendulum(rng: np.random.Generator) -> tuple[Scene, float, float]:
     """One whose rebound decides: solids that lose little, met far out in the film, thick films, strings near the
     least length, angles down to nearly head-on, with and without elastic constants.
     """
@@ -101,24 +100,24 @@ def _rebounding_tethered(rng: np.random.Generator) -> tuple[Scene, float, float]
 
 
 @pytest.fixture(scope="module")
-def strings() -> list[Tethered]:
+def strings() -> list[Hung]:
     """Doublets on strings of both kinds, followed without a proof to a cut-off, or for 1e4 x0/v0."""
     rng = np.random.default_rng(20)
     found = []
-    for draw in [_random_tethered] * 60 + [_rebounding_tethered] * 400:
+    for draw in [_random_pendulum] * 60 + [_rebounding_pendulum] * 400:
         scene, stokes, angle = draw(rng)
         n = nondimensionalise(scene, scene.speed_of(stokes), angle)
         model = load(select_model(scene, oblique=True))
-        free = WithoutProof(model, n.groups, 1e-9, steps=20_000)
-        free.proof = NoProof()
+        free = WithoutCertificate(model, n.groups, 1e-9, steps=20_000)
+        free.proof = NoCertificate()
         with contextlib.suppress(ComputationError):  # it creeps on, unseparated
             free.on(1e4)
         assert not free.path.certified
-        found.append(Tethered(model, n.groups, free.path.separated))
+        found.append(Hung(model, n.groups, free.path.separated))
     return found
 
 
-def test_no_proved_stick_on_strings_escapes(strings: list[Tethered]) -> None:
+def test_no_proved_stick_on_strings_escapes(strings: list[Hung]) -> None:
     """Sticks on strings that are proved, followed without the proof: none separates.
 
     Half of all sticks at least are proved where scenes are drawn widely (195 of 290 in a sample of 700), some where
@@ -134,13 +133,15 @@ def test_no_proved_stick_on_strings_escapes(strings: list[Tethered]) -> None:
 
 def _broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, SX]], dict[str, SX]]) -> None:
     """Change the emitted margins of the proof on strings."""
-    honest = oblique_strings.tethered
-    monkeypatch.setattr(oblique_strings, "tethered", lambda *args: {**(right := honest(*args)), **change(right)})
-    for module, remembered in ((tethered, "_tethered"), (locate, "locator")):
+    honest = oblique_strings.pendulum_margins
+    monkeypatch.setattr(
+        oblique_strings, "pendulum_margins", lambda *args: {**(right := honest(*args)), **change(right)}
+    )
+    for module, remembered in ((pendulum, "_pendulum"), (locate, "locator")):
         monkeypatch.setattr(module, remembered, lru_cache(getattr(module, remembered).__wrapped__))
 
 
-def _escapes(strings: list[Tethered]) -> int:
+def _escapes(strings: list[Hung]) -> int:
     """How many doublets that separate are called proved sticks."""
     count = 0
     for one in strings:
@@ -160,7 +161,7 @@ def _escapes(strings: list[Tethered]) -> int:
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_the_sample_needs_every_margin(margin, change, strings: list[Tethered], monkeypatch) -> None:
+def test_the_sample_needs_every_margin(margin, change, strings: list[Hung], monkeypatch) -> None:
     """A proof on strings that leaves out one of its margins certifies doublets of this sample that separate."""
     _broken(monkeypatch, change)
     escapes = _escapes(strings)

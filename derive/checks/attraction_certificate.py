@@ -63,7 +63,7 @@ def margins_are_the_forces() -> Check:
             {gap: contact, orbital_momentum: sp.Max(orbital_momentum, momentum * share)}, simultaneous=True
         )
         hold = least + strings.subs(gap, contact) - away
-        found = {name: model.expanded(value) for name, value in model["held"].outputs}
+        found = {name: model.expanded(value) for name, value in model["attraction_margins"].outputs}
         left += [
             found["hold"] - hold,
             found["escape"] - (sp.Max(normal_velocity, -e_dry * normal_velocity) ** 2 / 2 - hold * (end - gap)),
@@ -72,7 +72,7 @@ def margins_are_the_forces() -> Check:
     return vanishing("held: margins", "inward force at its least, at J_max and at the rupture distance", left)
 
 
-def held() -> tuple[Check, ...]:
+def attraction_certificate() -> tuple[Check, ...]:
     """Every check of the proof."""
     laws = [law for slot in ("bridge", "attraction") for law in LAWS[slot].values()]
     return (*force_falls(laws), margins_are_the_forces())

@@ -10,14 +10,14 @@ from casadi import SX, Function
 from ...generated.automaton import SAFETY
 from ..host.thread_caches import own_cache
 from ..model.model import Model
-from ..model.phases import Phase, tethered_margin
+from ..model.phases import Phase, pendulum_margin
 from .base import BEYOND, Certainty
 
 
-class TetherProof:
+class PendulumCertificate:
     """Strings that turn, a film and no bridge: all but lubrication pulls inward for good."""
 
-    watches: str | None = "tethered"
+    watches: str | None = "pendulum"
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         self.model, self.p, self.rtol = model, p, rtol
@@ -26,10 +26,10 @@ class TetherProof:
         return (SAFETY + BEYOND) * self.rtol
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        return Certainty.of(float(_tethered(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0)
+        return Certainty.of(float(_pendulum(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0)
 
 
 @own_cache(64)
-def _tethered(model: Model) -> Function:
+def _pendulum(model: Model) -> Function:
     margin = SX.sym("margin")
-    return Function("tethered", [model.column, model.parameters, margin], [tethered_margin(model, margin)])
+    return Function("pendulum_margins", [model.column, model.parameters, margin], [pendulum_margin(model, margin)])

@@ -1,4 +1,4 @@
-"""Certificate on strings: each of its steps, on the emitted equations (equations/certificates/strings.py joins them).
+"""Certificate on strings: each of its steps, on the emitted equations (equations/certificates/pendulum.py joins them).
 
 That the emitted margins are these bounds where they are worst is for `margins`.
 """
@@ -9,7 +9,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations.certificates.strings import outward_at, pull_at, rigid_momentum
+from ..equations.certificates.pendulum import outward_at, pull_at, rigid_momentum
 from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE
 from ..equations.model import Model, derive
 from ..equations.rates import rates
@@ -34,14 +34,14 @@ from .base import Check, vanishing
 from .closed import emitted_rates, filled
 from .margins import margins
 
-_TETHERED = Structure(oblique=True, bridge=False, strings=True)
+_PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
 _COS = sp.Symbol("half_angle_cosine", nonnegative=True)
 _BEYOND = sp.Symbol("beyond", nonnegative=True)  # what is left of a quantity above its least value
 
 
 def _model() -> Model:
-    return derive(_TETHERED)
+    return derive(_PENDULUM)
 
 
 def _midgap(expression: sp.Expr) -> sp.Expr:
@@ -143,9 +143,9 @@ def film_stops() -> Check:
     left = [
         law["stopping"].result.diff(gap) + law["resistance"].result,
         law["stopping"].result.subs(gap, 1),
-        rates(_TETHERED)[normal_velocity].coeff(FILM_FORCE) + 1,
-        rates(_TETHERED)[normal_velocity].coeff(CENTRIFUGAL_FORCE) - 1,
-        rates(_TETHERED)[normal_velocity].diff(BRIDGE_FORCE),
+        rates(_PENDULUM)[normal_velocity].coeff(FILM_FORCE) + 1,
+        rates(_PENDULUM)[normal_velocity].coeff(CENTRIFUGAL_FORCE) - 1,
+        rates(_PENDULUM)[normal_velocity].diff(BRIDGE_FORCE),
         dict(_model().definitions)[FILM_FORCE].diff(normal_velocity) * stokes / sp.Symbol("film", nonnegative=True)
         - sp.Function("film.resistance", real=True)(gap),
     ]
@@ -175,7 +175,7 @@ def criterion_reach() -> tuple[Check, ...]:
 
 
 @cache
-def tethered() -> tuple[Check, ...]:
+def pendulum_certificate() -> tuple[Check, ...]:
     """Every step of the stick proof on strings."""
     return (
         momentum_falls(),

@@ -11,7 +11,7 @@ trajectory as a stick):
 4. Closing, it gains no more than u^2 + 2 max(S_n/m) x0; a reversal happens at most where the glass criterion is met at
    that speed, or in contact; if the film stops the rebound from there (`recoil` < 0), it stops every later one.
 
-`checks.tethered` proves the steps on the emitted equations.
+`checks.pendulum_certificate` proves the steps on the emitted equations.
 """
 
 from __future__ import annotations
