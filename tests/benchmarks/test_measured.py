@@ -64,6 +64,7 @@ def test_impacts_are_the_same_in_every_run() -> None:
         assert all(0 <= each.angle <= np.radians(task.degrees) for each in impacts)
 
 
+@pytest.mark.slow
 def test_record_is_complete(record: dict[str, Any]) -> None:
     """Every engine that is there, at every tolerance, on the collisions that count, without a wrong outcome."""
     assert {"environment", "settings", "engines", "tasks", "cold_start", "wall", *MORE} == set(record)
@@ -84,6 +85,7 @@ def test_record_is_complete(record: dict[str, Any]) -> None:
     assert {tuple(cost["on"]) for cost in task["costs"]} == {(), ("ledger",), ("trajectory",), ("ledger", "trajectory")}
 
 
+@pytest.mark.slow
 def test_files_are_written(record: dict[str, Any], tmp_path: Path) -> None:
     """JSON that reads back as the record, a row a line, and two pictures."""
     data, *pictures = write(record, tmp_path / "new" / "folder")
@@ -103,6 +105,7 @@ def test_the_page_is_that_of_its_records() -> None:
     assert document.fronted(front, records[0]) == front
 
 
+@pytest.mark.slow
 def test_what_is_missing_is_named_on_the_page(record: dict[str, Any]) -> None:
     """A peer that is not installed is in the list of what the benchmark was run with."""
     assert "gone is not installed" in surroundings(record)
@@ -162,6 +165,7 @@ def test_central_differences_agree_with_a_chord() -> None:
     assert slope == pytest.approx((ends[1] - ends[0]) / 0.02, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_bisection_finds_the_traced_boundaries() -> None:
     """Halving on the outcome, and the roots of smooth functions, agree on every change at an angle."""
     from wetdoublet.solvers import boundary

@@ -141,6 +141,7 @@ def test_targets_are_judged_at_equal_error() -> None:
     assert "heyoka in batches" in targets.headline(record)
 
 
+@pytest.mark.slow
 def test_cost_is_measured_for_every_method() -> None:
     """Both engines, every method, errors against a more accurate gradient; no time is asserted."""
     found = gradients("granulation", 1, [(0.14, 40.0)])

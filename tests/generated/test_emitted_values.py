@@ -5,9 +5,10 @@ from __future__ import annotations
 import importlib
 import math
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from types import ModuleType
+from typing import Any
 
 import casadi
 import mpmath
@@ -203,8 +204,16 @@ def _filled(structure: Structure, choice: int) -> tuple[Model, dict[str, list[sp
     return model, columns
 
 
+QUICK = ("head_on_bridge", "oblique_reduced")
+
+
+def _marked(those: Iterable[Structure]) -> list[Any]:
+    """The structures, all but two of them slow: each is derived."""
+    return [pytest.param(each, marks=() if each.name in QUICK else pytest.mark.slow) for each in those]
+
+
 @pytest.mark.parametrize("choice", range(len(CHOICES)))
-@pytest.mark.parametrize("structure", STRUCTURES, ids=lambda structure: structure.name)
+@pytest.mark.parametrize("structure", _marked(STRUCTURES), ids=lambda structure: structure.name)
 def test_structure(structure: Structure, choice: int):
     """Every function of a structure, its Jacobian and event rates too, is its expression; in all regions."""
     model, columns = _filled(structure, choice)
@@ -226,7 +235,7 @@ def test_structure(structure: Structure, choice: int):
                 )
 
 
-@pytest.mark.parametrize("structure", committed(), ids=lambda structure: structure.name)
+@pytest.mark.parametrize("structure", _marked(committed()), ids=lambda structure: structure.name)
 def test_module_lists_what_the_model_has(structure: Structure):
     """STATES, GROUPS, SLOTS, FUNCTIONS and REGIONAL are the model's, and each function returns its outputs by name."""
     model, module = derive(structure), emitted(structure.name)

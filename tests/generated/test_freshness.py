@@ -32,11 +32,13 @@ def copy(tmp_path: Path) -> Path:
     return Path(shutil.copytree(GENERATED, tmp_path / "generated", ignore=shutil.ignore_patterns("__pycache__")))
 
 
+@pytest.mark.slow
 def test_committed_folder_is_fresh():
     """Nothing in generated/ differs from what would be emitted; if it does, run `wetdoublet generate`."""
     assert check() == []
 
 
+@pytest.mark.slow
 def test_an_edit_is_shown(copy: Path):
     """An edited file is named, with a diff of the lines that differ and of no other file."""
     path = copy / "laws" / "arm_surface.py"
@@ -48,6 +50,7 @@ def test_an_edit_is_shown(copy: Path):
     assert sum(line.startswith(("differs", "missing", "extra")) for line in lines) == 1
 
 
+@pytest.mark.slow
 def test_a_changed_line_ending_is_a_difference(copy: Path):
     """The comparison is of bytes: a file with other line endings is named."""
     path = copy / "oblique.py"
@@ -55,12 +58,14 @@ def test_a_changed_line_ending_is_a_difference(copy: Path):
     assert "differs: oblique.py" in check(copy)
 
 
+@pytest.mark.slow
 def test_a_missing_file_is_named(copy: Path):
     """A file that would be emitted and is not there is named."""
     (copy / "head_on.py").unlink()
     assert check(copy) == ["missing: head_on.py"]
 
 
+@pytest.mark.slow
 def test_an_extra_file_is_named(copy: Path):
     """A file that nothing emits, in any subfolder, is named; Python's caches are not."""
     (copy / "laws" / "bridge_wishful.py").write_text("")
@@ -69,6 +74,7 @@ def test_an_extra_file_is_named(copy: Path):
     assert check(copy) == ["extra: laws/bridge_wishful.py"]
 
 
+@pytest.mark.slow
 def test_generate_repairs_and_makes_the_folder(tmp_path: Path):
     """What generate writes into a new folder, check finds nothing wrong with."""
     written = write_all_in(tmp_path / "new", emitted())
@@ -234,6 +240,7 @@ def test_every_used_name_is_imported_and_every_import_used():
         assert called <= imported | local | {"setattr", "AttributeError", "getattr"}, name
 
 
+@pytest.mark.slow
 def test_a_broken_automaton_is_named(copy: Path):
     """The tables are compared as text: what cannot be imported, and a missing header, are told like any other file."""
     (copy / "automaton.py").write_text("OUTCOMES = (\n")

@@ -43,6 +43,8 @@ from wetdoublet.derive.physics.scaling import group_definitions
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q
 
+pytestmark = pytest.mark.slow
+
 OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 Mutate = Callable[[Any, Any], None]
 Healthy = dict[str, Check]

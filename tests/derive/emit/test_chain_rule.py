@@ -40,6 +40,7 @@ def _value(expression: sp.Expr, at: dict[sp.Symbol, float]) -> float:
     return float(sp.lambdify(list(at), expression, "math")(*at.values()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["oblique_bridge_strings"])
 def test_rates_of_a_structure(name: str) -> None:
     """Each rate by each state and group, laws' slopes put in, is the slope of the rate written out."""

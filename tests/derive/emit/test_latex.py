@@ -23,6 +23,7 @@ def lines():
     return theory()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("choice", CHOICES, ids=lambda choice: "-".join(*choice.items()))
 def test_every_law_can_be_drawn(choice):
     """Whatever law fills a slot, every line of the theory parses as mathtext, which is a subset of LaTeX."""

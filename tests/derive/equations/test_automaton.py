@@ -90,6 +90,7 @@ print([name for name in sys.modules if name.startswith("wetdoublet.generated")],
 """
 
 
+@pytest.mark.slow
 def test_generate_reads_nothing_emitted():
     """So it emits, and checks, where the emitted automaton is broken or missing."""
     done = subprocess.run([sys.executable, "-c", _COMMAND], capture_output=True, text=True, timeout=300, check=False)

@@ -31,6 +31,7 @@ def test_midgap_conserves_angular_momentum_and_nothing_else(models, name: str, o
     assert found.is_angular_momentum
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("others", [{}, FILLED], ids=["any laws", "laws filled in"])
 @pytest.mark.parametrize("name", ["oblique", "oblique_bridge"])
 def test_surface_arm_conserves_nothing(models, name: str, others):
@@ -41,6 +42,7 @@ def test_surface_arm_conserves_nothing(models, name: str, others):
         conserved_momentum(models[name], SURFACE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["oblique_strings", "oblique_bridge_strings", "head_on", "head_on_bridge_strings"])
 def test_strings_and_head_on_conserve_nothing(models, name: str):
     """Strings exert a torque, and head-on there is one momentum, which the film takes."""
@@ -119,6 +121,7 @@ def test_the_ceiling_is_the_least_energy_found_by_search():
     assert float(ceiling().subs(named)) == pytest.approx((start - turning.min()) * 2 / (m * v0**2), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_certificates_are_admitted_where_their_premises_hold():
     """Bridge and midgap arm: admitted. Surface arm, film alone, strings: not, for the reason that is each one's own."""
     bridge = Structure(oblique=True, bridge=True, strings=False)

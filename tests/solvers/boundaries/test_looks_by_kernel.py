@@ -37,6 +37,7 @@ def test_the_approach(name: str):
         assert kernel.criterion(stokes) == pytest.approx(other.criterion(stokes), rel=0, abs=100 * RTOL)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reversed_", [False, True])
 @pytest.mark.parametrize("name", PRESETS)
 def test_the_escape(name: str, reversed_: bool):
@@ -91,6 +92,7 @@ def test_margins(name: str):
     assert seen["criterion"] == pytest.approx([line.criterion(one) for one in stokes], abs=0.01)
 
 
+@pytest.mark.slow
 def test_contact_time_diverges_at_the_separatrix():
     """Towards the saddle the contact time grows with the logarithm of the distance, as a margin has to show."""
     scene, angle = Scene.load("granulation"), math.radians(LINES["granulation"][0])

@@ -18,8 +18,6 @@ from wetdoublet.solvers.settings import STEPS
 
 from ...helpers.independent import Spheres
 
-pytestmark = pytest.mark.slow
-
 LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 
 
@@ -66,6 +64,7 @@ def test_a_bridge_that_pushes_proves_nothing() -> None:
     assert not proof.decided(one.y, one.phase)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Random scenes: certified sticks, continued for 1e4 x0/v0 a phase without a proof, never separate."""

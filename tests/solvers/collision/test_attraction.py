@@ -82,6 +82,7 @@ def test_the_generalised_number():
     assert collide("granulation", angle=0.0, ledger=False).generalised_centrifugal == 0.0
 
 
+@pytest.mark.slow
 def test_van_der_waals_alone_can_hold():
     """With a film and van der Waals only, an oblique doublet sticks or escapes, on either side of a traced boundary."""
     scene = scene_of(False, **{"attraction.hamaker": 2e-10, "particles.roughness": "0.5 um"})

@@ -37,6 +37,7 @@ def test_critical_centrifugal_number(law, critical):
     assert outcomes == ["stick", "stick-rotate-separate"]
 
 
+@pytest.mark.slow
 def test_traced_critical_number():
     """The traced boundary of the paper's law is there as well, to the digits that are listed."""
     scene = Scene.load("granulation").with_entries({"model.arm": "surface"})

@@ -291,6 +291,7 @@ def test_closed_streams():
         assert (done.returncode, done.stderr) == (status, "")
 
 
+@pytest.mark.slow
 def test_a_home_that_cannot_be_written(tmp_path):
     """Matplotlib then works from a temporary folder, and standard error stays clean."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}

@@ -92,6 +92,7 @@ def test_a_criterion_that_holds_at_initial_contact_parts_the_films(angle):
     assert events(told, 0) == path.kinds == ["glass", "rupture"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tables", [{}, {"attraction": {"hamaker": "1e-19 J"}}], ids=["film", "attraction"])
 def test_both_engines_prove_the_same_sticks_by_the_film(tables):
     """Head-on at initial contact, up to the largest speed that the film stops and beyond."""
@@ -121,6 +122,7 @@ CIRCLES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_more_than_a_hundred_phases_are_chatter_in_both_engines():
     """A doublet that circles in and out of its film, whose steps the kernel has spent in 100 to 400 phases, is a stick
     by the momentum of its orbit, as EventLocator finds.

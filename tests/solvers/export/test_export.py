@@ -83,6 +83,7 @@ def test_foreign_code_is_not_read():
         functions("def f(x):\n    return os.system(x)\n")
 
 
+@pytest.mark.slow
 def test_the_command_shows_terms_and_what_they_do():
     """Soulie instead of Mikami: two coefficients of B, one of C, the own rupture; Ce* falls."""
     done = run("diff", "granulation", "granulation", "--set", "bridge.law=soulie")
@@ -126,6 +127,7 @@ def test_bad_input_is_named(arguments: tuple[str, ...], said: str):
     assert said in done.output
 
 
+@pytest.mark.slow
 def test_equations_are_exported(tmp_path: Path):
     """Every formula of the Markdown parses as mathtext; strings appear where the scene has them and only there."""
     for scene in ("granulation", "pendulum"):

@@ -99,6 +99,7 @@ def test_a_damaged_entry_is_made_again(damage: Callable[[Path], None], shelf: Pa
     assert capfd.readouterr().err == f"{path} was damaged: it is made again\n"
 
 
+@pytest.mark.slow
 @compiling
 def test_a_damaged_kernel_is_compiled_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]

@@ -49,6 +49,7 @@ def test_stale_models_are_refused(mine: Path, tmp_path: Path):
         Scene.load("granulation", model=folder)
 
 
+@pytest.mark.slow
 def test_generate_check_and_clean_up(mine: Path, tmp_path: Path):
     """--check names what differs; emitting again mends it, removes what is no longer emitted, and leaves the rest."""
     folder = copied(mine, tmp_path)
@@ -81,6 +82,7 @@ print(repr(one.restitution), "sympy" in sys.modules)
 """
 
 
+@pytest.mark.slow
 def test_a_model_file_is_derived_once(mine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """A model file in place of a folder is derived on first use; another process then computes without sympy."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))

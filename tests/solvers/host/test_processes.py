@@ -69,6 +69,7 @@ def temporary(tmp_path):
     return folder
 
 
+@pytest.mark.slow
 def test_a_map_that_is_ended(tmp_path, temporary):
     """Ctrl-C, a kill and SIGTERM: all workers end too, nothing is left, and what was finished is computed only once."""
     file, partial = tmp_path / "map.nc", tmp_path / "map.nc.partial"

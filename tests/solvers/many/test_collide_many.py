@@ -171,6 +171,7 @@ def test_parallel_equals_serial(monkeypatch):
     assert not killed
 
 
+@pytest.mark.slow
 def test_without_a_compiler(monkeypatch, capfd):
     """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
@@ -198,6 +199,7 @@ def test_without_a_compiler(monkeypatch, capfd):
         np.testing.assert_allclose(fast[name], slow[name], rtol=1e-9, atol=1e-15)
 
 
+@pytest.mark.slow
 def test_a_script_without_a_guard_runs_once(tmp_path):
     """Workers do not run the caller's script again, so it needs no `if __name__ == "__main__"`."""
     script = tmp_path / "script.py"

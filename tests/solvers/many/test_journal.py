@@ -71,6 +71,7 @@ def test_a_journal_of_another_request_stays(tmp_path):
     assert file.exists()
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_is_continued(tmp_path):
     """What is finished is kept when a run is interrupted; the next computes what is missing and no more."""
     path = tmp_path / "a.partial"

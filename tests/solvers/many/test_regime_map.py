@@ -58,6 +58,7 @@ def test_the_grid(data):
     assert np.isnan(data.contact_time.values[sticks.values]).all()
 
 
+@pytest.mark.slow
 def test_the_grid_by_the_kernel(data):
     """The kernel's answers lie in the cells of their coordinates, in whatever order it was asked for them."""
     fast = regime_map("granulation", stokes=STOKES, angle=ANGLE, vary={"liquid.viscosity": [1.0, 2.0]}, engine="taylor")
@@ -202,6 +203,7 @@ def test_progress():
     assert run("map", "granulation", *SMALL).stderr == ""
 
 
+@pytest.mark.slow
 def test_progress_bar_on_a_terminal(tmp_path):
     """On a terminal a bar is drawn on standard error, and standard output stays clean."""
     pty = pytest.importorskip("pty")
@@ -222,6 +224,7 @@ def test_progress_bar_on_a_terminal(tmp_path):
     assert b"collisions" in shown
 
 
+@pytest.mark.slow
 def test_pictures(data, unlucky, tmp_path):
     """Every kind of map is drawn with nothing clipped: two panels, small multiples, one row, one cell, failures."""
     scene = Scene.load("pendulum").with_entries({"name": "cost $5 " * 20, "model.glass": "film-corrected"})

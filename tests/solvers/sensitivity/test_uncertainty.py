@@ -25,8 +25,6 @@ from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 
 from ...helpers.sensitive import CASES, GRANULATION, varied
 
-pytestmark = pytest.mark.slow
-
 GLASS = CASES[0].scene
 WRT = ("liquid.viscosity", "impact.angle", "bridge.volume")
 
@@ -115,6 +113,7 @@ def test_samples_at_the_edge_of_what_may_be() -> None:
         assert uncertainty._possible(FIELDS[name], 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
 
 
+@pytest.mark.slow
 def test_band_against_samples(tmp_path: Path) -> None:
     """Small uncertainties away from boundaries: the samples' deviation is the first-order one; a stick has none."""
     found = band(
@@ -182,6 +181,7 @@ def test_the_scene_given_stays_as_it_is() -> None:
     assert found.value["restitution"] == pytest.approx(one.restitution, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
 def test_the_kernel_answers_where_the_other_engine_misses(monkeypatch):
     """Glass met within rounding of initial contact: e_n = e_dry, its derivative 1, whatever the cache holds."""

@@ -28,8 +28,6 @@ from wetdoublet.solvers.verify.plot import draw_budget
 
 from ...helpers.command import run
 
-pytestmark = pytest.mark.slow
-
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
     "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
@@ -44,6 +42,7 @@ SMALL = sample.Extent(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
 def test_every_law_holds_on_the_presets(name: str) -> None:
     """Every law has a finding on every preset that has its subject, and none fails."""
@@ -56,6 +55,7 @@ def test_every_law_holds_on_the_presets(name: str) -> None:
     assert len(held) >= len(expected) - 3 - strings
 
 
+@pytest.mark.slow
 def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
     """Surface arm: the drift of L is reported, not held; it equals the integral of -x F_t to integration error."""
     scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
@@ -69,6 +69,7 @@ def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
     assert not [law for law, finding in found.items() if finding.ok is False]
 
 
+@pytest.mark.slow
 def test_the_budget_adds_up() -> None:
     """Granulation, 75 deg, St 0.02: e_n about 1.4, and e_n^2 - 1 is what is released less all losses."""
     budget = restitution_budget("granulation", stokes=[0.002, 0.02], angle=[math.radians(75)])
@@ -83,6 +84,7 @@ def test_the_budget_adds_up() -> None:
     assert 1 < float(at["restitution"]) ** 2 < float(at["ceiling"])
 
 
+@pytest.mark.slow
 def test_intervals_end_where_the_restitution_is_one() -> None:
     """e_n passes 1, or jumps over it where the outcome changes, within 1e-4 of an end, by another engine."""
     scene, angles = Scene.load("granulation"), np.radians([10.0, 65.0, 75.0]).tolist()
@@ -97,6 +99,7 @@ def test_intervals_end_where_the_restitution_is_one() -> None:
         assert (above - below > 0.1) == (one is jumps)
 
 
+@pytest.mark.slow
 def test_the_picture_shows_the_terms(tmp_path) -> None:
     """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number."""
     angles = np.radians([45, 60, 75]).tolist()
@@ -197,6 +200,7 @@ def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
     assert result.stderr == f"interrupted after 3 checks, the last of them {last}; what follows is not checked\n"
 
 
+@pytest.mark.slow
 def test_the_command_draws(monkeypatch, tmp_path) -> None:
     """`--plot` draws the budget of the report; the report goes to standard output all the same."""
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
@@ -227,6 +231,7 @@ def off_by(error: Callable[[float], float]) -> sample.Collide:
     return run
 
 
+@pytest.mark.slow
 def test_a_trajectory_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
     """Errors at rounding for every rtol have no slope; the check holds and says why."""
     one = collide("granulation", stokes=0.12, angle=1.0)
@@ -235,6 +240,7 @@ def test_a_trajectory_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
     assert (found.ok, found.figure) == (True, "all errors at rounding")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("part", "ok"), [(0.01, True), (0.2, False)])
 def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> None:
     """Errors that fall as rtol^0.5 have too small a slope; that fails unless all are below a twentieth of rtol."""
@@ -247,6 +253,7 @@ def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> 
     assert "slope 0.5" in found.figure
 
 
+@pytest.mark.slow
 def test_what_finds_nothing_to_look_at_says_so() -> None:
     """A film so thin that glass is met at initial contact: every law that needs a trajectory is a note that says so."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})

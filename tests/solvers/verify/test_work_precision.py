@@ -24,6 +24,7 @@ def measured() -> WorkPrecision:
     return work_precision(PENDULUM, RTOLS, single=4, batch=20)
 
 
+@pytest.mark.slow
 def test_errors_are_those_of_collisions_asked_for_one_by_one(measured: WorkPrecision) -> None:
     """Largest differences in e_n and contact time of Rosenbrock to CVODES at 1e-12, a reference that bench has not."""
     assert measured.separate > 1
@@ -42,6 +43,7 @@ def test_errors_are_those_of_collisions_asked_for_one_by_one(measured: WorkPreci
         assert row.time_error == pytest.approx(max(times), rel=0.1)
 
 
+@pytest.mark.slow
 def test_every_engine_is_measured_at_every_tolerance(measured: WorkPrecision) -> None:
     """All outcomes right; errors fall with the tolerance, and stay above the references' own."""
     assert [(row.engine, row.rtol) for row in measured.rows] == [(e, rtol) for e in measured.engines for rtol in RTOLS]
@@ -54,6 +56,7 @@ def test_every_engine_is_measured_at_every_tolerance(measured: WorkPrecision) ->
         assert tight.single > 0
 
 
+@pytest.mark.slow
 def test_text_and_json_say_the_same(measured: WorkPrecision, tmp_path: Path) -> None:
     """A line of the table a row, the recommendation of both, and a picture."""
     said, record = text(measured, 1e-6), json.loads(json.dumps(to_dict(measured, 1e-6), allow_nan=False))
@@ -73,6 +76,7 @@ def _row(engine: str, rtol: float, error: float | None, cost: float, **more: int
     return Row(engine, rtol, error, error, cost, cost / 10 if rtol > 1e-6 else None, **counts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wanted", "one", "batch"),
     [
@@ -95,6 +99,7 @@ def test_the_cheapest_setting_that_keeps_the_error_is_recommended(
     assert all(each.reason for each in found)
 
 
+@pytest.mark.slow
 def test_a_scene_without_an_impact_has_the_default_sample() -> None:
     """It is said, and within its ranges; impacts that differ from those of the scene's own."""
     bare = Scene.from_dict({key: table for key, table in PENDULUM.to_dict().items() if key != "impact"})
@@ -104,6 +109,7 @@ def test_a_scene_without_an_impact_has_the_default_sample() -> None:
     assert all(ANGLES[0] <= each.angle <= ANGLES[1] for each in found.impacts)
 
 
+@pytest.mark.slow
 def test_sticks_have_no_error(tmp_path: Path) -> None:
     """Where all collisions stick only outcomes count; all three files are in the folder of --out."""
     done = run("bench", "granulation", "--stokes", "1e-5", "--angle", "30 deg", "--json", "--out", str(tmp_path / "b"))

@@ -40,6 +40,7 @@ def test_a_decaying_mode_dies(order: int):
     assert reach > 12
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
 def test_a_creeping_trajectory_takes_long_steps():
     """Past the saddle at 42.6 deg the tangential mode decays at a rate that is known in closed form: mean z beyond 6.

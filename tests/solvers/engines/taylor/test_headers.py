@@ -57,6 +57,7 @@ def test_includes_stand_outside_conditions(name: str):
     assert own == [*range(len(own))]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_each_header_compiles_alone(variant: str, tmp_path: Path):

@@ -17,7 +17,7 @@ from wetdoublet.solvers.model.model import select_model
 
 from ....helpers.data import COLLISIONS as REFERENCE
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 RTOL = 1e-9
 # Every variant is compiled once for all tests here.
 IMPACTS: dict[str, tuple[str, dict[str, Any]]] = {
