@@ -224,7 +224,8 @@ def _exponent(value: float, digits: int) -> str:
 
 def _model(scene: Scene) -> list[str]:
     """Which variants of the equations were used, wrapped where they do not fit."""
-    used = {"arm": scene.model.arm, "tangential": scene.model.tangential, "glass": scene.model.glass}
+    used = {"arm": scene.model.arm, "tangential": scene.model.tangential}
+    used |= {"glass": scene.model.glass} if scene.liquid.glass_transition_pressure is not None else {}
     used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
     if scene.bridge is not None:
         used["bridge"] = scene.bridge.law

@@ -12,7 +12,7 @@ from ...generated.automaton import LAST_ANSWER
 from ..engines.taylor.call import Impacts, run_kernel
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
-from ..scene.quantities import quantities
+from ..scene.quantities import NO_GLASS, quantities
 from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Batch
@@ -101,8 +101,10 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
         rupture = gap * film
     if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    if scene.attraction is not None and scene.particles.youngs_modulus is None:
-        sound &= values["roughness"] > 0  # it keeps the gap open
+    if scene.particles.youngs_modulus is None:  # something has to keep the gap open
+        sound &= (values["roughness"] > 0) | (scene.attraction is None) & (
+            values["glass_transition_pressure"] < NO_GLASS
+        )
     for ratio in ("radius_ratio", "mass_ratio"):
         if scene.partner is not None and ratio in values:
             sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))

@@ -59,7 +59,8 @@ def draw_map(data: xarray.Dataset) -> Figure:
 def _variant(scene: Scene) -> str:
     """Which of the selectable equations, in small print."""
     model = scene.model
-    parts = [f"{model.arm} arm", f"{model.tangential} tangential force", f"{model.glass} glass criterion"]
+    parts = [f"{model.arm} arm", f"{model.tangential} tangential force"]
+    parts += [f"{model.glass} glass criterion"] if scene.liquid.glass_transition_pressure is not None else []
     parts.append("no capillary force" if scene.bridge is None else f"capillary force by {scene.bridge.law}")
     if scene.pendulum is not None:
         parts.append(f"strings of {quantity(scene.pendulum.length, 'm')}, {scene.pendulum.law}")

@@ -202,6 +202,10 @@ def _check_laws(scene: System) -> None:
         accepted = "a roughness above 0, or particles.youngs_modulus and poisson_ratio"
         problem = "lets the gap close, where the van der Waals attraction is without bounds"
         raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+    if scene.liquid.glass_transition_pressure is None and no_contact:
+        accepted = "a roughness above 0, elastic constants, or liquid.glass_transition_pressure"
+        problem = "lets the gap close without end: no criterion reverses the spheres"
+        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
 
 
 OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lambert", "constant"))

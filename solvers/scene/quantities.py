@@ -14,6 +14,7 @@ from ...generated import scaling
 from .schema import FIELDS
 
 _OWN = "custom."
+NO_GLASS = 1e60  # Pa: of a liquid that never turns solid; no film has such a pressure
 
 
 def quantities(entries: Mapping[str, Any], wall: bool = False) -> dict[str, Any]:
@@ -29,6 +30,7 @@ def quantities(entries: Mapping[str, Any], wall: bool = False) -> dict[str, Any]
         if name in FIELDS and FIELDS[name].quantity
     }
     found |= {name.removeprefix(_OWN): value for name, value in entries.items() if name.startswith(_OWN)}
+    found.setdefault("glass_transition_pressure", NO_GLASS)
     found |= sphere(entries)
     radius_ratio, mass_ratio = _ratios(found, entries, wall)
     if not wall:

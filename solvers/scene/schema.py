@@ -163,7 +163,7 @@ FIELDS: dict[str, Field] = _table(
     Field("particles.poisson_ratio", "a number", "0.2", POISSON),
     Field("liquid.viscosity", "a viscosity", '"2 Pa s"', unit="Pa s", required=True),
     Field("liquid.film_thickness", "a film thickness", '"8 um"', unit="m", required=True),
-    Field("liquid.glass_transition_pressure", "a pressure", '"20 MPa"', unit="Pa", required=True),
+    Field("liquid.glass_transition_pressure", "a pressure", '"20 MPa"', unit="Pa"),
     Field("liquid.density", "a density", '"1000 kg/m^3"', unit="kg/m^3"),
     Field("bridge.surface_tension", "a surface tension", '"0.025 N/m"', unit="N/m", required=True),
     Field("bridge.volume", "a number V/R^3", "0.1", required=True),

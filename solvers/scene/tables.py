@@ -50,12 +50,12 @@ class Particles(Table):
 
 @dataclass(frozen=True)
 class Liquid(Table):
-    """The film: mu (Pa s), x0 (m), p_gt (Pa), density (kg/m^3; only for the Reynolds number)."""
+    """The film: mu (Pa s), x0 (m), p_gt (Pa; None: no glass criterion), density (kg/m^3; only for the Reynolds number)."""
 
     name: ClassVar[str] = "liquid"
     viscosity: float
     film_thickness: float
-    glass_transition_pressure: float
+    glass_transition_pressure: float | None = None
     density: float | None = None
 
 
