@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ CUT_OFFS = {
     KINDS[EventKind.ROTATION_REVERSES]: "the strings turn the rotation back",
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+_POWER = re.compile(r"[A-Za-z]+\^")
 _MANY = 40  # events: more are rebound after rebound
 _LABEL = 24  # columns of the names on the left
 _FIRST, _LAST = 9, 3  # events shown of a trajectory that has more
@@ -38,7 +40,7 @@ def quantity(value: float | None, unit: str) -> str:
     """Return a number with four digits and its prefixed unit; a dash for None."""
     if value is None:
         return "-"
-    factor, name = prefix(value)
+    factor, name = (1.0, "") if _POWER.match(unit) else prefix(value)  # a prefix would be raised with its unit
     return f"{value / factor:.4g} {name}{unit}"
 
 

@@ -20,6 +20,7 @@ def command(
     name: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
@@ -27,7 +28,7 @@ def command(
 ) -> None:
     """List the presets, or print the scene NAME as TOML, ready to be saved and edited."""
     file = options.check_file(output, "-o")
-    asked = options.Asked.check(name, changes, stokes, speed, angle, model=model)
+    asked = options.Asked.check(name, changes, stokes, speed, angle, relative_speed, model)
     scene = asked.optional_scene()
     options.put(_listing() if scene is None else scene.to_toml().rstrip("\n"), file)
 

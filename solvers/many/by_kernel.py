@@ -80,11 +80,8 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
 def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Quantities of every collision where entries vary, and which the rules for entries together leave beyond doubt."""
     scene = request.scene
-    entries: dict[str, Any] = {name: value for name, value in scene.si if not isinstance(value, str)}
-    if scene.pendulum is not None:
-        entries["pendulum.gravity"] = scene.pendulum.gravity
-    entries = {name: value for name, value in entries.items() if not name.startswith("impact.")}
-    found = quantities(entries | dict(request.vary), scene.wall)
+    entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
+    found = quantities(entries | dict(request.vary), scene.ways)
     values = {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
     return values, _sound(scene, values)
 

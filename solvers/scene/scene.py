@@ -13,8 +13,8 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
-from .quantities import shared
-from .schema import FIELDS, TABLES, Field, Raw
+from .quantities import SHADOW, Ways, coating_fraction, normal_speed, shared
+from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
 from .user_model_source import open_package
@@ -55,6 +55,7 @@ class Scene:
     model: Model = field(init=False, compare=False)
     impact: Impact = field(init=False, compare=False)
     si: tuple[tuple[str, float | str], ...] = field(init=False, repr=False)
+    ways: Ways = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Read the tables and hold them against the rules."""
@@ -66,16 +67,21 @@ class Scene:
         if self.package is not None:
             given = self.package.completed(given)
         rules.check_entries(given, self.package)
-        values = {name: self.fields[name].read(raw) for name, raw in given.items()}
+        known = fields(self.package)
+        values = {name: known[name].read(raw) for name, raw in given.items()}
         rules.check_complete(given)
+        given = {name: self._kept(known[name], raw) for name, raw in given.items()}
+        rules.check_ways(given, values)
+        ways = Ways.of(given)
         kept = {
-            "given": tuple((name, self._kept(name, raw)) for name, raw in given.items()),
+            "given": tuple(given.items()),
+            "ways": ways,
             "comments": tuple((name, text) for name, text in self.comments if name in given),
             "si": tuple(values.items()),
             "particles": Particles(**rules.spheres(values)),
             "partner": rules.partner(values),
             **{
-                table.name: rules.table(table, values)
+                table.name: rules.table(table, values, ways)
                 for table in (Liquid, Bridge, Attraction, Pendulum, Model, Impact)
             },
         }
@@ -152,19 +158,21 @@ class Scene:
 
     @property
     def fields(self) -> Mapping[str, Field]:
-        """What this scene may say: dotted name -> entry."""
-        return fields(self.package)
+        """What this scene may say: dotted name -> entry, with the unit in which `si` has it."""
+        known = fields(self.package)
+        if self.ways.volume != "absolute":
+            return known
+        return {**known, "bridge.volume": known["bridge.volume"].measured}
 
     @property
     def custom(self) -> Mapping[str, Raw]:
         """What a user's model declares: name -> value with its unit, as it was given or by default."""
         return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
 
-    def _kept(self, name: str, raw: object) -> Raw:
+    def _kept(self, entry: Field, raw: object) -> Raw:
         """A value in the form a scene keeps it; of a model's own quantity with its unit."""
-        entry = self.fields[name]
         kept = entry.kept(raw)
-        own = name not in FIELDS and entry.unit and not isinstance(kept, str)
+        own = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
         return f"{kept!r} {entry.unit}" if own else kept
 
     @property
@@ -176,7 +184,22 @@ class Scene:
     def assumed(self) -> tuple[str, ...]:
         """What in this scene is a guess, one line each."""
         given = dict(self.given)
-        return tuple(f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.comments)
+        said = [f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.comments]
+        return (*said, *self._flowing())
+
+    def _flowing(self) -> tuple[str, ...]:
+        """How much of the coatings is assumed to flow into the bridge."""
+        if self.bridge is None or self.ways.volume != "coating":
+            return ()
+        given, ratio = self.entries.get("bridge.coating_fraction"), self.radius_ratio
+        if given is not None:
+            told = f"{given:.3g} of each coating"
+        elif ratio is None or ratio == 1:
+            told = f"{coating_fraction(ratio):.3g} of {'each' if ratio else 'the'} coating, {SHADOW}"
+        else:
+            parts = f"{coating_fraction(ratio):.3g} and {coating_fraction(1 / ratio):.3g}"
+            told = f"{parts} of the coatings, {SHADOW}"
+        return (f"bridge.volume = {self.bridge.volume:.4g} (assumed: {told})",)
 
     # ---- the same scene, but
 
@@ -204,19 +227,38 @@ class Scene:
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
         return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments, self.package)
 
-    def with_impact(
-        self, stokes: float | str | None = None, speed: float | str | None = None, angle: float | str | None = None
-    ) -> Self:
-        """Return the scene with another impact; `stokes` or `speed` replaces whichever it had.
+    def with_si(self, changes: Mapping[str, float]) -> Self:
+        """Return the scene with numbers replaced or added as `si` has them: a volume in m^3 where it is given so."""
+        return self.with_entries({name: self.as_given(name, float(value)) for name, value in changes.items()})
 
-        Plain numbers are SI and radians. InputError if both are given.
+    def as_given(self, name: str, value: Any) -> Any:
+        """A number or array as `si` has the entry, in a form that says what it is."""
+        if name != "bridge.volume" or self.ways.volume != "absolute":
+            return value
+        return f"{value!r} m^3" if isinstance(value, float) else [f"{float(each)!r} m^3" for each in value]
+
+    def with_impact(
+        self,
+        stokes: float | str | None = None,
+        speed: float | str | None = None,
+        angle: float | str | None = None,
+        relative_speed: float | str | None = None,
+    ) -> Self:
+        """Return the scene with another impact; `stokes`, `speed` or `relative_speed` replaces whichever it had.
+
+        Plain numbers are SI and radians. InputError if two of the three are given.
         """
-        impact = {"impact.stokes": stokes, "impact.speed": speed, "impact.angle": angle}
+        impact = {
+            "impact.stokes": stokes,
+            "impact.speed": speed,
+            "impact.relative_speed": relative_speed,
+            "impact.angle": angle,
+        }
         changes = {name: value for name, value in impact.items() if value is not None}
         if not changes:
             return self
         rules.check_entries(changes, self.package)
-        replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
+        replaced = {*SPEEDS} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
         entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
         return type(self)(self.name, tuple(entries), self.comments, self.package)
@@ -226,7 +268,7 @@ class Scene:
     @property
     def wall(self) -> bool:
         """Whether the partner is a wall."""
-        return self.partner is not None and self.partner.wall is not None
+        return self.ways.wall
 
     @property
     def radius_ratio(self) -> float | None:
@@ -283,12 +325,18 @@ class Scene:
     @property
     def stokes(self) -> float | None:
         """Normal Stokes number of the impact, None if it has none."""
-        return self.impact.stokes if self.impact.speed is None else self.stokes_of(self.impact.speed)
+        if self.impact.stokes is not None:
+            return self.impact.stokes
+        return None if self.speed is None else self.stokes_of(self.speed)
 
     @property
     def speed(self) -> float | None:
         """Normal approach speed v0 of the impact in m/s, None if it has none."""
-        return self.impact.speed if self.impact.stokes is None else self.speed_of(self.impact.stokes)
+        if self.impact.stokes is not None:
+            return self.speed_of(self.impact.stokes)
+        if self.impact.relative_speed is None or self.impact.angle is None:
+            return self.impact.speed
+        return float(normal_speed(self.impact.relative_speed, self.impact.angle))
 
     @property
     def angle(self) -> float | None:
@@ -297,11 +345,12 @@ class Scene:
 
     def need_impact(self) -> tuple[float, float]:
         """Return (normal speed in m/s, angle in rad); InputError if the scene leaves them open."""
-        if self.speed is None:
-            accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed'
+        if self.speed is None and self.impact.relative_speed is None:
+            accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed, --relative-speed'
             raise InputError("impact.stokes", None, accepted)
         if self.angle is None:
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
+        assert self.speed is not None  # a relative speed has its normal component, now that there is an angle
         return self.speed, self.angle
 
 

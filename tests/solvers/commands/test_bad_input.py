@@ -53,7 +53,9 @@ BAD = [
     ("collide granulation --stokes 1 --speed 1m/s", "--speed", '"1m/s"', "only one of --stokes, --speed"),
     ("collide granulation --speed 1", "--speed", "no unit", "with its unit"),
     ("collide granulation --speed 1Pa", "--speed", "pressure, not a speed", "with its unit"),
-    ("collide granulation --angle 60", "--angle", '"60" has no unit', "< 90 deg"),
+    ("collide granulation --angle 95", "--angle", '"95 deg"', "< 90 deg"),
+    ("collide granulation --stokes 1 --relative-speed 1m/s", "--relative-speed", "--stokes = 1", "--speed"),
+    ("collide granulation --relative-speed 1", "--relative-speed", "has no unit", "with its unit"),
     ("collide granulation --angle 90deg", "--angle", '"90deg"', "< 90 deg"),
     ("collide granulation --angle -5deg", "--angle", '"-5deg"', ">= 0 deg"),
     ("collide granulation --rtol 1e-2", "--rtol", '"1e-2"', "1e-13 to 1e-3"),
@@ -92,7 +94,7 @@ BAD = [
     ("collide granulation --set bridge.law=foo", "bridge.law", '"foo"', "mikami"),
     ("collide granulation --set impact.stokes=1 --stokes 2", "--stokes", '"2"', "only one"),
     ("collide pendulum --set pendulum.length=1cm", "pendulum.length", '"1cm"', "4a + x_f/2"),
-    ("collide pendulum --set bridge.volume=1", "bridge.surface_tension", "bridge.contact_angle", "with its unit"),
+    ("collide pendulum --set bridge.volume=1", "bridge.surface_tension", "missing", "with its unit"),
     ("collide pendulm", "scene", "did you mean pendulum?", "granulation, pendulum"),
     ("collide", "SCENE", "missing", "granulation, pendulum"),
     ("collide --engine foo", "--engine", '"foo"', "cvodes, rosenbrock"),
@@ -302,21 +304,26 @@ def test_a_home_that_cannot_be_written(tmp_path):
     assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "a.png").is_file()
 
 
+def floats(low, high):
+    """Read both ends of a range as plain numbers, an empty one as 0."""
+    return float(low or "0"), float(high or "0")
+
+
 @pytest.mark.parametrize(
-    "text", ["1", "1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
+    "text", ["1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
 )
 def test_bad_ranges(text):
     """A range that is none, runs backwards or has the wrong count names its option."""
     with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
-        parse_range(text, "--stokes", lambda end: float(end or "0"))
+        parse_range(text, "--stokes", floats)
 
 
 def test_ranges():
     """Both ends are included exactly; log is even in the logarithm; one value is a range too."""
-    assert parse_range("0:60:4", "--angle", float) == [0, 20, 40, 60]
-    assert parse_range("log:0.01:100:5", "--stokes", float) == pytest.approx([0.01, 0.1, 1, 10, 100])
-    assert parse_range("log:0.1:0.7:3", "--stokes", float)[::2] == [0.1, 0.7]
-    assert parse_range("5:5:1", "--angle", float) == [5]
+    assert parse_range("0:60:4", "--angle", floats) == [0, 20, 40, 60]
+    assert parse_range("log:0.01:100:5", "--stokes", floats) == pytest.approx([0.01, 0.1, 1, 10, 100])
+    assert parse_range("log:0.1:0.7:3", "--stokes", floats)[::2] == [0.1, 0.7]
+    assert parse_range("5:5:1", "--angle", floats) == parse_range("5", "--angle", floats) == [5]
 
 
 def test_a_warning_is_said_once(module):
