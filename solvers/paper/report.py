@@ -64,7 +64,7 @@ def inputs(parts: Iterable[Part]) -> Table:
     """The entries of the presets used, and which of them are guesses."""
     presets = dict.fromkeys(name for part in parts for name in part.scenes)
     scenes = [Scene.load(name) for name in presets]
-    guesses = {(scene.name, name) for scene in scenes for name, _ in scene.comments}
+    guesses = {(scene.name, name) for scene in scenes for name, _ in scene.guesses}
     names = dict.fromkeys(name for scene in scenes for name, _ in scene.given if not name.startswith("impact."))
     rows = []
     for name in names:

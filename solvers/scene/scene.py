@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -30,7 +31,7 @@ class Scene:
     Arguments:
         name: any text, may be empty.
         given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
-        comments: (dotted name, `assumed ...`) for entries that are guesses.
+        comments: (dotted name, comment) as the file has them; `assumed ...` stands behind a guess.
         package: a user's model, whose quantities and laws the entries may name.
 
     Raises:
@@ -116,7 +117,7 @@ class Scene:
     def from_toml(cls, text: str, origin: str = "scene", package: Package | None = None) -> Self:
         """Return the scene written in TOML; `origin` names the text in errors."""
         tables = scenefile.parse(text, str(origin))
-        return cls.from_dict(tables, from_file=True, comments=scenefile.assumptions(text), package=package)
+        return cls.from_dict(tables, from_file=True, comments=scenefile.remarks(text), package=package)
 
     @classmethod
     def from_dict(
@@ -181,10 +182,15 @@ class Scene:
         return dict(self.si)
 
     @property
+    def guesses(self) -> tuple[tuple[str, str], ...]:
+        """The comments on entries that are guesses: (dotted name, `assumed ...`)."""
+        return tuple((name, text) for name, text in self.comments if re.match(r"assumed\b", text))
+
+    @property
     def assumed(self) -> tuple[str, ...]:
         """What in this scene is a guess, one line each."""
         given = dict(self.given)
-        said = [f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.comments]
+        said = [f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.guesses]
         return (*said, *self._flowing())
 
     def _flowing(self) -> tuple[str, ...]:
@@ -261,7 +267,8 @@ class Scene:
         replaced = {*SPEEDS} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
         entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
-        return type(self)(self.name, tuple(entries), self.comments, self.package)
+        comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
+        return type(self)(self.name, tuple(entries), comments, self.package)
 
     # ---- the pair
 

@@ -69,18 +69,24 @@ COMMON: dict[str, tuple[str, Decimal]] = {
         "m^3": {"m^3": "1", "dm^3": "1e-3", "cm^3": "1e-6", "mm^3": "1e-9", "um^3": "1e-18", "nm^3": "1e-27"}
         | {"l": "1e-3", "L": "1e-3", "ml": "1e-6", "mL": "1e-6", "ul": "1e-9", "uL": "1e-9"}
         | {"nl": "1e-12", "nL": "1e-12", "pl": "1e-15", "pL": "1e-15", "fl": "1e-18", "fL": "1e-18"},
-        "m/s": {"m/s": "1", "cm/s": "1e-2", "mm/s": "1e-3", "um/s": "1e-6"},
-        "m/s^2": {"m/s^2": "1", "cm/s^2": "1e-2"},
-        "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "g/m^3": "1e-3"},
+        "m/s": {"m/s": "1", "cm/s": "1e-2", "mm/s": "1e-3", "um/s": "1e-6", "m s^-1": "1"},
+        "m/s^2": {"m/s^2": "1", "cm/s^2": "1e-2", "m s^-2": "1"},
+        "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "g/m^3": "1e-3"}
+        | {"kg m^-3": "1", "g cm^-3": "1e3", "g/ml": "1e3", "g/mL": "1e3", "kg/l": "1e3", "kg/L": "1e3"},
         "Pa": {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9", "bar": "1e5", "N/m^2": "1"},
-        "Pa s": {"Pa s": "1", "mPa s": "1e-3", "kPa s": "1e3", "cP": "1e-3", "P": "1e-1", "N s/m^2": "1"},
+        "Pa s": {"Pa s": "1", "mPa s": "1e-3", "kPa s": "1e3", "cP": "1e-3", "P": "1e-1"}
+        | {"N s/m^2": "1", "mN s/m^2": "1e-3", "N s m^-2": "1"},
         "J": {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "nJ": "1e-9", "aJ": "1e-18", "zJ": "1e-21"},
-        "N/m": {"N/m": "1", "mN/m": "1e-3", "J/m^2": "1", "dyn/cm": "1e-3", "mJ/m^2": "1e-3"},
+        "N/m": {"N/m": "1", "mN/m": "1e-3", "J/m^2": "1", "dyn/cm": "1e-3", "mJ/m^2": "1e-3"}
+        | {"N m^-1": "1", "mN m^-1": "1e-3"},
     }.items()
     for unit, factor in units.items()
 }
 """Unit as spelt (after `spelling`) -> SI unit that names its dimension, exact factor."""
 
+_LETTERS = (("µ", "u"), ("μ", "u"), ("°", "deg"), ("⁻", "-"), ("¹", "^1"), ("²", "^2"), ("³", "^3"), ("**", "^"),
+            ("-^", "^-"))  # fmt: skip
+_JOINED = {"mPas": "mPa s", "Pas": "Pa s", "Ns/m^2": "N s/m^2", "mNs/m^2": "mN s/m^2"}
 _LONGEST = 200  # characters: enough for any number, and for any unit
 _EXACT = Context(prec=_LONGEST + 100)  # a product of table and text is then not rounded before it becomes a double
 _NUMBER = r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|nan|inf(?:inity)?)"
@@ -179,10 +185,13 @@ def factor(unit: str, si: str | None, field: str, accepted: str, value: object) 
 
 def spelling(unit: str) -> str:
     """Return the one spelling under which a unit is looked up (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
-    for given, ours in (("µ", "u"), ("μ", "u"), ("°", "deg"), ("²", "^2"), ("³", "^3"), ("**", "^")):
+    for given, ours in _LETTERS:
         unit = unit.replace(given, ours)
     unit = re.sub(r"\s*([/^])\s*", r"\1", unit)
-    return " ".join(re.sub(r"[*·⋅]", " ", unit).split())
+    unit = re.sub(r"(?<=[A-Za-z])\.(?=[A-Za-z])", " ", unit)  # Pa.s
+    unit = re.sub(r"(?<![\w^])([A-Za-z]+)(-?[1-9])(?!\w)", r"\1^\2", unit)  # cm3, m-3
+    unit = " ".join(re.sub(r"[*·⋅]", " ", unit).split())
+    return _JOINED.get(unit, unit)
 
 
 def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:

@@ -2,15 +2,19 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import warnings
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from wetdoublet.solvers.commands.options import entry_range
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.ranges import parse_range
 from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.scene.schema import FIELDS
 from wetdoublet.solvers.settings import check_engine, check_rtol
 
 from ...helpers.command import run
@@ -221,7 +225,7 @@ def test_failures(collision, monkeypatch):
 def test_scenes():
     """`scenes` lists the presets; `scenes NAME` prints one that loads as itself, changed if asked."""
     lines = run("scenes").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == ["granulation", "pendulum", "granulation-dry-bridge"]
+    assert [line.split()[0] for line in lines] == [*PRESETS]
     assert all(len(line.split()) > 5 and len(line) < 100 for line in lines)
     assert Scene.from_toml(run("scenes", "pendulum").stdout) == Scene.load("pendulum")
     changed = run("scenes", "granulation", "--set", "liquid.viscosity=3 Pa s", "--angle", "10 deg").stdout
@@ -294,6 +298,38 @@ def test_closed_streams():
 
 
 @pytest.mark.slow
+def test_a_new_scene(tmp_path, monkeypatch):
+    """`scenes --new NAME` writes a commented scene that runs as it is, and overwrites nothing."""
+    monkeypatch.chdir(tmp_path)
+    assert run("scenes", "--new", "mine").stdout == "mine.toml\n"
+    assert run("collide", "mine.toml").exit_code == 0
+    text = (tmp_path / "mine.toml").read_text()
+    assert 'name = "mine"' in text and all("#" in line for line in text.splitlines() if line.startswith("# "))
+    uncommented = re.sub(r"^# (?=youngs|poisson|glass_|coating_fraction)", "", text, flags=re.MULTILINE)
+    assert Scene.from_toml(uncommented).bridge is not None  # what is offered is right as well
+    again = run("scenes", "--new", "mine")
+    assert again.exit_code == 2 and again.stderr.startswith('--new: "mine" would overwrite mine.toml; accepted: ')
+    assert run("scenes", "lactose-pvp", "--new", "other").exit_code == 2
+    assert (tmp_path / "mine.toml").read_text() == text and not (tmp_path / "other.toml").exists()
+
+
+def test_angles_are_degrees_on_the_command_line():
+    """A bare angle is in degrees, alone and in ranges; either end of a range may carry the unit of both."""
+    one = [run("collide", "granulation", "--angle", angle, "--json").stdout for angle in ("75", "75 deg")]
+    assert one[0] == one[1]
+    assert run("scenes", "granulation", "--set", "bridge.contact_angle=20").stdout.count('"20 deg"') == 1
+    lines = [
+        run("boundary", "granulation", "--angle", angle, "--json").stdout
+        for angle in ("40", "40:40:1", "40 deg:40 deg:1", "40:40deg:1")
+    ]
+    assert len(set(lines)) == 1 and lines[0]
+    angle = FIELDS["impact.angle"]
+    assert entry_range(angle, "20 deg:70 deg:26", "--angle") == entry_range(angle, "20:70:26", "--angle")
+    assert entry_range(angle, "0:1 rad:2", "--angle") == [0.0, 1.0]
+    speeds = entry_range(FIELDS["impact.speed"], "0.1:5 m/s:20", "--speed")
+    assert speeds == entry_range(FIELDS["impact.speed"], "0.1 m/s:5:20", "--speed") and speeds[-1] == 5.0
+
+
 def test_a_home_that_cannot_be_written(tmp_path):
     """Matplotlib then works from a temporary folder, and standard error stays clean."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}
