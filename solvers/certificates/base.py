@@ -56,7 +56,7 @@ class Certificate(Protocol):
 
 
 class NoCertificate:
-    """No certificate. An oblique doublet with a film alone always parts; on strings it has `PendulumCertificate` or none."""
+    """No certificate: an oblique doublet with a film alone always parts; strings have `PendulumCertificate` or none."""
 
     watches: str | None = None
 
