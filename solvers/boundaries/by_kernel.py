@@ -31,7 +31,7 @@ LOOK = np.dtype(
         ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 handed over
         ("creeps", "?"),  # handed over because its steps were spent on few events
         ("chatters", "?"),  # ... or on many
-        ("reversal", "i1"),  # the first criterion met, in the order glass, elastic, rough; -1 for none
+        ("reversal", "i1"),  # the first rebound criterion met, in the order glass, elastic, rough; -1 for none
         ("at_touch", "?"),  # decided at initial contact
         ("events", "i4"),  # how many
         ("restitution", "f8"),

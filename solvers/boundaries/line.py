@@ -1,7 +1,7 @@
 """Functions of the Stokes number that are smooth through a change of outcome (along a line of constant angle).
 
-* `criterion`: by how much the approach meets, or misses, a reversal criterion; its root is a graze.
-* `escape`: how far a doublet gets, with the solids' reversal or without: through a saddle of the effective potential
+* `criterion`: by how much the approach meets, or misses, a rebound criterion; its root is a graze.
+* `escape`: how far a doublet gets, with rebounds or without: through a saddle of the effective potential
   the amplitude of its unstable mode, at the rim x_f the squared speed left (or missing).
 """
 
@@ -84,7 +84,7 @@ class Line:
     def criterion(self, stokes: float) -> float:
         """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.
 
-        The approach is followed without reversal, so the function is smooth where a criterion is just met.
+        The approach is followed without rebounds, so the function is smooth where a criterion is just met.
         """
         self.collisions += 1
         n = self.numbers(stokes)
@@ -101,12 +101,12 @@ class Line:
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
-    def escape(self, stokes: float, reversed_: bool) -> Escape:
+    def escape(self, stokes: float, rebound: bool) -> Escape:
         """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
         self.collisions += 1
         n = self.numbers(stokes)
-        groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
-        solids = {} if reversed_ else self._no_glass(n.groups) | NEVER_MET
+        groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
+        solids = {} if rebound else self._no_glass(n.groups) | NEVER_MET
         probe = UnstoppedTrajectory(self.model, groups, self.rtol)
         for steps in _ESCAPE_STEPS if self.kernel else ():
             escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
@@ -117,7 +117,7 @@ class Line:
             if separates is not None:
                 return Escape(separates, _smooth(probe, escaped))
             probe.y = probe.path.y.copy()
-        return smooth_escape(self.model, n.groups, self.rtol, reversed_)
+        return smooth_escape(self.model, n.groups, self.rtol, rebound)
 
     def _no_glass(self, groups: dict[str, float]) -> dict[str, float]:
         """A glass-transition pressure that no film has."""
@@ -126,10 +126,10 @@ class Line:
 
 
 def smooth_escape(
-    model: Model, groups: dict[str, float], rtol: float, reversed_: bool, machine_code: bool = True
+    model: Model, groups: dict[str, float], rtol: float, rebound: bool, machine_code: bool = True
 ) -> Escape:
     """Whether a doublet separates, and how clearly, if the solids reverse it (`reversed_`) or if there are none."""
-    if not reversed_:
+    if not rebound:
         groups = groups | WITHOUT_SOLIDS
     probe = UnstoppedTrajectory(model, groups, rtol, machine_code=machine_code)
     path = probe.run()

@@ -66,7 +66,7 @@ class Look:
         return found
 
     def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
-        """Outcomes (`outcome`, -1 for none, with its reason) and first criteria met (`reversal`) alone.
+        """Outcomes (`outcome`, -1 for none, with its reason) and first rebound criteria met (`reversal`) alone.
 
         A collision may cost all steps of the budget. Chatter on which the kernel has spent them is given up; what it
         hands over otherwise goes to Rosenbrock.

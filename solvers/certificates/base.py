@@ -56,7 +56,7 @@ class Certificate(Protocol):
 
 
 class NoCertificate:
-    """No certificate. An oblique doublet with a film alone always parts; on strings it has `PendulumCertificate` or none."""
+    """No certificate. With a film alone an oblique doublet always parts; on strings see `PendulumCertificate`."""
 
     watches: str | None = None
 

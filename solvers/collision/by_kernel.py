@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def kind_of(answer: np.void) -> tuple[str, str | None]:
-    """Outcome of an answer, and the first criterion met."""
+    """Outcome of an answer, and the first rebound criterion met."""
     return OUTCOMES[answer["outcome"]], KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
 
 

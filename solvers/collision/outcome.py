@@ -80,7 +80,7 @@ class Outcome:
         rotation: angle turned by the line of centres until separation.
         until: for a stick, where integration stopped, s.
         certified: the stick is proved.
-        reversal: the first criterion met, if any.
+        reversal: the first rebound criterion met, if any.
         warnings: where the scene leaves the range that a law was made for, a sentence each.
         trajectory: Dataset over `time`, if asked for.
     """

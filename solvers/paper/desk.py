@@ -157,7 +157,7 @@ def shown(read: Callable[[], float]) -> str:
 
 
 def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-6) -> float:
-    """The Stokes number, between `low` and `high`, from which a reversal criterion is met, enclosed to `rtol`."""
+    """The Stokes number, between `low` and `high`, from which a rebound criterion is met, enclosed to `rtol`."""
     look = Look(scene, RTOL)
     while high - low > rtol * high:
         stokes = np.geomspace(low, high, _AT_ONCE)

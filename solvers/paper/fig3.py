@@ -79,14 +79,18 @@ def _along(line: Line) -> str:
 
 
 def _moved(desk: Desk) -> Table:
-    """Both readings of St* under the variants; arm and log have no part in a head-on collision."""
+    """Both readings of St* under the variants; lever arm and cut-off have no part in a head-on collision."""
     desk.say("fig. 3: variants")
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
     rows = shared_out(_row, [(name, scene, line) for (name, scene), [line] in zip(scenes.items(), traced)])
     rows.append(["paper", PRINTED["stokes_3"].text, ""])
     head = ["variant", "St*: a criterion is met", "St*: escapes"]
-    return Table("Pendulum at θ₀ = 0: St* under the variants (head-on, arm and log have no part)", head, rows)
+    return Table(
+        "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)",
+        head,
+        rows,
+    )
 
 
 def _row(case: tuple[str, Scene, Line]) -> list[str]:

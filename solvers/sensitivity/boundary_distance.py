@@ -246,7 +246,7 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
             except IntegrationFailed:
                 y = np.column_stack([before, end[:size]])
             y[:, -1] = np.where(np.arange(size) == 1, y[:, -1], end[:size])  # the speed is the one before a jump
-            if not step.reverses:
+            if not step.rebounds:
                 y[1, -1] = end[1]
         if not step.phase.resting:
             yield step, y
@@ -275,9 +275,9 @@ class _Aside:
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
-    def escape(self, stokes: float, reversed_: bool) -> float | None:
+    def escape(self, stokes: float, rebound: bool) -> float | None:
         model = load(select_model(self.scene, self.n.oblique))
-        return smooth_escape(model, self.groups(stokes), _FINE, reversed_, machine_code=False).value
+        return smooth_escape(model, self.groups(stokes), _FINE, rebound, machine_code=False).value
 
 
 def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
