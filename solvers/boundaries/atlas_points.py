@@ -183,11 +183,11 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
     return [stretch]
 
 
-def _passes_saddle(plane: Plane, place: np.ndarray, reversed_: bool) -> bool | None:
+def _passes_saddle(plane: Plane, place: np.ndarray, rebound: bool) -> bool | None:
     """True if an escape passes a barrier below the rupture gap; None if unknown."""
     scene, angle = plane.scene_at(float(plane.x(place)))
     n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
-    groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
+    groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
     try:
         probe = UnstoppedTrajectory(load(select_model(scene, n.oblique)), groups, plane.rtol)
         probe.run()

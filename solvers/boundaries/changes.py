@@ -167,9 +167,9 @@ def _criterion(line: Line) -> Function:
     return function
 
 
-def _escaping(line: Line, reversed_: bool) -> Function:
+def _escaping(line: Line, rebound: bool) -> Function:
     def function(stokes: float) -> tuple[bool, float | None]:
-        found = line.escape(stokes, reversed_)
+        found = line.escape(stokes, rebound)
         return found.separates, found.value
 
     return function

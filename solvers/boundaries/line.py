@@ -104,12 +104,12 @@ class Line:
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
-    def escape(self, stokes: float, reversed_: bool) -> Escape:
-        """Escape of the doublet, with its rebound (`reversed_`) or as if there were no rebound criterion."""
+    def escape(self, stokes: float, rebound: bool) -> Escape:
+        """Escape of the doublet, with its rebound (`rebound`) or as if there were no rebound criterion."""
         self.collisions += 1
         n = self.numbers(stokes)
-        groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
-        solids = {} if reversed_ else self._no_glass(n.groups) | NEVER_MET
+        groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
+        solids = {} if rebound else self._no_glass(n.groups) | NEVER_MET
         for steps in _ESCAPE_STEPS if self.kernel else ():
             probe = UnstoppedTrajectory(self.model, groups, self.rtol)
             escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)

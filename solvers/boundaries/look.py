@@ -66,7 +66,7 @@ class Look:
         return found
 
     def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
-        """Outcomes (`outcome`, -1 for none, with its reason) and first criteria met (`reversal`) alone.
+        """Outcomes (`outcome`, -1 for none, with its reason) and first rebound criteria met (`reversal`) alone.
 
         A collision may take all steps of the budget. Chatter that exhausts the kernel's steps is not continued; other
         collisions that the kernel does not complete go to Rosenbrock.

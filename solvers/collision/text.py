@@ -71,7 +71,7 @@ def reason(collision: Outcome) -> str:
     if collision.outcome == BOUNCE and collision.reversal is not None:
         return CRITERIA[collision.reversal].sentence
     if collision.outcome != STICK:
-        return "escaped by centrifugal force, no criterion met"
+        return "escaped by centrifugal force, no rebound criterion met"
     return _stuck(collision)
 
 
@@ -132,7 +132,7 @@ def _outcome(collision: Outcome) -> list[str]:
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
     if collision.outcome == "stick" and collision.reversal:
-        lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
+        lines.append(_line("", f"the {collision.reversal} criterion had made it rebound on the way"))
     if collision.outcome == "stick" and stopped(collision):
         lines.append(_line("", stopped(collision)))
     if collision.scene.partner is not None:

@@ -86,7 +86,11 @@ def _moved(desk: Desk) -> Table:
     rows = shared_out(_row, [(name, scene, line) for (name, scene), [line] in zip(scenes.items(), traced)])
     rows.append(["paper", PRINTED["stokes_3"].text, ""])
     head = ["variant", "St*: a criterion is met", "St*: escapes"]
-    return Table("Pendulum at θ₀ = 0: St* under the variants (head-on, arm and log have no part)", head, rows)
+    return Table(
+        "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)",
+        head,
+        rows,
+    )
 
 
 def _row(case: tuple[str, Scene, Line]) -> list[str]:

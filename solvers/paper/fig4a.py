@@ -111,14 +111,15 @@ def _compared(
             stokes,
             described(scene),
             f"St* follows from p_gt alone: the printed number is reached with {fitted} in place of the "
-            f"printed {pressure / 1e6:.3g} MPa. Head-on, arm, log and bridge law have next to no part in it",
+            f"printed {pressure / 1e6:.3g} MPa. Head-on, the lever arm, the "
+            "tangential cut-off and the bridge law have next to no part in it",
         ),
         Comparison(
             "centrifugal",
             ours,
             described(scene),
             f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {found}. With the "
-            f"leading-order arm of the tangential force, which the paper may have used: {leading}",
+            f"leading-order lever arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(
             "dry",

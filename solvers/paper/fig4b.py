@@ -79,7 +79,7 @@ def make(desk: Desk, folder: Path) -> Part:
         "Fig. 4b: normal restitution against St, "
         + ", ".join(degrees(angle) for angle in CURVES)
         + " (bottom to top). Dotted: jumps at the traced boundaries. Inset: against Ce, where the spheres rotate "
-        "before they separate (no criterion met)."
+        "before they separate (no rebound criterion met)."
     )
     return Part(
         "Fig. 4b: restitution",

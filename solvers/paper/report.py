@@ -19,7 +19,7 @@ _HEAD = (
     "paper",
     "ours",
     "difference",
-    "with arm, log, glass; bridge or strings",
+    "with lever arm, tangential cut-off, glass criterion; bridge or strings",
     "why, and what goes with it",
 )
 _PER_CM = 60  # width on the page, pixels

@@ -239,7 +239,7 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
         if step.duration > 0:
             y = np.column_stack([before, end if inside is None else inside])
             y[:, -1] = np.where(np.arange(end.size) == 1, y[:, -1], end)  # speed before the jump
-            if not step.reverses:
+            if not step.rebounds:
                 y[1, -1] = end[1]
         yield step, y
 

@@ -73,13 +73,13 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
     path = finder.run()
     if path.reversal is None:
         return None
-    k = next(k for k, step in enumerate(path.steps) if step.reverses)
+    k = next(k for k, step in enumerate(path.steps) if step.rebounds)
     step = path.steps[k]
     told = tolerance(rtol, "rosenbrock", finder.groups)
     word = contact_word(finder.groups) if step.kinds[0] in GAPS else step.kinds[0]
     before = path.ends[k - 1][: len(model.state)] if k else model.start(path.p)
     if step.duration > 0:
-        step = replace(step, duration=_extremum(model, step, word, before, path.p, told), event=None, reverses=False)
+        step = replace(step, duration=_extremum(model, step, word, before, path.p, told), event=None, rebounds=False)
     course, durations = _up_to(path, k, step)
     end = ending(course, "rosenbrock", told)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
@@ -124,8 +124,8 @@ def _margin(model: Model, word: str) -> Function:
 # ---- a doublet that just escapes
 
 
-def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> Slope | None:
-    probe = _probe(scene, angle, stokes * _BELOW, reversed_, rtol)
+def _escape(scene: Scene, angle: float, stokes: float, rebound: bool, rtol: float) -> Slope | None:
+    probe = _probe(scene, angle, stokes * _BELOW, rebound, rtol)
     path = probe.run()
     barrier = barrier_of(probe)
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
@@ -134,13 +134,13 @@ def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: fl
         return None if saddle is None else _at_saddle(probe, path, saddle)
     if path.steps and KINDS[EventKind.FELL_BACK] in path.steps[-1].kinds:
         return _at_rim(probe, path)
-    probe = _probe(scene, angle, stokes * _FREE_RIM, reversed_, rtol)
+    probe = _probe(scene, angle, stokes * _FREE_RIM, rebound, rtol)
     path = probe.run()
     return _at_rim(probe, path) if path.separated else None
 
 
-def _probe(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> UnstoppedTrajectory:
-    groups = _groups(scene, angle, stokes) | ({} if reversed_ else WITHOUT_SOLIDS)
+def _probe(scene: Scene, angle: float, stokes: float, rebound: bool, rtol: float) -> UnstoppedTrajectory:
+    groups = _groups(scene, angle, stokes) | ({} if rebound else WITHOUT_SOLIDS)
     return UnstoppedTrajectory(load(select_model(scene, angle > 0)), groups, rtol)
 
 
@@ -170,7 +170,7 @@ def _at_saddle(probe: EventLocator, path: EventSequence, saddle: Saddle) -> Slop
     if found is None:
         return None
     k, duration = found
-    course, durations = _up_to(path, k, replace(path.steps[k], duration=duration, event=None, reverses=False))
+    course, durations = _up_to(path, k, replace(path.steps[k], duration=duration, event=None, rebounds=False))
     end = ending(course, "rosenbrock", told)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
     mode = saddle.modes[saddle.unstable].real

@@ -32,7 +32,7 @@ class Leg:
     phase: Phase
     lasts: bool
     event: str | None
-    reverses: bool
+    rebounds: bool
     holds: bool
 
 
@@ -60,7 +60,7 @@ class Course:
 
 def course_of(path: EventSequence, choice: ModelKey) -> Course:
     """The course of a located path, for its own model or the full form of it."""
-    legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.reverses, step.holds) for step in path.steps)
+    legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.rebounds, step.holds) for step in path.steps)
     gaps = [1.0, *(float(end[0]) for end in path.ends)]
     return Course(choice, legs, path.watch.tangential_edge, int(np.argmin(gaps)) - 1)
 
@@ -107,9 +107,9 @@ def follow_course(
                 at.shifts.append(dt / durations[k])
         if k == course.nearest:
             at.nearest = at.y[0]
-        if leg.reverses:
-            at.dry += model.function("reversal_loss")(at.y[:size], p)
-            at.y = vertcat(model.function("reversal")(at.y[:size], p), at.y[size:])
+        if leg.rebounds:
+            at.dry += model.function("rebound_loss")(at.y[:size], p)
+            at.y = vertcat(model.function("rebound")(at.y[:size], p), at.y[size:])
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
     return at
@@ -179,6 +179,6 @@ def influential(course: Course, groups: dict[str, float]) -> list[bool]:
     absent = {
         "glass_number": "glass" not in landed,
         **{gap: gap != met for gap in GAPS.values()},
-        "dry_restitution": not any(leg.reverses for leg in course.legs),
+        "dry_restitution": not any(leg.rebounds for leg in course.legs),
     }
     return [not absent.get(name, False) for name in course.model.groups]

@@ -62,7 +62,7 @@ def closed_forms(
 _TOLD = {
     "film_alone": (
         "film alone",
-        "head-on, no bridge, no strings: approach, reversal and e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
+        "head-on, no bridge, no strings: approach, rebound and e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
     ),
     "straight_line": (
         "straight line",
@@ -97,7 +97,7 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
     bounced = 0
     for stokes in _stokes_range(bare):
         n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
-        gap = _reversal(n, bare.model.glass)
+        gap = _rebound(n, bare.model.glass)
         loss = film_loss(gap) / stokes
         expected = bare.particles.dry_restitution * (1 - loss) - loss
         if gap == 1 or expected < _SMALLEST or bounced == _BOUNCES:
@@ -130,7 +130,7 @@ def _stokes_range(bare: Scene) -> list[float]:
     return list(np.geomspace(1e-3 * critical, 30 * critical, 60).tolist())
 
 
-def _reversal(n: DimensionlessGroups, glass: str) -> float:
+def _rebound(n: DimensionlessGroups, glass: str) -> float:
     """The first gap on approach at which a rebound criterion is met, by a scan and bisection of the closed form."""
     stokes, limit = n.groups["stokes"], n.groups["glass_number"]
     contact = contact_gap(n.groups)

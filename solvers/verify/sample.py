@@ -69,7 +69,7 @@ class Sample:
         if not self.all:
             return "no collision was completed"
         if not any(one.contact_time or one.until for one in self.all):
-            return "no trajectory lasts: all reverse at initial contact"
+            return "no trajectory lasts: all rebound at initial contact"
         return ""
 
 

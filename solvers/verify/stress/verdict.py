@@ -9,10 +9,10 @@ from ...settings import ENGINES
 
 RTOL = 1e-9
 FAST = "taylor" if "taylor" in ENGINES else "rosenbrock"
-CHATTER = "this is chatter without end"
+CHATTER = "the doublet rebounds again and again"
 _REASONS = {  # physical explanations of engine failures, by pattern of the message
-    "so oblique an impact": "turns within a rounding error of x0",
-    CHATTER: "an attraction closes the gap again after every reversal, beyond any count: a cycle of the model",
+    "the rotation reverses the approach": "turns within a rounding error of x0",
+    CHATTER: "an attraction closes the gap again after every rebound, beyond any count: a cycle of the model",
 }
 
 
