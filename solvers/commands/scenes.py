@@ -1,4 +1,4 @@
-"""`wetdoublet scenes`: what there is to begin with."""
+"""`wetdoublet scenes`: lists or prints the presets."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def command(
 
 
 def _listing() -> str:
-    """One line a preset: its name, and what it is."""
+    """One line per preset: its name and description."""
     from ..scene.scenefile import PRESETS, description
 
     width = max(map(len, PRESETS))

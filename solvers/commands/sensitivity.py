@@ -19,7 +19,7 @@ from . import options
 )
 @click.option("--wrt", metavar="NAMES", help="Parameters, as liquid.viscosity,impact.angle [all of the scene].")
 @click.option("--method", metavar="M", help="forward or adjoint [forward].")
-@click.option("--hold", metavar="WHAT", help="What of the impact stays: speed or stokes [speed].")
+@click.option("--hold", metavar="WHAT", help="Quantity of the impact to hold: speed or stokes [speed].")
 @click.option(
     "--uncertainty",
     "uncertain",
@@ -56,7 +56,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    """Differentiate what a collision of SCENE results in, through its events: gradients and elasticities.
+    """Differentiate the results of a collision of SCENE, through its events: gradients and elasticities.
 
     \b
     Example:

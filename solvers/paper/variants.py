@@ -1,4 +1,4 @@
-"""The scenes of the paper and their variants: what the paper leaves open, each changed alone."""
+"""The paper's scenes and their variants: choices that the paper leaves open, each changed alone."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def variant(preset: str, changes: Mapping[str, Any]) -> Scene:
 
 
 def described(scene: Scene) -> str:
-    """The choices a scene makes where the paper leaves them open: arm, log and glass; bridge law or strings."""
+    """Text of a scene's choices that the paper leaves open: lever arm, logarithm and glass; bridge law or strings."""
     said = ", ".join((scene.model.arm, scene.model.tangential, scene.model.glass))
     if scene.bridge is not None:
         said += f"; {scene.bridge.law}"

@@ -1,7 +1,7 @@
-"""From entries to the quantities of the vocabulary that groups are made of: numbers, arrays or CasADi expressions.
+"""Quantities of the vocabulary from scene entries, as numbers, arrays or CasADi expressions.
 
-An entry that is a quantity by itself says so in the schema (`Field.quantity`). What several entries make together is
-here: masses from densities, the reduced quantities of a pair, the speed from a Stokes number.
+The schema states which entries are quantities themselves (`Field.quantity`). Quantities that depend on several entries
+are computed here: masses from densities, reduced quantities of a pair, the speed from a Stokes number.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ _OWN = "custom."
 
 
 def quantities(entries: Mapping[str, Any], wall: bool = False) -> dict[str, Any]:
-    """Quantities by their names in the vocabulary, SI.
+    """Quantities by vocabulary name, SI.
 
     Arguments:
-        entries: by dotted name, SI; choices and flags are passed over.
-        wall: the partner is a wall.
+        entries: by dotted name, SI; choices and flags are ignored.
+        wall: True if the partner is a wall.
     """
     found = {
         FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
@@ -42,7 +42,7 @@ def quantities(entries: Mapping[str, Any], wall: bool = False) -> dict[str, Any]
 
 
 def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Half the radius and half the mass of the first sphere, from whichever entries say them."""
+    """Half the radius (m) and half the mass (kg) of the first sphere, from radius, mass or density."""
     found = {}
     for name in ("particles.reduced_radius", "particles.radius", "particles.reduced_mass", "particles.mass"):
         if name in entries:
@@ -60,7 +60,7 @@ def partner_mass(entries: Mapping[str, Any]) -> Any:
 
 
 def shared(ratio: Any) -> Any:
-    """A reduced quantity of a pair over that of two equal spheres: exactly 1 for a ratio of 1, 2 for None, a wall."""
+    """A reduced quantity of a pair relative to two equal spheres: exactly 1 for ratio 1; 2 for a wall (ratio None)."""
     return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
 
 
@@ -77,4 +77,4 @@ def _ratios(found: Mapping[str, Any], entries: Mapping[str, Any], wall: bool) ->
 
 
 def _mass(radius: Any, density: Any) -> Any:
-    return 4 / 3 * math.pi * radius * radius * radius * density  # inf rather than OverflowError
+    return 4 / 3 * math.pi * radius * radius * radius * density  # yields inf instead of OverflowError

@@ -1,6 +1,6 @@
-"""What a collision depends on: the numbers of its scene by dotted name, and their way into groups and scales.
+"""Parameters of a collision: numeric entries of its scene by dotted name, and the map to groups and scales.
 
-Everything is differentiated in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0: of order one each.
+Derivatives are in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0, so that each is of order one.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _ONE_VARIABLE = ("impact.speed", "impact.stokes")
 
 
 def known(scene: Scene) -> tuple[str, ...]:
-    """The parameters of a scene: its numbers as the file gives them, then the impact's three."""
+    """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
     fields = scene.fields
     own = [
         name for name in scene.entries if not (fields[name].choices or fields[name].flag or name.startswith("impact."))
@@ -38,11 +38,11 @@ def known(scene: Scene) -> tuple[str, ...]:
 
 
 def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
-    """The parameters asked for; InputError naming the nearest known for one that the scene has not."""
+    """The requested parameters; InputError with the nearest known name for one that the scene does not have."""
     everything = known(scene)
     if wrt is None:
         return everything
-    # not in the file, but a number of its own all the same
+    # a parameter even if the scene takes its default
     more = ("pendulum.gravity",) if scene.pendulum is not None else ()
     asked = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not asked:
@@ -51,7 +51,7 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
 
 
 def check_hold(hold: object, label: str = "hold") -> str:
-    """What of the impact is held fixed; InputError if it is neither."""
+    """The held quantity, "speed" or "stokes"; InputError otherwise."""
     if not isinstance(hold, str) or hold not in HOLDS:
         raise InputError(label, hold, ", ".join(HOLDS), "is not known" + did_you_mean(hold, HOLDS))
     return hold
@@ -59,11 +59,11 @@ def check_hold(hold: object, label: str = "hold") -> str:
 
 @dataclass(frozen=True)
 class Kind:
-    """What the way from parameters to groups depends on: which entries a scene has, and what of the impact is held."""
+    """Key of a parameter map: the entries that a scene has, and the held quantity of the impact."""
 
-    entries: tuple[str, ...]  # reference values in this order
+    entries: tuple[str, ...]  # names of the reference values, in order
     hold: str
-    shape: tuple[object, ...]  # what chooses among the formulas
+    shape: tuple[object, ...]  # choices that select the formulas
     formulas: Mapping[str, Formula] = field(compare=False, repr=False)
 
     @property
@@ -72,7 +72,7 @@ class Kind:
 
 
 def kind_of(scene: Scene, hold: str) -> Kind:
-    """The kind of a scene's collision."""
+    """The kind (key of the parameter map) of a scene's collision."""
     own = [name for name in known(scene) if name not in IMPACT]
     if scene.pendulum is not None and "pendulum.gravity" not in own:
         own.append("pendulum.gravity")
@@ -86,7 +86,7 @@ def kind_of(scene: Scene, hold: str) -> Kind:
 
 
 def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarray:
-    """Values of a kind's entries, SI."""
+    """Reference values of a kind's entries, SI."""
     values: dict[str, Any] = dict(scene.entries)
     if scene.pendulum is not None:
         values["pendulum.gravity"] = scene.pendulum.gravity
@@ -95,16 +95,16 @@ def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarr
 
 
 def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
-    """What a parameter that is zero is measured in."""
+    """Scale of a parameter whose reference value is zero."""
     return values["liquid.film_thickness"] if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
 
 
 @dataclass(frozen=True)
 class ParameterMap:
-    """From parameters to groups and scales: functions of the reference values.
+    """Map from parameters to groups and scales, as CasADi functions of the reference values.
 
     Arguments:
-        values: (ref,) -> groups, scales of length, time, rate and energy.
+        values: (ref,) -> groups, then the scales of length, time, rate and energy.
         slopes: (ref,) -> their derivatives in theta, and dp/dtheta.
         bends: (ref, weights of groups and scales) -> Hessian of the weighted sum in theta.
     """
@@ -116,9 +116,9 @@ class ParameterMap:
 
 @own_cache(128)
 def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> ParameterMap:
-    """The way from a kind's parameters to the groups of a model.
+    """The map from a kind's parameters to the groups of a model.
 
-    Speed and Stokes number are one variable: either moves whichever of the two the kind holds, by the same part.
+    Speed and Stokes number are one variable: either changes the held one by the same relative amount.
     """
     reference = SX.sym("ref", len(kind.entries))
     theta = SX.sym("theta", len(wrt))
@@ -155,7 +155,7 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
 
 
 def _impact(base: Mapping[str, SX], wall: bool) -> dict[str, SX]:
-    """Speed and Stokes number of the reference."""
+    """Speed and Stokes number as expressions of the reference values."""
     of = quantities(base, wall)
     stokes = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], of["speed"])
     return {"impact.speed": of["speed"], "impact.stokes": stokes}
