@@ -49,7 +49,7 @@ class PhaseRun:
     Arguments:
         event: name of the event function to land on; None if the trajectory stops inside the phase.
         kinds: events reported at its end, in order.
-        reverses: the solids reverse the motion at its end.
+        rebounds: the doublet rebounds at its end.
         holds: the normal velocity is zero from here on, or until release.
     """
 

@@ -38,7 +38,7 @@ def test_the_approach(name: str):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("reversed_", [False, True])
+@pytest.mark.parametrize("rebound", [False, True])
 @pytest.mark.parametrize("name", PRESETS)
 def test_the_escape(name: str, rebound: bool):
     """Whether a doublet separates, with the solids and without; its value has that sign."""

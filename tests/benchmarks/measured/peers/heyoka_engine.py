@@ -283,7 +283,7 @@ def _below(start: Start) -> float:
 def starts(
     locators: Sequence[EventLocator], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
 ) -> list[Start]:
-    """State and parameters at initial contact; a criterion that is met there reverses there.
+    """State and parameters at initial contact; one that meets a criterion there rebounds there.
 
     Parameters are the groups named, then film, active and level.
     """

@@ -42,7 +42,7 @@ class Variational:
         smooth: groups that the rates depend on: the first columns. Two more follow, for the criterion and for the dry
             restitution.
         jumps: by criterion, the state and its columns behind the reversal as a compiled function of those before it.
-        begin: the state and its columns at initial contact; with `reversed_`, behind a reversal there.
+        begin: the state and its columns at initial contact; with `rebound`, after a rebound there.
         end: e_n's derivatives in the columns and in the rupture gap, of the state and its columns at the rupture.
     """
 
@@ -284,7 +284,7 @@ def prepare(
 
 
 def _begin(equations: Variational, locator: EventLocator, numbers: DimensionlessGroups) -> Start:
-    """At initial contact; a criterion that is met there reverses there, at a moment that nothing moves."""
+    """At initial contact; one that meets a criterion there rebounds there, at a moment that nothing moves."""
     values = locator.model.values("events", locator.y, locator.p)
     rebound = min(values[name] for name in CRITERIA) <= 0
     film = 0.0 if rebound else 1.0
