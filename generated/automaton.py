@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab
+# Automaton sha256 0ee71c1255360de299c9194ccfc0f013b0281ebd4eeecd168622998158dc36f3
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class EventKind(IntEnum):
     GLASS = 0  # rebound: the film pressure on the axis reaches the glass-transition pressure
     ELASTIC = 1  # rebound: the gap is down to the elastic length
     ROUGH = 2  # rebound: the gap is down to the roughness
-    TURNED = 3  # the normal velocity rises through zero, no criterion met
+    TURNED = 3  # the normal velocity rises through zero, no rebound criterion met
     FELL_BACK = 4  # the normal velocity falls through zero
     FILM_EDGE = 5  # the gap passes x0
     TANGENTIAL_EDGE = 6  # the gap passes the reach of the tangential force
@@ -63,21 +63,21 @@ CRITERIA = {  # by word, in the order in which they apply on entry
         contact=False,
         symbol="",
         removed_by=None,
-        sentence="reversed by the glass criterion, the liquid's own pressure",
+        sentence="rebound by the glass criterion, the liquid's own pressure",
     ),
     "elastic": Criterion(
         limit="elastic_gap",
         contact=True,
         symbol="x_r",
         removed_by=("youngs_modulus", 1e+300),
-        sentence="reversed by the elastic criterion, the spheres' deformation",
+        sentence="rebound by the elastic criterion, the spheres' deformation",
     ),
     "rough": Criterion(
         limit="rough_gap",
         contact=True,
         symbol="x_b",
         removed_by=("roughness", 0.0),
-        sentence="reversed by contact of the surfaces' roughness",
+        sentence="rebound by contact of the surfaces' roughness",
     ),
 }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 78a7c50205f1a2a6287bf11cc8a60e9e93ea5a334caa06ad9a1fc0e5bc0b2b35
+# Equations sha256 fdaa8d7c054685e198a1c275c81db6b8fda9b61a8e80d1a85459a185a5db3e9a
 """Head-on doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -49,18 +49,18 @@ FUNCTIONS = (
     "right_hand_side",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "78a7c50205f1a2a6287bf11cc8a60e9e93ea5a334caa06ad9a1fc0e5bc0b2b35"
+DIGEST = "fdaa8d7c054685e198a1c275c81db6b8fda9b61a8e80d1a85459a185a5db3e9a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -128,8 +128,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -189,8 +189,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

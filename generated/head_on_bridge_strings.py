@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a
+# Equations sha256 8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7
 """Head-on doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -51,17 +51,17 @@ FUNCTIONS = (
     "right_hand_side",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "effective_potential",
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a"
+DIGEST = "8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -133,8 +133,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -197,8 +197,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

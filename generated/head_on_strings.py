@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d3b3374936ef6e5dfb988abf3440299295b16bff69756a6b4154ce9295a507aa
+# Equations sha256 41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538
 """Head-on doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -43,17 +43,17 @@ FUNCTIONS = (
     "right_hand_side",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "effective_potential",
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "d3b3374936ef6e5dfb988abf3440299295b16bff69756a6b4154ce9295a507aa"
+DIGEST = "41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -114,8 +114,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -172,8 +172,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 1946ca7e00191f0c40f81833ab17475d6a39f8df62a30fec4deb2e0c7566b206
+# Equations sha256 35de080ea53526a7f13591afe214e2f2482d106b6308578d82007b33ecf4173b
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -48,11 +48,11 @@ FUNCTIONS = (
     "turning_rate",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "attraction_margins",
     "orbital_margins",
@@ -61,7 +61,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "1946ca7e00191f0c40f81833ab17475d6a39f8df62a30fec4deb2e0c7566b206"
+DIGEST = "35de080ea53526a7f13591afe214e2f2482d106b6308578d82007b33ecf4173b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -185,8 +185,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -252,8 +252,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 454629460735cc81113993ef3e8d2623f687e93ac6061c226ce5ec1338216cf4
+# Equations sha256 8ef176c9bc774492f7fbd784f6de3ff80ff228dd38b45984aa3f5a02b86535b7
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -57,11 +57,11 @@ FUNCTIONS = (
     "turning_rate",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "angular_momentum",
     "outputs",
     "attraction_margins",
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "454629460735cc81113993ef3e8d2623f687e93ac6061c226ce5ec1338216cf4"
+DIGEST = "8ef176c9bc774492f7fbd784f6de3ff80ff228dd38b45984aa3f5a02b86535b7"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -211,8 +211,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -295,8 +295,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 404bca94641ac1319a876d55b8463c32c54b00911cdeeabcb1945b9f91f1164c
+# Equations sha256 f5beba0ca7550d92066be57ce8caf37281560a3f6a71752bc1b5952702242761
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -55,11 +55,11 @@ FUNCTIONS = (
     "turning_rate",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "attraction_margins",
     "orbital_margins",
@@ -68,7 +68,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "404bca94641ac1319a876d55b8463c32c54b00911cdeeabcb1945b9f91f1164c"
+DIGEST = "f5beba0ca7550d92066be57ce8caf37281560a3f6a71752bc1b5952702242761"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -199,8 +199,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -269,8 +269,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd
+# Equations sha256 9b160502f70f975309dbc246ffdc139ea62a7eaa723fddf3acef3ffa05563bbd
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -60,18 +60,18 @@ FUNCTIONS = (
     "turning_rate",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "angular_momentum",
     "outputs",
     "attraction_margins",
     "orbital_margins",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd"
+DIGEST = "9b160502f70f975309dbc246ffdc139ea62a7eaa723fddf3acef3ffa05563bbd"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -237,8 +237,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -326,8 +326,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 458caa19e760a15b84642fb2fda7fdcff9b573a6f125403dd073d63919372038
+# Equations sha256 d7448091495f58809fe9fa2886b021efe755453511153282cb4a82d06769b14c
 """Oblique sphere-wall doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -47,18 +47,18 @@ FUNCTIONS = (
     "resting_rates",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "effective_potential",
     "rigid_rotation",
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "458caa19e760a15b84642fb2fda7fdcff9b573a6f125403dd073d63919372038"
+DIGEST = "d7448091495f58809fe9fa2886b021efe755453511153282cb4a82d06769b14c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -135,8 +135,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -209,8 +209,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8f8f1e69f16ea3403c6ddcf3be3d996d5d5ec80fae72733563158ce398022fe8
+# Equations sha256 077ed998a1b7a91fe6fc10f3aa0fe719623a18bca11f782ff883e0db7e7499b5
 """Oblique sphere-wall doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -55,18 +55,18 @@ FUNCTIONS = (
     "resting_rates",
     "inward_force",
     "events",
-    "reversal",
+    "rebound",
     "start",
     "energies",
     "energy_rates",
-    "reversal_loss",
+    "rebound_loss",
     "outputs",
     "effective_potential",
     "rigid_rotation",
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "8f8f1e69f16ea3403c6ddcf3be3d996d5d5ec80fae72733563158ce398022fe8"
+DIGEST = "077ed998a1b7a91fe6fc10f3aa0fe719623a18bca11f782ff883e0db7e7499b5"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -154,8 +154,8 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def reversal(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues.
+def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """State just after a rebound: u -> -e_dry u, all else continues.
 
     Total operations: 2
     """
@@ -233,8 +233,8 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def reversal_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a reversal that starts from this state, over m v0^2.
+def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Energy lost in a rebound that starts from this state, over m v0^2.
 
     Total operations: 5
     """

@@ -1,4 +1,4 @@
-"""What can go wrong, as exceptions that read as one line and know their exit status."""
+"""Exceptions of the package: each prints as one line and has an exit status."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import reprlib
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
-_LONGEST = 80  # characters of an offending value that are shown
-_LONGEST_NAME = 200  # of what it was given for, which may be a file and a line
-_NEAR = 0.6  # likeness, 0 to 1, from which on a name is suggested
+_LONGEST = 80  # most characters shown of an offending value
+_LONGEST_NAME = 200  # most characters of its field, which may be a file and a line
+_NEAR = 0.6  # least similarity, 0 to 1, at which a name is suggested
 
 
 def shown(value: object) -> str:
-    """Return `value` as it would stand in a scene file, on one line and not too long."""
+    """Return `value` as in a scene file, on one line of at most 80 characters."""
     if isinstance(value, str):
-        text = '"' + repr(value[: _LONGEST + 1])[1:-1] + '"'  # repr escapes whatever would break the line
+        text = '"' + repr(value[: _LONGEST + 1])[1:-1] + '"'  # repr escapes line breaks
     elif isinstance(value, Mapping):
         text = "a table"
     else:
@@ -23,31 +23,31 @@ def shown(value: object) -> str:
 
 
 class _Short(reprlib.Repr):
-    """A representation of anything, in bounded time: not all of a long list, and of a hostile object its class."""
+    """`repr` in bounded time: long lists are shortened, objects whose own repr fails show their class."""
 
     def __init__(self) -> None:
         super().__init__()
         self.maxother = self.maxstring = self.maxlong = 2 * _LONGEST
 
     def repr_int(self, x: int, level: int) -> str:
-        """Return an integer, or how long it is: Python refuses to write out more than some thousands of digits."""
+        """Return an integer, or its length in bits: Python refuses to print more than some thousand digits."""
         return repr(x) if abs(x) < 10**_LONGEST else f"an integer of {x.bit_length()} bits"
 
 
 def cut(text: str, longest: int) -> str:
-    """Return `text`, its middle left out where it is longer."""
+    """Return `text`, with its middle replaced by `...` if it exceeds `longest` characters."""
     return text if len(text) <= longest else f"{text[: longest * 2 // 3]}...{text[-longest // 4 :]}"
 
 
 def one_line(text: str) -> str:
-    """Return `text` with whatever would break the line, or drive a terminal, escaped."""
+    """Return `text` with line breaks and control characters escaped."""
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 def nearest(word: object, known: Iterable[str]) -> str | None:
-    """Return the known name most like `word`, one that begins with it before others, or None if none is near.
+    """Return the known name most similar to `word`, preferably one that begins with it, or None if none is near.
 
-    The dashes of options do not count.
+    Leading dashes of options are ignored.
     """
     from difflib import get_close_matches
 
@@ -61,19 +61,19 @@ def nearest(word: object, known: Iterable[str]) -> str | None:
 
 
 def did_you_mean(word: object, known: Iterable[str]) -> str:
-    """Return `, did you mean NAME?` for the nearest known name, or nothing."""
+    """Return `, did you mean NAME?` for the nearest known name, or an empty text."""
     name = nearest(word, known)
     return f", did you mean {name}?" if name else ""
 
 
 class WetDoubletError(Exception):
-    """Any failure that is the user's to read: its text is one line."""
+    """Base of all failures reported to the user; the text is one line."""
 
     exit_status: ClassVar[int] = 1
 
 
 class ModelWarning(UserWarning):
-    """A law is used outside the range that it was made for; the result is what the law says there."""
+    """A law is used outside its range of validity; the result is its extrapolation."""
 
 
 class InputError(WetDoubletError, ValueError):
@@ -81,15 +81,15 @@ class InputError(WetDoubletError, ValueError):
 
     Arguments:
         field: dotted name of the scene entry, or the option (`--rtol`).
-        value: what was given; None stands for nothing at all.
-        accepted: what would have been right, in words.
-        problem: what is wrong with the value (`is not finite`).
+        value: the given value; None if it is missing.
+        accepted: the accepted values, in words.
+        problem: the fault of the value (`is not finite`).
     """
 
     exit_status = 2
 
     def __init__(self, field: str, value: Any, accepted: str, problem: str = "") -> None:
-        super().__init__(field, value, accepted, problem)  # all of them, so that it pickles
+        super().__init__(field, value, accepted, problem)  # all arguments, so that it can be pickled
         self.field = field
         self.value = value
         self.accepted = accepted
@@ -106,14 +106,14 @@ class InputError(WetDoubletError, ValueError):
 
 
 class ComputationError(WetDoubletError, RuntimeError):
-    """An integration that could not be completed, with the place where it stopped.
+    """An integration that could not be completed, with the phase, time and state where it stopped.
 
     Arguments:
-        message: what failed.
+        message: the failure.
         phase: name of the phase of the trajectory.
         time: s since initial contact.
-        state: the last state, name to SI value.
-        advice: what to try.
+        state: the last state, name -> SI value.
+        advice: a remedy to try.
     """
 
     def __init__(
@@ -141,7 +141,7 @@ class ComputationError(WetDoubletError, RuntimeError):
 
 
 class CheckFailed(WetDoubletError):
-    """A check was made and did not hold (a law, or the emitted files)."""
+    """A check failed (of a law, or of the emitted files)."""
 
     def __str__(self) -> str:
         """Return the one line."""

@@ -1,4 +1,4 @@
-"""What a run is asked to do, apart from the scene: the tolerance and the engine."""
+"""Numerical settings of a run: relative tolerance, engine and step budget."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ from .errors import InputError, did_you_mean
 from .scene.schema import Field, Range
 
 ENGINES = ("cvodes", "rosenbrock", "taylor")
-RTOL = 1e-9  # unless something else is asked for
-# What one collision may cost: steps of whichever engine, in one attempt. What they have not decided is an error that
-# says where they were spent.
+RTOL = 1e-9  # default
+# Most steps of one collision in one attempt, for every engine; beyond it a ComputationError names the phase and state.
 STEPS = 100_000
-CALL = 25  # steps that a call of an integrator counts for at least: chatter is many short ones
-FEW = 100  # collisions that are not worth a compiler
+CALL = 25  # least number of steps that an integrator call counts for; bounds chatter, which makes many short calls
+FEW = 100  # up to this many collisions, compiling the kernel does not pay
 _TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", lambda v: 1e-13 <= v <= 1e-3))
 
 
@@ -21,7 +20,7 @@ def check_rtol(rtol: object, label: str = "rtol") -> float:
 
 
 def check_engine(engine: object, label: str = "engine") -> str | None:
-    """Return the engine, None for the best there is; InputError naming `label` if there is no such engine."""
+    """Return the engine, None for the default; InputError naming `label` if it is unknown."""
     if engine is None:
         return None
     if not isinstance(engine, str) or engine not in ENGINES:
@@ -30,7 +29,7 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
 
 
 def check_plugin(engine: object, label: str = "engine") -> str | None:
-    """As `check_engine`, for what needs an integrator that CasADi can differentiate as a whole."""
+    """Return the engine as `check_engine` does, only for engines that CasADi can differentiate."""
     found = check_engine(engine, label)
     if found == "taylor":
         raise InputError(label, found, ", ".join(ENGINES[:2]), "has no derivatives of this kind")

@@ -48,7 +48,7 @@ CRITERION = [  # a row of the automaton
     (
         AUTOMATON,
         '    Criterion("rough"',
-        '    Criterion("wavy", "wavy_gap", "the gap is down to w", "reversed by w", removed_by=("waviness", 0.0)),\n{}',
+        '    Criterion("wavy", "wavy_gap", "the gap is down to w", "rebound by w", removed_by=("waviness", 0.0)),\n{}',
     )
 ]
 LAW = [  # an entry of BRIDGES, and its name among the scene's

@@ -18,7 +18,7 @@ from .base import Check
 from .certificate import least_energy, least_energy_is_a_minimum
 from .conservation import energy
 from .dimensions import dimension_checks
-from .dissipation import arms, bridge_does_work, film_dissipates, reversal_dissipates
+from .dissipation import arms, bridge_does_work, film_dissipates, rebound_dissipates
 from .emitted import emitted
 from .groups import (
     centrifugal_number,
@@ -73,7 +73,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from arms(of("arm"), of("shear"))
     yield from (film_dissipates(law) for law in films)
     yield from _once(bridge_does_work)
-    yield from _once(reversal_dissipates)
+    yield from _once(rebound_dissipates)
     yield from _once(reduced_is_full)
     yield from _once(head_on_is_oblique_at_rest)
     yield from head_on_closed_form(films)

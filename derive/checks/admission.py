@@ -17,7 +17,7 @@ from .dissipation import (
     conserves,
     film_dissipates,
     found,
-    reversal_dissipates,
+    rebound_dissipates,
     shear_dissipates,
     shear_range,
     torque,
@@ -59,7 +59,7 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
     angular momentum, if there is any, is among the invariants found; and the potential has a barrier to stay behind.
     """
     chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
-    checks = [film_dissipates(chosen["film"]), reversal_dissipates()[1]]
+    checks = [film_dissipates(chosen["film"]), rebound_dissipates()[1]]
     if structure.bridge:
         checks.append(bridge_does_work())
     if structure.strings:

@@ -185,19 +185,17 @@ def bridge_does_work() -> Check:
 
 
 @cache
-def reversal_dissipates() -> tuple[Check, ...]:
-    """A reversal takes exactly the kinetic energy it is charged with, and never gives any for 0 <= e_dry <= 1."""
+def rebound_dissipates() -> tuple[Check, ...]:
+    """A rebound takes exactly the kinetic energy it is charged with, and never gives any for 0 <= e_dry <= 1."""
     left, charged = [], sp.Integer(0)
     for structure in structures():
         model = derive(structure)
         before = model.expanded(dict(model["energies"].outputs)["kinetic"])
-        jump = {state: dict(model["reversal"].outputs)[state.name] for state in model.states}
-        charged = model.expanded(dict(model["reversal_loss"].outputs)["dry_contact"])
+        jump = {state: dict(model["rebound"].outputs)[state.name] for state in model.states}
+        charged = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
         left.append(before - before.subs(jump, simultaneous=True) - charged)
     sign = nonnegative(charged, e_dry, sp.Integer(1))
     return (
-        vanishing(
-            "reversal's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left
-        ),
-        Check("reversal dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
+        vanishing("rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left),
+        Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
     )

@@ -179,12 +179,12 @@ def wall_is_head_on() -> Check:
     beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
     rates, expected = emitted_rates(beside), emitted_rates(alone)
     left = [rates[state] - expected[state] for state in (gap, normal_velocity)]
-    for name in ("events", "inward_force", "effective_potential", "reversal", "reversal_loss"):
+    for name in ("events", "inward_force", "effective_potential", "rebound", "rebound_loss"):
         here = dict(beside[name].outputs)
         left += [beside.expanded(here[key]) - alone.expanded(value) for key, value in alone[name].outputs]
     (escape,), (kinetic,) = beside["escape_energy"].outputs, alone["energies"].outputs
     left.append(escape[1] - kinetic[1])
-    statement = "no centrifugal force is left: rates, events, reversal and stick proofs of the gap are the head-on ones"
+    statement = "no centrifugal force is left: rates, events, rebound and stick proofs of the gap are the head-on ones"
     return vanishing("wall: normal motion", statement, left)
 
 

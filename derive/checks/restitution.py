@@ -82,7 +82,7 @@ def decomposition() -> Check:
     """e_n^2 - 1 is the rotational energy released less everything that is taken, over m v0^2/2: the ledger, exactly.
 
     It holds at the start, where nothing is released or taken; the emitted equations and energy_rates keep it in
-    trajectory, the emitted jump and reversal_loss at a reversal. What is taken is the rotation's, and T's part in u is
+    trajectory, the emitted jump and rebound_loss at a rebound. What is taken is the rotation's, and T's part in u is
     e_n^2/2, at every instant.
     """
     left = []
@@ -92,8 +92,8 @@ def decomposition() -> Check:
         model = derive(structure)
         kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"])
         start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states}
-        jump = {s: dict(model["reversal"].outputs)[s.name] for s in model.states}
-        lost = model.expanded(dict(model["reversal_loss"].outputs)["dry_contact"])
+        jump = {s: dict(model["rebound"].outputs)[s.name] for s in model.states}
+        lost = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
         turning = sp.expand(kinetic - normal_velocity**2 / 2)
         released = turning.subs(start, simultaneous=True) - turning
         # opening^2 - 1 - 2 (released - taken), `taken` being the integral of energy_rates and the strings' rise

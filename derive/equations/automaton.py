@@ -64,12 +64,12 @@ class Criterion:
 # In the order in which those that already hold where a closing phase starts apply: the first reverses the motion.
 CRITERIA = (
     Criterion("glass", "glass_number", "the film pressure on the axis reaches the glass-transition pressure",
-              "reversed by the glass criterion, the liquid's own pressure", contact=False),
+              "rebound by the glass criterion, the liquid's own pressure", contact=False),
     Criterion("elastic", "elastic_gap", "the gap is down to the elastic length",
-              "reversed by the elastic criterion, the spheres' deformation", symbol="x_r",
+              "rebound by the elastic criterion, the spheres' deformation", symbol="x_r",
               removed_by=("youngs_modulus", 1e300)),
     Criterion("rough", "rough_gap", "the gap is down to the roughness",
-              "reversed by contact of the surfaces' roughness", symbol="x_b", removed_by=("roughness", 0.0)),
+              "rebound by contact of the surfaces' roughness", symbol="x_b", removed_by=("roughness", 0.0)),
 )  # fmt: skip
 CONTACTS = tuple(each for each in CRITERIA if each.contact)
 
@@ -89,7 +89,7 @@ class Word:
 
 WORDS = (
     *(Word(each.word, f"rebound: {each.meaning}") for each in CRITERIA),
-    Word("turned", "the normal velocity rises through zero, no criterion met"),
+    Word("turned", "the normal velocity rises through zero, no rebound criterion met"),
     Word("fell back", "the normal velocity falls through zero"),
     Word("film edge", "the gap passes x0"),
     Word("tangential edge", "the gap passes the reach of the tangential force"),

@@ -1,4 +1,4 @@
-"""Where a trajectory starts, the events that end its phases, and the jump at a reversal with what it costs."""
+"""Where a trajectory starts, the events that end its phases, and the jump at a rebound with what it costs."""
 
 from __future__ import annotations
 
@@ -58,11 +58,11 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
     return functions
 
 
-def reversal(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
-    """State just after a reversal by the solids: u -> -e_dry u, all else continues."""
+def rebound(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
+    """State just after a rebound: u -> -e_dry u, all else continues."""
     return {state: -e_dry * normal_velocity if state == normal_velocity else state for state in states}
 
 
-def reversal_loss() -> sp.Expr:
-    """Energy lost in a reversal, over m v0^2."""
+def rebound_loss() -> sp.Expr:
+    """Energy lost in a rebound, over m v0^2."""
     return sp.Rational(1, 2) * normal_velocity**2 * (1 - e_dry**2)

@@ -41,7 +41,7 @@ from .certificates import attraction as attraction_certificate
 from .certificates import orbital_momentum as orbital_certificate
 from .certificates.pendulum import definitions as pendulum_definitions
 from .certificates.pendulum import margins as pendulum_margins
-from .events import CONTACT_GAPS, events, reversal, reversal_loss, start
+from .events import CONTACT_GAPS, events, rebound, rebound_loss, start
 from .intermediates import intermediates
 from .invariants import Invariant, conserved_momentum
 from .observables import (
@@ -199,9 +199,9 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             tuple(events(structure).items()),
         ),
         ModelFunction(
-            "reversal",
-            "State just after a reversal by the solids: u -> -e_dry u, all else continues.",
-            of_states(reversal(states)),
+            "rebound",
+            "State just after a rebound: u -> -e_dry u, all else continues.",
+            of_states(rebound(states)),
         ),
         ModelFunction("start", "State at initial contact.", of_states(start(structure))),
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
@@ -212,9 +212,9 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             regional=True,
         ),
         ModelFunction(
-            "reversal_loss",
-            "Energy lost in a reversal that starts from this state, over m v0^2.",
-            (("dry_contact", reversal_loss()),),
+            "rebound_loss",
+            "Energy lost in a rebound that starts from this state, over m v0^2.",
+            (("dry_contact", rebound_loss()),),
         ),
     ]
     momentum = angular_momentum(structure) if structure.oblique and not structure.reduced else None

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab */
+ * Automaton sha256 0ee71c1255360de299c9194ccfc0f013b0281ebd4eeecd168622998158dc36f3 */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -22,7 +22,7 @@ enum {
     KIND_GLASS, /* rebound: the film pressure on the axis reaches the glass-transition pressure */
     KIND_ELASTIC, /* rebound: the gap is down to the elastic length */
     KIND_ROUGH, /* rebound: the gap is down to the roughness */
-    KIND_TURNED, /* the normal velocity rises through zero, no criterion met */
+    KIND_TURNED, /* the normal velocity rises through zero, no rebound criterion met */
     KIND_FELL_BACK, /* the normal velocity falls through zero */
     KIND_FILM_EDGE, /* the gap passes x0 */
     KIND_TANGENTIAL_EDGE, /* the gap passes the reach of the tangential force */

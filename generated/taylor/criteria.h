@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 aa8ce2ebee70febc1129ce318eafd5d9c1a05eab2ee3353f5a22562f0ca2acab
+ * Automaton sha256 0ee71c1255360de299c9194ccfc0f013b0281ebd4eeecd168622998158dc36f3
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 904ade93a46c49575a2a143cdcc95b2cb05508948c8c85d59ad6b9faad9cf8f3 */
+ * Equations sha256 1c2f620516f4a83b004a884b58bb3ef2dd14739463885e19f8589756a0782367 */
 
 /* Head-on doublet with a liquid bridge.
  *
@@ -214,8 +214,8 @@ static inline void start(const constants *c, vec *y)
     y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
@@ -289,8 +289,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[0] = kinetic;
 }
 
-/* Energy lost in a reversal that starts from this state, over m v0^2. */
-static inline vec reversal_loss(const constants *c, const vec *y)
+/* Energy lost in a rebound that starts from this state, over m v0^2. */
+static inline vec rebound_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];

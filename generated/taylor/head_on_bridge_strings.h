@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a */
+ * Equations sha256 8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7 */
 
 /* Head-on doublet with a liquid bridge and pendulum strings.
  *
@@ -243,8 +243,8 @@ static inline void start(const constants *c, vec *y)
     y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
@@ -340,8 +340,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[1] = strings;
 }
 
-/* Energy lost in a reversal that starts from this state, over m v0^2. */
-static inline vec reversal_loss(const constants *c, const vec *y)
+/* Energy lost in a rebound that starts from this state, over m v0^2. */
+static inline vec rebound_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 d3b3374936ef6e5dfb988abf3440299295b16bff69756a6b4154ce9295a507aa */
+ * Equations sha256 41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538 */
 
 /* Head-on doublet with pendulum strings.
  *
@@ -196,8 +196,8 @@ static inline void start(const constants *c, vec *y)
     y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
@@ -277,8 +277,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[1] = strings;
 }
 
-/* Energy lost in a reversal that starts from this state, over m v0^2. */
-static inline vec reversal_loss(const constants *c, const vec *y)
+/* Energy lost in a rebound that starts from this state, over m v0^2. */
+static inline vec rebound_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 086e9f9d9b485ca3952a69793800db1fef580b75e3d815ffd0dbff35e6c5715d */
+ * Equations sha256 0fdcd8f0c4dc0eeb109b06d826277a0a8ce316ccf4e61469c13abde36ff0e1ac */
 
 /* Oblique doublet with a film only.
  *
@@ -253,8 +253,8 @@ static inline void start(const constants *c, vec *y)
     y[SPIN] = splat(0.0);
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
@@ -400,8 +400,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[0] = kinetic;
 }
 
-/* Energy lost in a reversal that starts from this state, over m v0^2. */
-static inline vec reversal_loss(const constants *c, const vec *y)
+/* Energy lost in a rebound that starts from this state, over m v0^2. */
+static inline vec rebound_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd */
+ * Equations sha256 9b160502f70f975309dbc246ffdc139ea62a7eaa723fddf3acef3ffa05563bbd */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -357,8 +357,8 @@ static inline void start(const constants *c, vec *y)
     y[ROTATION] = splat(0.0);
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
@@ -545,8 +545,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[1] = strings;
 }
 
-/* Energy lost in a reversal that starts from this state, over m v0^2. */
-static inline vec reversal_loss(const constants *c, const vec *y)
+/* Energy lost in a rebound that starts from this state, over m v0^2. */
+static inline vec rebound_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 92a4d2622ca085d9738a66034cbb5acc3212a1f240370b64d4225047af79a249 */
+ * Equations sha256 72de48b453175062882b6a638185edcedfdfa1cc25bd27e8db44dddc379eaf52 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
@@ -201,8 +201,8 @@ static inline void start(const constants *c, vec *y)
     y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];

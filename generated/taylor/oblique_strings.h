@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 7a734b4a6c44c83ac341c55ee258725f6d23360101b9178b3d9ff58e26e79f61 */
+ * Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88 */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -307,8 +307,8 @@ static inline void start(const constants *c, vec *y)
     y[ROTATION] = splat(0.0);
 }
 
-/* State just after a reversal by the solids: u -> -e_dry u, all else continues. */
-static inline void reversal(const constants *c, const vec *y, vec *after)
+/* State just after a rebound: u -> -e_dry u, all else continues. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
     vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
@@ -442,8 +442,8 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[1] = strings;
 }
 
-/* Energy lost in a reversal that starts from this state, over m v0^2. */
-static inline vec reversal_loss(const constants *c, const vec *y)
+/* Energy lost in a rebound that starts from this state, over m v0^2. */
+static inline vec rebound_loss(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];

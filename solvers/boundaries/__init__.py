@@ -1,1 +1,1 @@
-"""Where the outcome changes: lines, curves and atlases."""
+"""Boundaries, where the outcome changes: on lines, as curves and as atlases."""

@@ -1,4 +1,4 @@
-"""Curves as they are shown: split at folds into parts that go one way in x, and drawn finely enough."""
+"""Splitting of curves at folds into arcs with monotonic x, and their refinement."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ import numpy as np
 from .continuation import crossings
 from .plane import Plane
 
-CHORD = 2e-5  # of the window: how far a curve may lie from the straight lines between its points
+CHORD = 2e-5  # largest distance of a curve from its chords, relative to the window
 _ROUNDS = 4
-_FLAT = 1e-9  # change of x that is rounding
-_ZOOMS = (1.0, 0.3, 0.1)  # parts of the surroundings of a fold on which it is located
+_FLAT = 1e-9  # changes of x below this are rounding
+_ZOOMS = (1.0, 0.3, 0.1)  # subdivisions of the neighbourhood of a fold
 
 
 @dataclass
 class Arc:
-    """Points of the unit square along a curve, and the labels on its right and on its left."""
+    """Points of the unit square along a curve, and the labels to its right and left."""
 
     points: np.ndarray
     right: int
     left: int
 
     def reversed(self) -> Arc:
-        """The same the other way."""
+        """The arc in the opposite direction."""
         return Arc(self.points[::-1], self.left, self.right)
 
 
 def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
-    """The parts of a curve between its folds, each with x ascending, and the folds."""
+    """The arcs of a curve between its folds, each with x ascending, and the folds."""
     points, last = arc.points, len(arc.points) - 1
     closed = last > 3 and bool(np.all(points[0] == points[-1]))
-    if closed:  # begin at a fold
+    if closed:  # start at a fold
         points = np.roll(points[:-1], -int(np.argmax(points[:-1, 0])), axis=0)
         points = np.vstack([points, points[:1]])
     turns = _turns(points[:, 0])
@@ -51,7 +51,7 @@ def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
 
 
 def _ascending(arc: Arc) -> Arc:
-    """Without points that do not lie between the ends, or behind the one before them."""
+    """The points without those outside the ends or not beyond their predecessor in x."""
     x = arc.points[:, 0]
     highest = np.maximum.accumulate(x)
     kept = np.concatenate([[True], x[1:] > highest[:-1]]) & (x < x[-1])
@@ -60,7 +60,7 @@ def _ascending(arc: Arc) -> Arc:
 
 
 def _turns(x: np.ndarray) -> list[int]:
-    """Where x turns by more than rounding."""
+    """Indices at which x reverses by more than rounding."""
     found, way, extreme = [], 0, 0
     for k in range(1, x.size):
         if way == 0:
@@ -75,12 +75,12 @@ def _turns(x: np.ndarray) -> list[int]:
 
 
 def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
-    """The turning point of x about the middle one of three points, from places where horizontals cross the curve."""
+    """The extremum of x near the middle of three points, from crossings of horizontal lines with the curve."""
     place: np.ndarray = near[1]
     half = 0.5 * abs(near[2, 1] - near[0, 1])
     low, high = (arc.left, arc.right) if near[2, 1] > near[0, 1] else (arc.right, arc.left)
     if half < 1e-9:
-        return place  # a cusp, or its like
+        return place  # a cusp or similar
     for zoom in _ZOOMS:
         heights = np.clip(place[1] + zoom * half * np.linspace(-1, 1, 7), 0, 1)
         reach = max(1e-7, 2 * float(np.ptp(near[:, 0])))
@@ -102,10 +102,10 @@ def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
 
 
 def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]:
-    """The same curves with more points where the straight lines between them leave the curve.
+    """The curves with more points where chords deviate from the curve.
 
     Arguments:
-        ascending: x stays so.
+        ascending: keep x ascending.
     """
     for _ in range(_ROUNDS):
         chords = [(k, j) for k, arc in enumerate(arcs) for j in _coarse(arc.points)]
@@ -123,7 +123,7 @@ def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]
 
 
 def _coarse(points: np.ndarray) -> list[int]:
-    """The chords that lie farther from the curve than CHORD, as the turning of the polyline shows."""
+    """Indices of chords farther from the curve than CHORD, estimated from the turning angles of the polyline."""
     way = np.diff(points, axis=0)
     length = np.linalg.norm(way, axis=1)
     heading = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))

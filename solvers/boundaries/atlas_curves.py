@@ -1,7 +1,7 @@
-"""All curves between outcomes in a plane of an entry and the Stokes number, and where they meet: sought and settled.
+"""All boundaries in a plane of an entry and the Stokes number, and their meeting points: search and verification.
 
-The curves are sought from a lattice of collisions and from seed lines (`trace`), followed (`survey`, `continuation`),
-named (`atlas_points`), and held against the lines, the lattice and random collisions.
+The search starts from a lattice of collisions and from seed lines (`trace`). Curves are followed (`survey`,
+`continuation`), classified (`atlas_points`), and compared with the lines, the lattice and random collisions.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 
 LINES = 33
-# Columns and rows of the lattice, and random collisions that are held against the regions; and where every collision is
-# integrated one by one.
+# Columns and rows of the lattice, and number of random collisions for verification; with the kernel, and where
+# collisions are integrated one by one.
 BY_KERNEL, BY_ROSENBROCK = (*LATTICE, 4096), (17, 49, 256)
-_ROUNDS = 3  # in which what does not agree is looked at more closely
-_FINER_ROWS, _MORE = 769, 12  # of a column through a collision that does not agree; most of those columns a round
-_AGREES = 1e-6  # in ln St: a line and a curve
-_ROUGHLY = 50 * CHORD  # of the window: a curve near a vertical tangent, and a line
-_NEAR = 2 * CHORD  # of the window: closer to a curve nothing is said
+_ROUNDS = 3  # rounds of refinement where results disagree
+_FINER_ROWS, _MORE = 769, 12  # rows of a column through a collision that disagrees; most columns per round
+_AGREES = 1e-6  # tolerance in ln St between a line and a curve
+_ROUGHLY = 50 * CHORD  # the same near a vertical tangent, relative to the window
+_NEAR = 2 * CHORD  # collisions closer to a curve are not compared, relative to the window
 
 
 def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Curves:
-    """The boundaries of a plane, sought from a lattice of collisions and from `lines` seed lines."""
+    """The boundaries of a plane, found from a lattice of collisions and `lines` seed lines."""
     at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
     x = np.linspace(*plane.span, lines)
     traced = _lines(plane, x, tell)
@@ -44,7 +44,7 @@ def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Cur
 
 
 def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Traced:
-    """The seed lines."""
+    """The changes of outcome on the seed lines."""
     if plane.over == ANGLE:
         return trace(plane.scene, x, plane.stokes, plane.rtol, lambda done: tell(done, x.size))
     whole = Traced([], [], 0, 0.0)
@@ -68,7 +68,7 @@ def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarr
 
 
 def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Curves:
-    """The atlas of a survey, after what does not agree with it has been looked at more closely."""
+    """The verified boundaries of a survey, after refinement where collisions disagree with it."""
     random = np.random.default_rng(20121).random(((BY_KERNEL if plane.kernel else BY_ROSENBROCK)[2], 2))
     points = np.vstack([at.reshape(-1, 2), random])
     outcomes = np.concatenate([labels.ravel(), plane.seen(random, most=0)[0]])
@@ -100,7 +100,7 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
 
 
 def _known_along(plane: Plane, points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
-    """Outcomes at points, those that are not known (-1) asked for once more; ComputationError where that fails."""
+    """Outcomes at points, unknown ones (-1) computed once more; ComputationError where that fails."""
     found = outcomes.copy()
     for k in np.flatnonzero(found < 0).tolist():
         found[k] = plane.seen(points[k : k + 1], most=1)[0][0]
@@ -114,14 +114,14 @@ def _known_along(plane: Plane, points: np.ndarray, outcomes: np.ndarray) -> np.n
 
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
-    """Which collisions have another outcome than their region, and are not beside a curve."""
+    """Indices of collisions whose outcome differs from their region's, except close to a curve."""
     says, _ = labelled(regions, points)
     differ = np.flatnonzero((says != outcomes) & (outcomes >= 0))
     return differ[apart(arcs, points[differ]) > _NEAR]
 
 
 def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """A few of them, spread in x."""
+    """A few of the indices, spread in x."""
     if wrong.size <= _MORE:
         return wrong
     ordered = wrong[np.argsort(points[wrong, 0], kind="stable")]
@@ -130,7 +130,7 @@ def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced) -> list[tuple[np.ndarray, str]]:
-    """Where a line and the curves do not agree."""
+    """Places where a line and the curves disagree."""
     found: list[tuple[np.ndarray, str]] = []
     for at, line, failure in zip(x.tolist(), traced.changes, traced.failures, strict=True):
         across = float(plane.points(np.array([at]), np.array([plane.stokes[0]]))[0, 0])
@@ -156,7 +156,7 @@ def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced)
 
 
 def _apart(plane: Plane, changes: list[tuple[np.ndarray, Change]]) -> list[tuple[np.ndarray, str]]:
-    """Changes on a line that do not lie where collisions change their outcome."""
+    """Changes on a line without a change of outcome of collisions at that place."""
     if not changes:
         return []
     places = np.array([place for place, _ in changes])
@@ -176,7 +176,7 @@ def _beside(far: float) -> str:
 
 
 def _is(change: Change, at: np.ndarray, place: tuple[float, str, str]) -> bool:
-    """Whether a change on a line is where a curve passes; straight lines between its points are less exact."""
+    """True if a change on a line lies on a curve, within the error of the curve's chords."""
     return place[1:] == (change.before, change.after) and abs(place[0] - at[1]) < _ROUGHLY
 
 

@@ -1,4 +1,4 @@
-"""What happens along the curves of a plane, and the names of the points at which that changes."""
+"""Kinds of change along the curves of a plane, and classification of the points where the kind changes."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ from .survey import Meeting
 TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
 CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"
 CRITICAL = "St* meets Ce*"
-BESIDE = 1e-8  # of the window: distance from a curve at which collisions say what happens there
-_AT = 1e-9  # of the window: two places that are one
-_PARTS, _NARROWED = 16, 6  # places between two where a change along a curve is looked for, and how often
-_LOOKS = 9  # places along a curve at which its barrier is looked at
-_STRAIGHT = 0.02  # rad: a curve that turns by less where its following was interrupted goes on
-_NONE = -9  # nothing is known
+BESIDE = 1e-8  # distance from a curve of the collisions that determine its kind, relative to the window
+_AT = 1e-9  # places closer than this are identical, relative to the window
+_PARTS, _NARROWED = 16, 6  # places between two, and rounds, to locate a change of kind along a curve
+_LOOKS = 9  # places along a curve at which the barrier is computed
+_STRAIGHT = 0.02  # rad; a curve that turns by less at an interruption is continued
+_NONE = -9  # unknown
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """A part of a curve along which the same thing happens.
+    """A part of a curve with one kind of change.
 
     Arguments:
         arc: with x ascending.
-        kind: as of a `Change`.
+        kind: as in `Change`.
         criterion: the rebound criterion that is met beyond it, -1 for none.
     """
 
@@ -47,7 +47,7 @@ class Stretch:
 
 
 def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tuple[str, np.ndarray]]]:
-    """The curves cut where what happens changes, and these places by their names."""
+    """The curves split where the kind changes, and these places with their names."""
     found: list[Stretch] = []
     points: list[tuple[str, np.ndarray]] = []
     for arc in arcs:
@@ -61,7 +61,7 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
 
 
 def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
-    """What happens at places on a curve, as numbers: the kind of change, and the criterion."""
+    """Codes of the kind of change and the criterion at places on a curve."""
     if 2 not in (arc.right, arc.left):
         return np.zeros(len(at), dtype=int)
     aside = BESIDE * _normals(arc, at) * (1 if arc.left == 2 else -1)
@@ -92,7 +92,7 @@ def _normals(arc: Arc, at: np.ndarray) -> np.ndarray:
 
 
 def _filled(codes: np.ndarray) -> np.ndarray:
-    """Codes that are not known as those of the nearest that are."""
+    """Codes with unknown ones replaced by the nearest known ones."""
     known = np.flatnonzero(codes != _NONE)
     if not known.size:
         return np.zeros_like(codes)
@@ -107,7 +107,7 @@ def _cut(
     codes: np.ndarray,
     points: list[tuple[str, np.ndarray]],
 ) -> list[tuple[Arc, int]]:
-    """A curve in parts of one code each; where they meet is located and named."""
+    """A curve split into parts of one code each; the places between them are located and named."""
     parts, first, begin = [], 0, arc.points[0]
     for k in np.flatnonzero(np.diff(codes)).tolist():
         place = _located(plane, arc, k, int(codes[k]))
@@ -119,7 +119,7 @@ def _cut(
 
 
 def _located(plane: Plane, arc: Arc, k: int, before: int) -> np.ndarray:
-    """Where the code ceases to be `before`, between two points of a curve."""
+    """Place between two points of a curve where the code ceases to be `before`."""
     one, other = arc.points[k], arc.points[k + 1]
     for _ in range(_NARROWED):
         places = _between(plane, arc, one, other, _PARTS)
@@ -154,7 +154,7 @@ def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: 
 
 
 def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:
-    """An escape cut where the barrier that is passed comes to lie at the rupture gap."""
+    """An escape boundary split where the barrier reaches the rupture gap."""
     arc = stretch.arc
     if stretch.kind == GRAZE or plane.scene.bridge is None:
         return [stretch]
@@ -183,11 +183,11 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
     return [stretch]
 
 
-def _passes_saddle(plane: Plane, place: np.ndarray, reversed_: bool) -> bool | None:
-    """Whether an escape passes a barrier inside the rupture gap; None where that is not known."""
+def _passes_saddle(plane: Plane, place: np.ndarray, rebound: bool) -> bool | None:
+    """True if an escape passes a barrier below the rupture gap; None if unknown."""
     scene, angle = plane.scene_at(float(plane.x(place)))
     n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
-    groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
+    groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
     try:
         probe = UnstoppedTrajectory(load(select_model(scene, n.oblique)), groups, plane.rtol)
         probe.run()
@@ -200,7 +200,7 @@ def _passes_saddle(plane: Plane, place: np.ndarray, reversed_: bool) -> bool | N
 def named(
     plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]
 ) -> tuple[list[Stretch], list[tuple[str, np.ndarray]]]:
-    """The meeting points by their names; curves that only seemed to end go on."""
+    """The classified meeting points; curves interrupted without a change are joined."""
     points = []
     for one in meetings:
         outcomes = {label for branch in one.leaving for label in (branch.right, branch.left)}
@@ -215,7 +215,7 @@ def named(
 
 
 def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
-    """What changes where two curves meet; they are one if nothing does."""
+    """Name of the change where two curves meet; they are joined if there is none."""
     ending = [one for one in parts if _touches(one.arc, point.place)]
     if len(ending) != 2:
         return parts, CORNER
@@ -243,7 +243,7 @@ def _touches(arc: Arc, place: np.ndarray) -> bool:
 
 
 def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:
-    """Whether the boundary of sticking below bouncing goes from a point down to the lowest angle.
+    """True if the boundary between stick and bounce extends from a point to the lowest angle.
 
     There it is the critical Stokes number of head-on collisions.
     """

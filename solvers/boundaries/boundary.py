@@ -25,9 +25,9 @@ from .trace import Traced, traces
 if TYPE_CHECKING:
     import xarray
 
-_LARGEST = 1e30  # Stokes number, and its inverse the least
-_WORTH, _WORTH_BY_KERNEL = 4, 100  # angles that are worth starting a process for
-_MOST = 10_000  # lines
+_LARGEST = 1e30  # largest Stokes number; its inverse is the smallest
+_WORTH, _WORTH_BY_KERNEL = 4, 100  # fewest angles for which starting a process pays
+_MOST = 10_000  # most lines
 
 
 @dataclass(frozen=True)
@@ -35,13 +35,13 @@ class Boundaries(Lines):
     """Changes of outcome for each angle, as `boundary` returns them; its attributes are those of `Lines`."""
 
     def to_dataset(self) -> xarray.Dataset:
-        """Labelled, units in attributes: over `line` and `change`, padded with NaN (see docs/results.md)."""
+        """Dataset over `line` and `change`, with units in attributes, padded with NaN (see docs/results.md)."""
         from .labelled import dataset
 
         return dataset(self)
 
     def plot(self, file: str | FilePath) -> None:
-        """Draw a picture (.png, .pdf or .svg): the regions of each outcome, the curves and where they meet."""
+        """Draw a figure (.png, .pdf or .svg): the regions of each outcome, the curves and their meeting points."""
         from .plot import plot
 
         plot(self, file)
@@ -73,7 +73,7 @@ def boundary(
         Boundaries, in the order of the angles given.
 
     Raises:
-        InputError: an angle or Stokes number that cannot be. A line that fails is no error, it is marked.
+        InputError: an invalid angle or Stokes number. A line that fails raises nothing; it is marked.
 
     Example:
         >>> from wetdoublet.solvers import boundary
@@ -122,24 +122,24 @@ def atlas(
 ) -> Atlas:
     """All boundaries between outcomes in the plane of an entry of the scene and the Stokes number.
 
-    Every curve is followed by its collisions: it is a change of outcome everywhere, up to the edge of the window, back
-    to its start, or to a point where others meet it. What is sought from is stated in the result: islands smaller than
-    the lattice, and narrower on every line than it can see, are not found.
+    Every curve is followed by collisions on both sides: up to the edge of the window, back to its start, or to a point
+    where it meets others. The result states the resolution of the search: islands smaller than the lattice spacing and
+    narrower on every line than its resolution are not found.
 
     Arguments:
         scene: a Scene, a path or a preset's name.
-        over: dotted name of the entry across: the impact's angle, or a number of the scene at the scene's angle.
+        over: dotted name of the entry on the x axis: the impact angle, or a numeric entry at the scene's angle.
         span: its lowest and highest value, SI (rad) or text with a unit.
         stokes: lowest and highest Stokes number.
-        lines: how many lines of constant x are traced as well, both edges included.
+        lines: number of lines of constant x to trace as well, including both edges.
         rtol: relative tolerance of the integrations.
-        progress: told of (lines traced, lines in all).
+        progress: called with (lines traced, lines in all).
 
     Returns:
-        Atlas: `curves` (x and St, outcomes below and above), `points` (where they meet), the lines.
+        Atlas: `curves` (x and St, outcomes below and above), meeting `points`, and the lines.
 
     Raises:
-        InputError: a name, span or number that cannot be. What cannot be settled is no error, it is in `unsettled`.
+        InputError: an invalid name, span or number. Unresolved places raise nothing; they are in `unsettled`.
 
     Example:
         >>> from wetdoublet.solvers import atlas

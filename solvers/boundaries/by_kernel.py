@@ -1,6 +1,6 @@
-"""What boundaries ask of collisions, by the kernel: outcomes and margins of many, the approach and the escape of one.
+"""Collisions for boundaries by the kernel: outcomes and margins of many, the approach and the escape of one.
 
-`approach` and `escaping` return None where the kernel hands a collision over; all do where there is no kernel.
+`approach` and `escaping` return None where the kernel does not complete a collision; all return None without a kernel.
 """
 
 from __future__ import annotations
@@ -18,40 +18,40 @@ from ..model.dimensionless import DimensionlessGroups
 from ..model.model import select_model
 from ..scene.scene import Scene
 
-_APPROACH_BUDGET = 2000  # steps: an approach that the film stops creeps for ever
-LOOK_BUDGET = 20_000  # steps of a collision that is looked at: nearer to a separatrix it is not looked at
-_PARTS = np.linspace(0, 1, 5)  # of a step, at which a trajectory is looked at
-_FINER = 12  # parts of the surroundings of a maximum, again and again
+_APPROACH_BUDGET = 2000  # steps; an approach stopped by the film creeps indefinitely
+LOOK_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
+_PARTS = np.linspace(0, 1, 5)  # parts of a step at which a trajectory is sampled
+_FINER = 12  # subdivisions, in each round, of the neighbourhood of a maximum
 _ZOOMS = 4
-_EARLIER = 5  # the last state of chatter is compared with that after one in so many of its steps
+_EARLIER = 5  # the last state of chatter is compared with the state after this fraction (1/n) of its steps
 
 
 LOOK = np.dtype(
     [
-        ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 handed over
-        ("creeps", "?"),  # handed over because its steps were spent on few events
-        ("chatters", "?"),  # ... or on many
+        ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 not completed by the kernel
+        ("creeps", "?"),  # step budget exhausted after few events
+        ("chatters", "?"),  # step budget exhausted after many events
         ("reversal", "i1"),  # the first criterion met, in the order glass, elastic, rough; -1 for none
         ("at_touch", "?"),  # decided at initial contact
-        ("events", "i4"),  # how many
+        ("events", "i4"),  # number of events
         ("restitution", "f8"),
-        ("time", "f8"),  # of the end, x0/v0
+        ("time", "f8"),  # end time, x0/v0
         ("smallest_gap", "f8"),  # x0
         ("final_gap", "f8"),  # x0
         ("glass", "f8"),  # largest margin of the glass criterion while closing; -inf where none is known
     ]
 )
-"""What is kept of a collision that is looked at."""
+"""Record of a sampled collision."""
 
 
 @dataclass(frozen=True)
 class Escaping:
-    """A trajectory to where it separates, falls back or rests.
+    """A trajectory until it separates, falls back or rests.
 
     Attributes:
-        decided: the trajectory has come to its end; else it has spent its steps.
+        decided: the trajectory has reached its end; else its step budget is exhausted.
         end: the last state.
-        times, states: of the trajectory, states as columns; phases that end at rest in the gap only by their ends.
+        times, states: samples, states as columns; phases that end at rest in the gap only by their ends.
     """
 
     decided: bool
@@ -71,10 +71,10 @@ def looked(
     solids: Mapping[str, np.ndarray] | None = None,
     budget: int = LOOK_BUDGET,
 ) -> np.ndarray | None:
-    """An array of LOOK: collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
+    """An array of LOOK for collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
 
     Arguments:
-        solids: quantities in SI that say what the solids do, instead of the scene's.
+        solids: SI quantities of the rebound criteria that replace the scene's.
     """
     found = np.zeros(speed.size, LOOK)
     for oblique in (True, False):
@@ -109,13 +109,13 @@ def looked(
 def _take_limits(
     part: np.ndarray, impacts: Impacts, answers: np.ndarray, oblique: bool, rtol: float, budget: int
 ) -> None:
-    """Outcomes of doublets that have circled in and out of their film until their steps were spent, in the limit."""
+    """Fill in the limit outcomes of doublets that entered and left their film until the step budget was exhausted."""
     endless = np.flatnonzero(part["chatters"])
     if not endless.size:
         return
     those = impacts.part(endless)
     before = run_recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
-    assert before is not None  # the kernel is there
+    assert before is not None  # the kernel is available
     choice = select_model(impacts.scene, oblique, fold=False)
     held = limits(before.answers, answers[endless], impacts.scene, those.speed, those.angle, choice, rtol)
     for k, stays in zip(endless.tolist(), held, strict=True):
@@ -137,10 +137,10 @@ def approach(
     """Largest pressure and smallest gap (x0) of an approach.
 
     Arguments:
-        solids: quantities in SI that say what the solids do, instead of the scene's.
-        states: how many of the series are the model's own.
-        pressure: of states, as columns.
-        creeping: an approach that has spent its steps has been stopped if it is slower than this (v0).
+        solids: SI quantities of the rebound criteria that replace the scene's.
+        states: number of series that are states of the model.
+        pressure: function of states, as columns.
+        creeping: speed (v0) below which an approach that exhausted its steps counts as stopped.
     """
     told = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
     if told is None or told.steps is None or not told.steps.rows.size:
@@ -157,7 +157,7 @@ def approach(
     def at(times: np.ndarray) -> np.ndarray:
         return pressure(steps.states(times)[:states])
 
-    times, y = steps.within(_PARTS[:-1])  # no time twice: a maximum lies between its neighbours
+    times, y = steps.within(_PARTS[:-1])  # drop repeated times, so that a maximum lies between its neighbours
     times, values = np.append(times, end), pressure(np.column_stack([y, last])[:states])
     for _ in range(_ZOOMS):
         top = int(np.argmax(values))
@@ -169,11 +169,11 @@ def approach(
 def escaping(
     scene: Scene, n: DimensionlessGroups, rtol: float, solids: dict[str, float], start: np.ndarray, budget: int
 ) -> Escaping | None:
-    """A trajectory that goes on until it separates, falls back or rests; proved a stick only while it approaches.
+    """A trajectory until it separates, falls back or rests; certificates end it only while it approaches.
 
     Arguments:
         start: the model's states at initial contact.
-        budget: steps.
+        budget: largest number of steps.
     """
     told = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
     if told is None or told.steps is None or told.answers["status"][0] > Status.NO_BUDGET:
@@ -188,7 +188,7 @@ def escaping(
         end[1] = answer["shown"][0] if separated else end[1]
         return Escaping(decided, separated, fell_back, end, np.zeros(1), start[:, None])
     ends = rows["time"] + rows["length"]
-    # phases that end at rest in the gap, by the times at which they do
+    # end times of phases that end at rest in the gap
     turns = happened["time"][np.isin(happened["kind"], (EventKind.TURNED, EventKind.FELL_BACK))]
     lasts = np.append(np.flatnonzero(np.diff(rows["phase"])), rows.size - 1)
     resting_end = dict(zip(rows["phase"][lasts].tolist(), np.isin(ends[lasts], turns).tolist(), strict=True))
@@ -204,7 +204,7 @@ def escaping(
 
 
 def _summit(at: np.ndarray, values: np.ndarray) -> float:
-    """The largest of values on an even grid, by the parabola through it and its neighbours."""
+    """The maximum of values on an even grid, by a parabola through the largest and its neighbours."""
     top = int(np.argmax(values))
     if top in (0, at.size - 1):
         return float(values[top])

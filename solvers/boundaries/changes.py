@@ -1,4 +1,4 @@
-"""Changes of outcome along a line of constant angle: enclosed by samples, located, and accepted if collisions agree."""
+"""Changes of outcome along a line of constant angle: bracketed by samples, located, and confirmed by collisions."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from .look import Look
 from .roots import Function, root, sample
 from .samples import known
 
-# What happens at a change: a criterion is just met; a doublet begins to escape, not reversed or reversed; other.
+# Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
-MERGED = 1e-8  # relative: changes closer than this are one
-_BESIDE = 1e-9  # relative distance at which the two sides of a graze are looked at
-_ACCEPTED = 1e-6  # relative distance at which collisions must agree with a change
-_LOCATED = 1e-8  # and at which they must with one that a smooth function has located, or outcomes enclose it anew
-_NARROW = 2e-9  # width in ln St to which outcomes enclose a change
-_ROUNDS = 16  # of dividing brackets; four do where every collision is decided
-_PARTS = 16  # into which a bracket is divided, again and again
+MERGED = 1e-8  # relative distance below which changes are merged
+_BESIDE = 1e-9  # relative distance at which both sides of a graze are computed
+_ACCEPTED = 1e-6  # relative distance at which collisions must confirm a change
+_LOCATED = 1e-8  # the same for one located by a smooth function; otherwise it is bracketed again by outcomes
+_NARROW = 2e-9  # width in ln St to which outcomes bracket a change
+_ROUNDS = 16  # rounds of dividing brackets; four suffice where every collision is decided
+_PARTS = 16  # subdivisions of a bracket in each round
 
 
 @dataclass(frozen=True)
 class Change:
-    """A change of outcome at a Stokes number, going up. Ce is None without a bridge.
+    """A change of outcome at a Stokes number, from below to above. Ce is None without a bridge.
 
     Attributes:
         kind: "graze" (a rebound criterion is just met), "escape" or "escape reversed" (a doublet begins to separate,
             without and with a rebound), "plain" (located by outcomes alone).
-        merged: it stands for several changes closer than 1e-8.
+        merged: True if it stands for several changes closer than 1e-8.
     """
 
     stokes: float
@@ -44,7 +44,7 @@ class Change:
     merged: bool = False
 
     def to_dict(self) -> dict[str, float | str | None]:
-        """As in the JSON object of `wetdoublet boundary`."""
+        """The change as in the JSON object of `wetdoublet boundary`."""
         return {"stokes": self.stokes, "centrifugal": self.centrifugal, "from": self.before, "to": self.after}
 
 
@@ -64,13 +64,13 @@ class _Bracket:
 
 
 def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]:
-    """All changes between neighbouring samples of a line, each confirmed by collisions on either side.
+    """All changes between neighbouring samples of a line, each confirmed by collisions on both sides.
 
-    The kernel encloses them by outcomes; what it hands over, and all without a kernel, by functions that are smooth
-    through a change, or by Rosenbrock's outcomes.
+    The kernel brackets them by outcomes. Where it does not complete collisions, or without a kernel, they are located
+    by functions that are smooth through a change, or bracketed by Rosenbrock's outcomes.
 
     Raises:
-        ComputationError: a change that could not be located, or that collisions beside it deny.
+        ComputationError: a change could not be located, or is contradicted by collisions beside it.
     """
     samples = known(samples)
     brackets = [_bracket(low, high) for low, high in pairwise(samples) if low["outcome"] != high["outcome"]]
@@ -99,7 +99,7 @@ def _bracket(low: np.void, high: np.void) -> _Bracket:
 
 
 def _located(line: Line, bracket: _Bracket) -> list[Change]:
-    """Changes within a bracket by the functions that are smooth through them; none where they do not show."""
+    """Changes within a bracket, located by smooth functions; empty if these show none."""
     try:
         found = _smooth(line, bracket.low, bracket.high, bracket.before, bracket.after)
     except ComputationError:
@@ -147,7 +147,7 @@ def _outcome(line: Line, stokes: float, met: bool) -> str:
 
 
 def _signed_root(function: Function, low: float, high: float, rises: bool) -> float | None:
-    """The root of a function that changes its sign, upwards or downwards; None where it does not."""
+    """The root of a function with a change of sign in either direction; None without one."""
 
     def upwards(stokes: float) -> tuple[bool, float | None]:
         positive, value = function(stokes)
@@ -167,16 +167,16 @@ def _criterion(line: Line) -> Function:
     return function
 
 
-def _escaping(line: Line, reversed_: bool) -> Function:
+def _escaping(line: Line, rebound: bool) -> Function:
     def function(stokes: float) -> tuple[bool, float | None]:
-        found = line.escape(stokes, reversed_)
+        found = line.escape(stokes, rebound)
         return found.separates, found.value
 
     return function
 
 
 def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: float) -> list[bool]:
-    """Whether collisions at a relative distance below and above each group's changes have their outcomes."""
+    """For each group of changes, True if collisions at a relative distance below and above have the right outcomes."""
     stokes = np.array([one.stokes for group in groups for one in group])
     if not stokes.size:
         return [bool(group) for group in groups]
@@ -190,7 +190,7 @@ def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: flo
     for group in groups:
         own = range(k, k + len(group))
         k += len(group)
-        # between changes that are merged there is no place to look
+        # no room for a collision between merged changes
         below_fits = [narrow[j] or seen[j] == OUTCOMES.index(one.before) for j, one in zip(own, group)]
         above_fits = [narrow[j + 1] or seen[j + size] == OUTCOMES.index(one.after) for j, one in zip(own, group)]
         agrees.append(bool(group) and all(below_fits) and all(above_fits))
@@ -201,10 +201,10 @@ def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: boo
     """Refine all brackets together by outcomes until each is narrower than _NARROW in ln St.
 
     Arguments:
-        kernel_only: a bracket in which the kernel decides no collision has no changes here.
+        kernel_only: return no changes for a bracket in which the kernel decides no collision.
 
     Raises:
-        ComputationError: a bracket in which no collision could be decided.
+        ComputationError: no collision in a bracket could be decided.
     """
     open_ = list(enumerate(brackets))
     closed: list[list[_Bracket]] = [[] for _ in brackets]
@@ -220,7 +220,7 @@ def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: boo
             usable = own["outcome"] >= 0
             if usable.any():
                 narrower += [(k, each) for each in _parts_of(one, grid[usable], own[usable])]
-            elif one.width < MERGED:  # a band within the error of collisions
+            elif one.width < MERGED:  # a band narrower than the error of collisions
                 closed[k].append(one)
             elif kernel_only:
                 undecided.add(k)
@@ -242,7 +242,7 @@ def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: boo
 
 
 def _parts_of(bracket: _Bracket, grid: np.ndarray, seen: np.ndarray) -> list[_Bracket]:
-    """The narrower brackets that collisions within one show."""
+    """The narrower brackets given by collisions within one."""
     at = [bracket.low, *grid.tolist(), bracket.high]
     outcomes = [bracket.before, *(OUTCOMES[k] for k in seen["outcome"]), bracket.after]
     met = [bracket.met[0], *seen["reversal"].tolist(), bracket.met[1]]
@@ -258,7 +258,7 @@ def _enclosed_change(line: Line, one: _Bracket) -> Change:
 
 
 def _kind(line: Line, one: _Bracket) -> str:
-    """What happens at a change that is enclosed narrowly."""
+    """Kind of a change from its narrow bracket."""
     if STICK not in (one.before, one.after):
         return GRAZE
     stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
@@ -269,7 +269,7 @@ def _kind(line: Line, one: _Bracket) -> str:
 
 
 def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
-    """Every sample has the outcome that the changes below it say; ComputationError if one has not."""
+    """Raise ComputationError unless every sample has the outcome implied by the changes below it."""
     at = np.array([one.stokes for one in changes])
     where = np.searchsorted(at, samples["stokes"])
     first = changes[0].before if changes else OUTCOMES[samples["outcome"][0]]
@@ -280,7 +280,7 @@ def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
 
 
 def _merged(changes: list[Change]) -> list[Change]:
-    """Changes closer than MERGED as one; none where the outcome comes back."""
+    """Changes with those closer than MERGED combined; none where the outcome returns to the first."""
     found: list[Change] = []
     for one in changes:
         if found and one.stokes < found[-1].stokes * (1 + MERGED):

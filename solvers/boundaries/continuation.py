@@ -1,8 +1,8 @@
 """Curves between labelled regions of the unit square, followed by pseudo-arclength continuation.
 
-A region is known by its label at points. A curve is where two labels meet: the corrector of a step finds the place on
-the normal of the predicted tangent where one label gives way to the other, by batches of points that narrow it by a
-factor of seventeen. So a point that is found is a change of label, and the curve ends where it ceases to be one.
+Regions are given by their labels at points, and a curve separates two labels. The corrector of a step searches the
+normal of the predicted tangent for the change of label, by batches of points that narrow it by a factor of 17 each. So
+every point of a curve is a change of label, and the curve ends where there is no such change.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ import numpy as np
 Labels = Callable[[np.ndarray], np.ndarray]
 """Points (n x 2) of the unit square -> whole numbers, -1 where the label is not known."""
 
-LOCATED = 2e-11  # width of the interval in which a change of label is enclosed
-SHORTEST = 1e-6  # step below which a curve is lost
-CIRCLE = 1e-5  # radius about a point in which the curves that leave it are sought
-_DOUBT = 1e-8  # width of an interval without a known label that is still a location
-_PARTS = 17  # into which an interval is divided
-_FIRST = np.geomspace(1e-6, 1.0, 13)  # distances from the prediction that are looked at first, of the reach
-_REACH = 0.35  # of the step: how far from the prediction a curve is sought
-_TURN, _AIM = 0.3, 0.1  # rad: the most that a step may turn, and what is aimed at
-_AROUND, _AHEAD = 768, 256  # points on a circle, and more of them about a direction
-_MOST = 20_000  # points of a curve
+LOCATED = 2e-11  # width of the interval that brackets a change of label
+SHORTEST = 1e-6  # smallest step; below it a curve is lost
+CIRCLE = 1e-5  # radius of the circle about a point on which its curves are searched
+_DOUBT = 1e-8  # largest width of an interval without known labels that still locates a change
+_PARTS = 17  # subdivisions of an interval
+_FIRST = np.geomspace(1e-6, 1.0, 13)  # distances from the prediction that are tried first, relative to the reach
+_REACH = 0.35  # reach of the search from the prediction, relative to the step
+_TURN, _AIM = 0.3, 0.1  # rad; largest turn of a step, and target of the step control
+_AROUND, _AHEAD = 768, 256  # points on a circle, and additional ones near a direction
+_MOST = 20_000  # most points of a curve
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A curve that leaves a point: its direction (rad) and the labels clockwise and counterclockwise of it."""
+    """A curve that leaves a point: direction (rad) and the labels clockwise and counterclockwise of it."""
 
     direction: float
     right: int
@@ -39,7 +39,7 @@ class Branch:
 
 @dataclass(frozen=True)
 class Followed:
-    """Points of a curve in order, and how it ended: "edge" of the window, "closed", or "lost"."""
+    """Points of a curve in order, and its end: "edge" of the window, "closed", or "lost"."""
 
     points: np.ndarray
     end: str
@@ -48,16 +48,16 @@ class Followed:
 def crossings(
     labels: Labels, centre: np.ndarray, along: np.ndarray, reach: np.ndarray, low: np.ndarray, high: np.ndarray
 ) -> np.ndarray:
-    """Where the label `low` gives way to `high` on segments, at the place that is nearest to their centres.
+    """Points of segments where label `low` changes to `high`, the nearest to each centre.
 
     Arguments:
-        labels: of points.
-        centre, along: of the segments (n x 2), `along` of length one.
-        reach: of the segments to either side, cut off at the square.
+        labels: function of points that returns their labels.
+        centre, along: centres and unit directions of the segments (n x 2).
+        reach: length of the segments to either side, clipped to the square.
         low, high: labels before and after (n).
 
     Returns:
-        n x 2; NaN where no two neighbouring points have these labels.
+        Points, n x 2; NaN where no two neighbouring points have these labels.
     """
     least, most = _inside(centre, along, reach)
     first = np.concatenate([-_FIRST[::-1], [0.0], _FIRST])
@@ -99,7 +99,7 @@ def _inside(centre: np.ndarray, along: np.ndarray, reach: np.ndarray) -> tuple[n
 
 
 def _nearest(at: np.ndarray, seen: np.ndarray, low: int, high: int) -> tuple[float, float] | None:
-    """The interval between neighbouring known points with these labels that is nearest to 0."""
+    """The interval nearest to 0 between neighbouring known points with these labels."""
     known = np.flatnonzero(seen >= 0)
     where, found = at[known], seen[known]
     change = np.flatnonzero((found[:-1] == low) & (found[1:] == high))
@@ -113,11 +113,11 @@ def _nearest(at: np.ndarray, seen: np.ndarray, low: int, high: int) -> tuple[flo
 def follow(
     labels: Labels, start: np.ndarray, branch: Branch, step: float, longest: float, closes: bool = True
 ) -> Followed:
-    """The curve that leaves `start` as `branch` does, until it closes, meets an edge of the square or is lost.
+    """The curve that leaves `start` along `branch`, until it closes, meets an edge of the square or is lost.
 
     Arguments:
-        step, longest: the first step and the longest, as lengths in the square.
-        closes: whether the curve may come back to its start.
+        step, longest: first and largest step, as lengths in the square.
+        closes: True if the curve may return to its start.
     """
     points = [np.asarray(start, dtype=float)]
     heading = np.array([math.cos(branch.direction), math.sin(branch.direction)])
@@ -146,7 +146,7 @@ def follow(
 def _step(
     labels: Labels, points: list[np.ndarray], heading: np.ndarray, step: float, branch: Branch
 ) -> tuple[list[np.ndarray], bool] | None:
-    """Half a step and a whole one, and whether the latter ends at an edge; None where the curve is not found."""
+    """Points after half a step and a full step, and True if the latter is on an edge; None if the curve is lost."""
     last = points[-1]
     places = [_predicted(points, heading, part * step) for part in (0.5, 1.0)]
     at_edge = not _in_square(places[1])
@@ -167,7 +167,7 @@ def _step(
 
 
 def _predicted(points: list[np.ndarray], heading: np.ndarray, ahead: float) -> np.ndarray:
-    """A parabola through the last three points, taken on by a length; a straight line where there are fewer."""
+    """Extrapolation by a length along a parabola through the last three points, or a line through fewer."""
     last = points[-1]
     if len(points) < 3:
         return last + ahead * heading
@@ -183,7 +183,7 @@ def _predicted(points: list[np.ndarray], heading: np.ndarray, ahead: float) -> n
 
 
 def _tangent(points: list[np.ndarray]) -> np.ndarray:
-    """Direction at the last point, of the parabola through the last three."""
+    """Direction at the last point of the parabola through the last three."""
     last = points[-1]
     one = np.linalg.norm(last - points[-2])
     near = (last - points[-2]) / one
@@ -195,7 +195,7 @@ def _tangent(points: list[np.ndarray]) -> np.ndarray:
 
 
 def _to_edge(labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, branch: Branch) -> np.ndarray | None:
-    """Where the curve meets the edge that the way from `last` to `beyond` crosses first."""
+    """Intersection of the curve with the edge that the line from `last` to `beyond` crosses first."""
     way = beyond - last
     parts = [
         ((edge - last[axis]) / way[axis], axis, edge)
@@ -207,7 +207,7 @@ def _to_edge(labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, 
     place = last + part * way
     place[axis] = edge
     along = np.zeros(2)
-    # towards the side that the left label is on
+    # towards the side of the left label
     along[1 - axis] = 1.0 if (way[0] if axis == 0 else -way[1]) > 0 else -1.0
     reach = np.array([_REACH * step])
     found = crossings(
@@ -229,7 +229,7 @@ def _angle(one: np.ndarray, other: np.ndarray) -> float:
 
 
 def _passes(last: np.ndarray, new: np.ndarray, start: np.ndarray, first: np.ndarray, step: float) -> bool:
-    """Whether the way from `last` to `new` passes the start of the curve in its direction."""
+    """True if the step from `last` to `new` passes the start of the curve in its direction."""
     way = new - last
     length = float(np.linalg.norm(way))
     if length == 0 or float(way @ first) < 0.7 * length:
@@ -240,10 +240,10 @@ def _passes(last: np.ndarray, new: np.ndarray, start: np.ndarray, first: np.ndar
 
 
 def branches(labels: Labels, centre: np.ndarray, radius: float, ahead: float | None = None) -> list[Branch]:
-    """The curves that cross a circle about a point, counterclockwise: their directions and the labels beside them.
+    """The curves that cross a circle about a point, counterclockwise, with directions and labels.
 
     Arguments:
-        ahead: a direction (rad) near which more points are looked at.
+        ahead: a direction (rad) near which more points are computed.
     """
     angles = np.linspace(0, math.tau, _AROUND, endpoint=False)
     if ahead is not None:
@@ -277,9 +277,9 @@ def branches(labels: Labels, centre: np.ndarray, radius: float, ahead: float | N
 def meeting(
     labels: Labels, near: np.ndarray, ahead: float | None = None, radius: float = CIRCLE
 ) -> tuple[np.ndarray, list[Branch]]:
-    """The point at which curves meet, and those that leave it.
+    """The meeting point of curves near a place, and the branches that leave it.
 
-    The lines through where each curve crosses two circles meet there; the circles shrink about it.
+    It is the intersection of the lines through each curve's crossings with two circles, which shrink about it.
     """
     centre, found = np.asarray(near, dtype=float), branches(labels, near, radius, ahead)
     for size in (radius, radius / 3, radius / 10):
@@ -297,14 +297,14 @@ def meeting(
 
 
 def _alike(some: list[Branch], others: list[Branch]) -> bool:
-    """Whether two circles cross the same curves."""
+    """True if two circles cross the same curves."""
     pairs = [(one.right, one.left) for one in some]
     wanted = [(one.right, one.left) for one in others]
     return len(pairs) == len(wanted) and sorted(pairs) == sorted(wanted)
 
 
 def _same(branch: Branch, others: list[Branch]) -> Branch:
-    """The branch between the same labels whose direction is nearest."""
+    """The branch between the same labels with the nearest direction."""
     alike = [one for one in others if (one.right, one.left) == (branch.right, branch.left)]
     return min(alike, key=lambda one: 1 - math.cos(one.direction - branch.direction))
 

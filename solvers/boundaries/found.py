@@ -1,4 +1,4 @@
-"""What is found of boundaries, as data: changes on lines of constant angle, and curves and points in a plane."""
+"""Boundaries as data: changes on lines of constant angle, and curves and points in a plane."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .changes import MERGED, Change
 from .plane import ANGLE
 from .regions import Slab, labelled, slabs
 
-STOKES = (1e-4, 100.0)  # between which changes are looked for, unless something else is asked
-LATTICE = (65, 193)  # columns and rows from which curves are sought, where there is a kernel
+STOKES = (1e-4, 100.0)  # default range of Stokes numbers
+LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,11 @@ class Lines:
     """Changes of outcome for each angle (rad), ascending in St.
 
     Attributes:
-        collisions: how many had to be integrated.
+        collisions: number of integrated collisions.
         failures: the reason of each line that could not be traced (its changes are then empty), else "".
-        resolution: relative spacing of the Stokes numbers at which every line was looked at. A strip of an outcome that
-            is wider is seen; a narrower one is where a margin (of a rebound criterion, of the escape) shows it.
-        scene, window: whose boundaries they are, and the Stokes numbers between which they were looked for.
+        resolution: relative spacing of the sampled Stokes numbers of every line. Wider strips of an outcome are found;
+            narrower ones only where a margin (of a rebound criterion, of the escape) shows them.
+        scene, window: the scene, and the range of Stokes numbers of the search.
     """
 
     angles: tuple[float, ...]
@@ -41,7 +41,7 @@ class Lines:
 
     @property
     def failed(self) -> tuple[tuple[float, str], ...]:
-        """Angle and reason of the lines that could not be traced."""
+        """Angle (rad) and reason of the lines that could not be traced."""
         return tuple(pair for pair in zip(self.angles, self.failures, strict=True) if pair[1])
 
     def to_dict(self) -> dict[str, Any]:
@@ -69,8 +69,8 @@ class Curve:
     """A boundary between outcomes, x ascending: `before` is below it, `after` above.
 
     Arguments:
-        kind: as of a `Change`.
-        x, stokes: points of it; x in rad, or SI.
+        kind: as in `Change`.
+        x, stokes: points of the curve; x in rad or SI.
     """
 
     before: str
@@ -80,7 +80,7 @@ class Curve:
     stokes: tuple[float, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """As in the JSON object of `wetdoublet boundary --angle LO:HI`."""
+        """The entry of the JSON object of `wetdoublet boundary --angle LO:HI`."""
         return {
             "from": self.before,
             "to": self.after,
@@ -92,29 +92,29 @@ class Curve:
 
 @dataclass(frozen=True)
 class Point:
-    """A place where curves meet, turn, or change in kind."""
+    """A point where curves meet, have a fold, or change in kind."""
 
     kind: str
     x: float
     stokes: float
 
     def to_dict(self) -> dict[str, Any]:
-        """As in the JSON object of `wetdoublet boundary --angle LO:HI`."""
+        """The entry of the JSON object of `wetdoublet boundary --angle LO:HI`."""
         return {"kind": self.kind, "x": self.x, "stokes": self.stokes}
 
 
 @dataclass(frozen=True)
 class Curves(Lines):
-    """Boundaries in a plane: the seed lines, the curves, and where they meet.
+    """Boundaries in a plane: the seed lines, the curves and their meeting points.
 
     Attributes:
-        over: dotted name of x.
-        span: of x, rad or SI.
+        over: dotted name of the entry x.
+        span: range of x, rad or SI.
         at: x of the lines; `angles` are their impact angles.
-        curves, points: boundaries, and where they meet, turn or change in kind.
-        unsettled: places (x, St) that could not be brought into agreement, and why.
-        sought: what the curves were sought with: lattice and lines.
-        lattice: its columns and rows; fewer where there is no kernel for the scene.
+        curves, points: boundaries, and points where they meet, have a fold or change in kind.
+        unsettled: places (x, St) where collisions and curves disagree, with the reason.
+        sought: resolution of the search by lattice and lines.
+        lattice: columns and rows of the lattice; fewer without a kernel for the scene.
     """
 
     over: str = ANGLE
@@ -139,7 +139,7 @@ class Curves(Lines):
 
     @property
     def sought(self) -> dict[str, float | str]:
-        """Distances in x and relative distances in St within which the curves were sought, and their precision."""
+        """Resolution of the search, as distances in x and relative distances in St, and precision of the curves."""
         decades = math.log(self.window[1] / self.window[0])
         across = self.span[1] - self.span[0]
         return {
@@ -153,10 +153,10 @@ class Curves(Lines):
         }
 
     def region(self, x: Any, stokes: Any) -> np.ndarray:
-        """Outcomes (0 stick, 1 stick-rotate-separate, 2 bounce) of the regions that points of the plane lie in.
+        """Outcomes (0 stick, 1 stick-rotate-separate, 2 bounce) of the regions that contain points of the plane.
 
         Arguments:
-            x, stokes: arrays of one shape; x in rad, or SI. Points that are not in the window have -1.
+            x, stokes: arrays of one shape; x in rad or SI. Points outside the window have -1.
         """
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
         inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
@@ -165,13 +165,13 @@ class Curves(Lines):
         return found
 
     def unit(self, x: Any, stokes: Any) -> np.ndarray:
-        """Points of the unit square, n x 2, at values of x and Stokes numbers."""
+        """Points of the unit square, n x 2, for values of x and Stokes numbers."""
         across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
         up = np.log(np.asarray(stokes) / self.window[0]) / math.log(self.window[1] / self.window[0])
         return np.column_stack([across, up])
 
     def slabs(self) -> list[Slab]:
-        """The window cut into parts between whose curves lies one outcome each."""
+        """The window divided into slabs in x, with one outcome between neighbouring curves."""
         arcs = [
             Arc(self.unit(one.x, one.stokes), OUTCOMES.index(one.before), OUTCOMES.index(one.after))
             for one in self.curves

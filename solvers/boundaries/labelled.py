@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-NONE = -1  # an outcome where there is no change
+NONE = -1  # outcome code of padding, where there is no change
 
 
 def dataset(found: Lines) -> xarray.Dataset:

@@ -1,8 +1,8 @@
 """Functions of the Stokes number that are smooth through a change of outcome (along a line of constant angle).
 
-* `criterion`: by how much the approach meets, or misses, a reversal criterion; its root is a graze.
-* `escape`: how far a doublet gets, with the solids' reversal or without: through a saddle of the effective potential
-  the amplitude of its unstable mode, at the rim x_f the squared speed left (or missing).
+* `criterion`: margin by which the approach meets or misses a rebound criterion; its root is a graze.
+* `escape`: margin of the escape, with a rebound or without: at a saddle of the effective potential the amplitude of the
+  unstable mode, at the rupture gap x_f the remaining (or missing) squared speed.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ from .by_kernel import Escaping
 from .resampled import resampled
 from .saddle import barrier_of, saddle_of
 
-_NEVER = 1e30  # a glass number that no pressure meets
+_NEVER = 1e30  # a glass number that no pressure reaches
 WITHOUT_SOLIDS = {"glass_number": _NEVER} | dict.fromkeys(GAPS.values(), 0.0)
 _NO_GLASS = {"glass_transition_pressure": NO_GLASS}
-_UNMET = {"glass_number": 0.0}  # the glass event's function is then the pressure itself
-_ESCAPE_STEPS = (400, 20_000)  # of the kernel, first to see whether all that is left is creeping past a saddle
-_CREEPING = 1e-3  # of v0: an approach as slow as this has been stopped; contact at this speed decides nothing
-_DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
-_GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # of a phase: transients are at its start
+_UNMET = {"glass_number": 0.0}  # with this glass number the glass guard is minus the pressure
+_ESCAPE_STEPS = (400, 20_000)  # steps of a first attempt by the kernel, to detect creeping past a saddle
+_CREEPING = 1e-3  # relative to v0; a slower approach counts as stopped, and contact at this speed is irrelevant
+_DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
+_GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # parts of a phase; dense at its start
 
 
 def ready(scenes: Iterable[Scene]) -> None:
-    """Compile what the kernel needs for boundaries of these scenes, on all cores."""
+    """Compile the kernels for boundaries of these scenes, on all cores."""
     known = (scene for scene in scenes if supported(scene))
     wanted = (variant(scene, select_model(scene, True), RTOL, True, trajectory=True) for scene in known)
     compile_all(set(wanted))
@@ -52,7 +52,7 @@ def ready(scenes: Iterable[Scene]) -> None:
 
 @dataclass(frozen=True)
 class Escape:
-    """Whether a trajectory separates, and a smooth function with that sign (None where it is not defined)."""
+    """Result of an escape: if the trajectory separates, and a smooth function with that sign (None if undefined)."""
 
     separates: bool
     value: float | None
@@ -60,10 +60,10 @@ class Escape:
 
 @dataclass
 class Line:
-    """The functions of a scene at one angle (rad). Counts the collisions that it integrates.
+    """The smooth functions of a scene at one angle (rad). Counts the integrated collisions.
 
     Arguments:
-        kernel: let the Taylor kernel integrate; what it hands over goes to Rosenbrock all the same. Default: if it can.
+        kernel: use the Taylor kernel; Rosenbrock completes the rest. Default: if the kernel supports the scene.
         machine_code: use integrators compiled to C.
     """
 
@@ -75,11 +75,11 @@ class Line:
     collisions: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
-        """Ask once whether there is a kernel for the scene."""
+        """Determine once whether the kernel supports the scene."""
         self.kernel = supported(self.scene) if self.kernel is None else self.kernel
 
     def numbers(self, stokes: float) -> DimensionlessGroups:
-        """Dimensionless numbers at a Stokes number."""
+        """Dimensionless groups at a Stokes number."""
         return nondimensionalise(self.scene, self.scene.speed_of(stokes), self.angle)
 
     @property
@@ -87,9 +87,9 @@ class Line:
         return load(select_model(self.scene, self.angle > 0))
 
     def criterion(self, stokes: float) -> float:
-        """Largest pressure of the approach over p_gt, or contact gap over smallest gap if larger, as a logarithm.
+        """Logarithm of the larger of maximum pressure over p_gt and contact gap over smallest gap, of the approach.
 
-        The approach is followed without reversal, so the function is smooth where a criterion is just met.
+        The approach is integrated without a rebound, so the function is smooth where a criterion is just met.
         """
         self.collisions += 1
         n = self.numbers(stokes)
@@ -106,12 +106,12 @@ class Line:
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
-    def escape(self, stokes: float, reversed_: bool) -> Escape:
-        """Whether the doublet separates if the solids reverse it (`reversed_`) or if no criterion existed."""
+    def escape(self, stokes: float, rebound: bool) -> Escape:
+        """Escape of the doublet, with its rebound (`rebound`) or as if there were no rebound criterion."""
         self.collisions += 1
         n = self.numbers(stokes)
-        groups = n.groups if reversed_ else n.groups | WITHOUT_SOLIDS
-        solids = {} if reversed_ else _NO_GLASS | NEVER_MET
+        groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
+        solids = {} if rebound else _NO_GLASS | NEVER_MET
         for steps in _ESCAPE_STEPS if self.kernel else ():
             probe = UnstoppedTrajectory(self.model, groups, self.rtol)
             escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
@@ -129,7 +129,7 @@ class Line:
 def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
     """Largest scaled pressure and smallest gap of the approach, without any criterion.
 
-    It ends where the doublet turns, where it is proved stuck, where it only creeps, or deep below the contact gap.
+    It ends at a turning point, at a certified stick, when it only creeps, or far below the contact gap.
     """
     deep = _DEEP * contact_gap(groups)
     unmet = _UNMET | dict.fromkeys(GAPS.values(), deep)
@@ -137,7 +137,7 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
     y, phase, p = start.y, start.phase, start.p
     pressure = _pressure(model, y, p)
     stretch = FIRST_STRETCH
-    # the proof on strings reckons with the criteria, which are left out here
+    # the pendulum certificate depends on the criteria, which are disabled here
     watch = replace(start.watch, certificate=None) if start.watch.certificate == "pendulum" else start.watch
     for _ in range(10 * STRETCHES):
         level = start.proof.level(y, phase) if watch.certificate else None
@@ -154,25 +154,25 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
                 break
         elif stop.event == "tangential_edge":
             phase = phase.with_(shear=1 - phase.shear)
-        elif stop.event != "glass":  # a maximum of the pressure is passed by
+        elif stop.event != "glass":  # a maximum of the pressure has been passed
             break
     return pressure, float(y[0])
 
 
 def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
-    """Scaled film pressure on the axis: the glass event function is glass number minus pressure."""
+    """Scaled film pressure on the axis; the glass guard is the glass number minus this pressure."""
     return -model.values("events", y, p)["glass"]
 
 
 def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Scaled film pressure on the axis at states, as columns."""
+    """Scaled film pressure on the axis at states (columns)."""
     events = np.asarray(model.function("events")(states, p).full())
     pressures: np.ndarray = -events[model.names("events").index("glass")]
     return pressures
 
 
 class UnstoppedTrajectory(EventLocator):
-    """A trajectory that goes on until it separates or falls back, and is proved stuck only while it approaches."""
+    """A trajectory until it separates or falls back; certificates end it only while it approaches."""
 
     def _proved(self, elapsed: float) -> bool:
         return self.phase.motion == CLOSING and super()._proved(elapsed)
@@ -187,7 +187,7 @@ class UnstoppedTrajectory(EventLocator):
 
 
 class _Located:
-    """A located trajectory as `Escaping` has it; it is sampled when it is asked for."""
+    """A located trajectory as an `Escaping`, sampled on demand."""
 
     def __init__(self, probe: EventLocator, path: EventSequence) -> None:
         self.probe, self.path = probe, path
@@ -209,10 +209,10 @@ class _Located:
 
 
 def _creeps_out(probe: EventLocator) -> bool | None:
-    """Whether a doublet that creeps past the only barrier will separate; None where that is not clear.
+    """True if a doublet that creeps past the only barrier will separate; None if undecided.
 
-    All but the unstable mode has died, and its side decides: outside nothing holds the doublet, inside its energy is
-    below the barrier.
+    All modes but the unstable one have decayed, so the sign of its amplitude decides: outside, nothing confines the
+    doublet; inside, its energy is below the barrier.
     """
     proof, barrier = energy_proof(probe.proof), barrier_of(probe)
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
@@ -225,7 +225,7 @@ def _creeps_out(probe: EventLocator) -> bool | None:
 def _smooth(probe: EventLocator, escaped: Escaping | _Located) -> float | None:
     barrier = barrier_of(probe)
     if barrier is None and energy_proof(probe.proof) is not None:
-        return None  # nothing holds the doublet at any gap
+        return None  # nothing confines the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
     if barrier is not None and barrier.gap < rim * (1 - 1e-12):
         return _saddle_amplitude(probe, escaped, barrier)
@@ -238,7 +238,7 @@ def _smooth(probe: EventLocator, escaped: Escaping | _Located) -> float | None:
 
 
 def _saddle_amplitude(probe: EventLocator, escaped: Escaping | _Located, barrier: Barrier) -> float | None:
-    """Amplitude of the saddle's unstable mode nearest to it, taken back to initial contact by exp(-lambda t)."""
+    """Amplitude of the unstable mode where nearest to the saddle, scaled to initial contact by exp(-lambda t)."""
     saddle = saddle_of(probe, barrier)
     if saddle is None:
         return None
@@ -254,7 +254,7 @@ def _saddle_amplitude(probe: EventLocator, escaped: Escaping | _Located, barrier
 
 
 def _sampled(probe: EventLocator, path: EventSequence) -> tuple[np.ndarray, np.ndarray]:
-    """Times and states of the trajectory: ends of phases, and a grid over phases that do not end at rest in the gap."""
+    """Times and states of the trajectory: ends of phases, and samples of phases that do not end at rest in the gap."""
     times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
     told = tolerance(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
     for step, _, inside, end in resampled(path, told, _GRID, lambda step: step.event != "turning", path.extras):

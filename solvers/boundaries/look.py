@@ -1,4 +1,4 @@
-"""Collisions looked at for boundaries: outcomes and margins of many, by the kernel, or one by one by Rosenbrock."""
+"""Samples for boundaries: outcomes and margins of collisions, by the kernel or one by one by Rosenbrock."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from ..settings import STEPS
 from . import by_kernel
 from .samples import SAMPLE
 
-BY_KERNEL, BY_ROSENBROCK = 100, 10  # samples a decade of the Stokes number that a line begins with
-_MARGIN = 500  # steps of a trajectory for a margin: one that creeps for longer shows none
-DEEP = 1e-3  # of the contact gap: an approach that gets there has met the solids
+BY_KERNEL, BY_ROSENBROCK = 100, 10  # initial samples of a line per decade of the Stokes number
+_MARGIN = 500  # steps of a trajectory for a margin; one that creeps longer has none
+DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
 
 
 @dataclass
 class Look:
-    """Collisions of a scene, sampled. Counts those that had to be integrated, and keeps why others could not be.
+    """Sampler of a scene's collisions. Counts the integrated ones, and stores the reasons of failures.
 
     Arguments:
         rtol: relative tolerance of the integrations.
-        kernel: let the Taylor kernel integrate; default: if it can.
+        kernel: use the Taylor kernel; default: if it supports the scene.
     """
 
     scene: Scene
@@ -39,19 +39,19 @@ class Look:
     kernel: bool | None = None
     collisions: int = field(default=0, init=False)
     reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
-    creeping: Counter[float] = field(default_factory=Counter, init=False)  # collisions handed over for it, by angle
+    creeping: Counter[float] = field(default_factory=Counter, init=False)  # not completed by the kernel, by angle
 
     def __post_init__(self) -> None:
-        """Ask once whether there is a kernel for the scene."""
+        """Determine once whether the kernel supports the scene."""
         self.kernel = supported(self.scene) if self.kernel is None else self.kernel
 
     @property
     def per_decade(self) -> int:
-        """How many samples a decade of the Stokes number a line begins with."""
+        """Initial samples of a line per decade of the Stokes number."""
         return BY_KERNEL if self.kernel else BY_ROSENBROCK
 
     def __call__(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where there is none to be had."""
+        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where a collision fails."""
         found = self._by_kernel(angle, stokes) if self.kernel else None
         if found is None:
             self.kernel = False
@@ -59,20 +59,20 @@ class Look:
         return found
 
     def by_rosenbrock(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """The same by Rosenbrock, one by one, which is slow; why a collision fails is in `reasons`."""
+        """The same by Rosenbrock, one by one (slow); `reasons` has the reasons of failures."""
         found = blank(stokes)
         for k in range(stokes.size):
             self._by_rosenbrock(found[k : k + 1], float(angle[k]))
         return found
 
     def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
-        """Outcomes (`outcome`, -1 for none, with its reason) and first criteria met (`reversal`) alone.
+        """Outcomes (`outcome`, -1 for none, with its reason) and first rebound criteria met (`reversal`) alone.
 
-        A collision may cost all steps of the budget. Chatter on which the kernel has spent them is given up; what it
-        hands over otherwise goes to Rosenbrock.
+        A collision may take all steps of the budget. Chatter that exhausts the kernel's steps is not continued; other
+        collisions that the kernel does not complete go to Rosenbrock.
 
         Arguments:
-            kernel_only: leave undecided what the kernel hands over; it then has the steps of a sample.
+            kernel_only: leave collisions undecided that the kernel does not complete with the steps of a sample.
         """
         told = self._told(angle, stokes, by_kernel.LOOK_BUDGET if kernel_only else STEPS) if self.kernel else None
         if told is None:
@@ -94,7 +94,7 @@ class Look:
         )
 
     def reason(self, angle: float, low: float, high: float) -> str:
-        """Why a collision at an angle and between two Stokes numbers could not be computed."""
+        """The reason why a collision at an angle and between two Stokes numbers failed."""
         said = (text for (at, stokes), text in self.reasons.items() if at == angle and low <= stokes <= high)
         return next(said, "no collision could be computed")
 
@@ -119,7 +119,7 @@ class Look:
         return found
 
     def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
-        """Whole collisions; sticks once more to where they come back, bounces once more as if there were no solids."""
+        """Samples by the kernel; sticks are continued until they fall back, bounces repeated without solids."""
         found = self._whole(angle, stokes)
         if found is None:
             return None
@@ -148,12 +148,12 @@ class Look:
         return found
 
     def no_solids(self, contact: np.ndarray) -> dict[str, np.ndarray]:
-        """Quantities with which an approach goes on past its contact gaps (x0), far beyond them."""
+        """Quantities with which an approach continues far below its contact gaps (x0)."""
         deep = DEEP * contact * self.scene.liquid.film_thickness
         return {name: np.full(contact.size, value) for name, value in NEVER_MET.items()} | {"roughness": deep}
 
     def _by_rosenbrock(self, found: np.ndarray, angle: float) -> None:
-        """Fill one sample."""
+        """Compute one sample."""
         stokes = float(found["stokes"][0])
         try:
             n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
@@ -171,7 +171,7 @@ class Look:
 
 
 def blank(stokes: np.ndarray) -> np.ndarray:
-    """Samples at Stokes numbers of which nothing is known yet."""
+    """Empty samples at Stokes numbers."""
     found = np.zeros(stokes.size, SAMPLE)
     found["stokes"] = stokes
     found["outcome"] = found["reversal"] = -1
@@ -191,7 +191,7 @@ def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
 
 
 def _margin(told: np.ndarray, contact: np.ndarray) -> np.ndarray:
-    """By how much the approach meets a criterion, as a logarithm; nan where there is no approach."""
+    """Margin of the rebound criteria over the approach, as a logarithm; NaN without an approach."""
     approached = (told["outcome"] >= 0) & ~told["at_touch"]
     solids = np.full(contact.size, -np.inf)
     there = approached & (contact > 0)

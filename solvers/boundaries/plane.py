@@ -1,4 +1,4 @@
-"""A plane of collisions as the unit square: an entry of the scene across, the logarithm of St upwards."""
+"""A plane of collisions mapped to the unit square: a scene entry as x, ln St as y."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ from ..scene.scene import Scene
 from ..settings import STEPS
 
 ANGLE = "impact.angle"
-# rad: a plane that begins head-on begins here, where collisions are still oblique; St* moves with the square of the
-# angle. Where nothing attracts a doublet takes the longer to separate the less oblique it is.
+# rad; lower limit for a plane that starts head-on, so that collisions stay oblique; St* depends on the square of the
+# angle. Without attraction, the time to separation grows as the obliquity decreases.
 LEAST_ANGLE, LEAST_UNBOUND = 1e-5, 1e-3
-_RESOLVED = 2  # collisions of a batch that Rosenbrock is asked for where the kernel hands over
-_RUN = 15  # so many neighbours in a row
-_THREADED = 20_000  # collisions that are worth several cores
+_RESOLVED = 2  # most collisions of a batch for Rosenbrock where the kernel does not complete them
+_RUN = 15  # neighbours that make a long run
+_THREADED = 20_000  # fewest collisions for which several cores pay
 
 
 @dataclass
 class Plane:
-    """Outcomes over (x, St). Points are of the unit square, an array of n x 2.
+    """Outcomes over (x, St). Points are in the unit square, an n x 2 array.
 
     Arguments:
-        over: dotted name of the entry x, the impact's angle among them.
-        span: of x, rad or SI.
+        over: dotted name of the entry x, which may be the impact's angle.
+        span: range of x, rad or SI.
         stokes: lowest and highest Stokes number.
 
     Attributes:
-        edge: the lowest x as it is given: the span begins at a small angle where that is head-on.
-        collisions: how many have been asked for.
-        kernel: whether the Taylor kernel integrates.
+        edge: the lowest x as given; if that is head-on, the span starts at a small angle.
+        collisions: number of computed collisions.
+        kernel: True if the Taylor kernel supports the scene.
     """
 
     scene: Scene
@@ -54,20 +54,20 @@ class Plane:
     kernel: bool = field(default=True, init=False)
 
     def __post_init__(self) -> None:
-        """Ask once whether there is a kernel for the scene; begin where collisions are oblique."""
+        """Determine once whether the kernel supports the scene; start where collisions are oblique."""
         self.kernel = supported(self.scene)
         self.edge = self.span[0]
         if self.over == ANGLE:
             self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]
 
     def x(self, points: np.ndarray) -> np.ndarray:
-        """The entry at points, rad or SI."""
+        """Values of the entry at points, rad or SI."""
         low, high = self.span
         across = points[..., 0]
         return np.where(across >= 1, high, low + across * (high - low))
 
     def shown(self, points: np.ndarray) -> np.ndarray:
-        """The entry at points; what is on the lower edge of the window is on the edge that was given."""
+        """Values of the entry at points for results; the lower edge of the window gives the edge as given."""
         return np.where(points[..., 0] <= 0, self.edge, self.x(points))
 
     def stokes_at(self, points: np.ndarray) -> np.ndarray:
@@ -77,7 +77,7 @@ class Plane:
         return np.where(up >= 1, high, low * np.exp(up * math.log(high / low)))
 
     def points(self, x: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """Points of the square at values of the entry and Stokes numbers."""
+        """Points of the square for values of the entry and Stokes numbers."""
         across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
         return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.decades])
 
@@ -93,15 +93,15 @@ class Plane:
         return self.scene.with_si({self.over: x}), float(self.scene.angle or 0.0)
 
     def labels(self, points: np.ndarray) -> np.ndarray:
-        """Outcomes by their index in OUTCOMES; -1 where none is to be had, or Rosenbrock would be asked too often."""
+        """Outcomes by index in OUTCOMES; -1 where unknown."""
         return self.seen(points)[0]
 
     def seen(self, points: np.ndarray, most: int = _RESOLVED) -> tuple[np.ndarray, np.ndarray]:
         """Outcomes, and the first rebound criterion met (-1 for none; -2: not known), at points.
 
         Arguments:
-            most: collisions that Rosenbrock, which may take seconds, is asked for: one amid each long run of
-                neighbours that the kernel hands over, since nothing would narrow that down.
+            most: most collisions for Rosenbrock, which may take seconds each: one in the middle of each long run of
+                neighbours that the kernel does not complete, as these could not be narrowed down otherwise.
         """
         request = self._request(points)
         self.collisions += request.size
@@ -123,7 +123,7 @@ class Plane:
     def first_criterion(self, points: np.ndarray) -> np.ndarray:
         """The rebound criterion that the first approach meets (-1 for none; -2: not known), at points.
 
-        A stick may come back and meet one later, so the whole collision does not say it.
+        The whole collision does not show it, because a stick may meet a criterion later.
         """
         found = np.full(points.shape[0], -2)
         if self.kernel:
@@ -152,7 +152,7 @@ class Plane:
 
 
 def _middles(unknown: np.ndarray) -> np.ndarray:
-    """The middle of each long run of what is not known; a run of all there is counts as long."""
+    """The middle of each long run of unknown points; a run of all points counts as long."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
     runs = edges.reshape(-1, 2)
     long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]
@@ -161,16 +161,16 @@ def _middles(unknown: np.ndarray) -> np.ndarray:
 
 
 def _least(scene: Scene) -> float:
-    """The least angle (rad) that is looked at."""
+    """The smallest angle (rad) of the plane."""
     bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
     return LEAST_ANGLE if bound else LEAST_UNBOUND
 
 
 def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:
-    """A plane of a scene; InputError for what cannot be.
+    """The validated plane of a scene; InputError for invalid arguments.
 
     Arguments:
-        label: of the argument or option that `over` and `span` come from.
+        label: name of the argument or option of `over` and `span`.
     """
     if not isinstance(over, str):
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
@@ -183,7 +183,7 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
         if scene.angle is None:
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
         for x in plane.span:
-            plane.scene_at(x)  # what the scene itself refuses
+            plane.scene_at(x)  # the scene validates the values
     return plane
 
 

@@ -1,4 +1,4 @@
-"""Boundaries as a picture: the regions of each outcome filled, the curves between them, and where these meet."""
+"""Boundaries as a figure: filled regions of each outcome, the curves between them, and their meeting points."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ from .plot_labels import place_names
 if TYPE_CHECKING:
     from ..scene.scene import Scene
 
-_PALE = 0.45  # the map's colours, for lines and words on them
-_ROOM = 1.8  # factor of Stokes number shown beyond the outermost curves
+_PALE = 0.45  # darker variants of the map's colours, for lines and text
+_ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _INK, _NOTE = "#202020", "#6E6E6E"
 _DPI = 150
 _LETTERS = ("S", "SRS", "B")
@@ -40,14 +40,14 @@ _MARKS = {
     "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "corner": "D", "criterion change": "D",
     "graze meets escape": "s", "saddle meets rim": "v",
 }  # fmt: skip
-_MOST_DOTS = 60  # lines whose changes are marked
+_MOST_DOTS = 60  # most lines whose changes are marked
 
 
 def plot(found: Lines, file: str | Path) -> None:
-    """Write the picture of boundaries: .png, .pdf or .svg.
+    """Write the figure of boundaries: .png, .pdf or .svg.
 
     Raises:
-        InputError: another kind of file, or boundaries that do not say whose they are.
+        InputError: another kind of file, or boundaries without their scene.
     """
     check_file(file, "file", PICTURES)
     if found.scene is None:
@@ -56,12 +56,12 @@ def plot(found: Lines, file: str | Path) -> None:
 
 
 def draw(scene: Scene, found: Lines) -> Figure:
-    """The regions of each outcome, the curves between them, and where these meet.
+    """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
-    Lines of constant angle are drawn on the atlas of their angles; a single line as what it passes.
+    Lines of constant angle are drawn on the atlas of their angles; a single line as a strip of its outcomes.
 
     Arguments:
-        found: as `boundary` or `atlas` returns it.
+        found: result of `boundary` or `atlas`.
     """
     dots = not isinstance(found, Curves) and len(set(found.angles)) > 1 and len(found.angles) <= _MOST_DOTS
     whole = found if isinstance(found, Curves) else _filled(scene, found)
@@ -96,7 +96,7 @@ _PALE_COLOURS = tuple(_pale(colour) for colour in COLOURS)
 
 
 def _filled(scene: Scene, found: Lines) -> Curves:
-    """The atlas of the angles of lines; of a single one, its changes across the picture."""
+    """The atlas over the angles of lines; for a single line, its changes across the figure."""
     low, high = min(found.angles), max(found.angles)
     if low < high:
         return _curves(scene, (low, high), found.window, max(2, min(LINES, len(found.angles))))
@@ -116,7 +116,7 @@ def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, floa
 
 
 def _shown(whole: Curves) -> tuple[float, float]:
-    """Stokes numbers between which the picture lies: the curves and some room, within the window."""
+    """Range of Stokes numbers of the figure: the curves and a margin, within the window."""
     stokes = [value for one in whole.curves for value in one.stokes]
     if not stokes:
         return whole.window
@@ -124,7 +124,7 @@ def _shown(whole: Curves) -> tuple[float, float]:
 
 
 def _frame(axes: Axes, scene: Scene, whole: Curves, low: float, high: float, single: bool) -> float:
-    """Scales and labels; returns what x is divided by."""
+    """Set scales and labels; returns the divisor of x."""
     factor, text = _across(scene, whole.over, whole.span)
     axes.set_yscale("log")
     axes.set_ylim(low, high)
@@ -141,7 +141,7 @@ def _frame(axes: Axes, scene: Scene, whole: Curves, low: float, high: float, sin
 
 
 def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, str]:
-    """What x is divided by, and its name with the unit that is left."""
+    """Divisor of x, and its label with the unit that results."""
     unit = scene.fields[over].unit
     if over == ANGLE or unit == "rad":
         name = r"impact angle $\theta_0$" if over == ANGLE else over.rpartition(".")[2].replace("_", " ")
@@ -156,7 +156,7 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
 
 
 def _fill(axes: Axes, whole: Curves, factor: float) -> None:
-    """Each region in its colour: slab by slab, from curve to curve and from edge to edge."""
+    """Fill each region with its colour, slab by slab between neighbouring curves."""
     decades = math.log(whole.window[1] / whole.window[0])
     across = whole.span[1] - whole.span[0]
     for slab in whole.slabs():
@@ -171,24 +171,24 @@ def _fill(axes: Axes, whole: Curves, factor: float) -> None:
             outline = np.vstack([below, above[::-1]])
             x = (whole.span[0] + outline[:, 0] * across) / factor
             stokes = whole.window[0] * np.exp(outline[:, 1] * decades)
-            # smoothed edges of neighbours would let the background through
+            # antialiased edges of neighbours would show the background
             axes.fill(x, stokes, color=_PALE_COLOURS[label], linewidth=0, antialiased=False, zorder=1)
 
 
 def _raster(whole: Curves, factor: float) -> Any:
-    """Outcomes at places of the picture: x as drawn, and Stokes numbers."""
+    """Outcomes at places of the figure: x as drawn, and Stokes numbers."""
     return lambda x, stokes: whole.region(np.clip(x * factor, *whole.span), stokes)
 
 
 def _dots(axes: Axes, found: Lines) -> None:
-    """The changes on the lines that were asked for."""
+    """Draw the changes on the requested lines."""
     pairs = [(math.degrees(at), one.stokes) for at, line in zip(found.angles, found.changes) for one in line]
     if pairs:
         axes.plot(*zip(*pairs), "o", color=_INK, markersize=2.6, zorder=4, clip_on=False)
 
 
 def _handles(whole: Curves) -> list[Any]:
-    """Legend of the outcomes that the picture shows."""
+    """Legend entries of the outcomes in the figure."""
     seen = {label for slab in whole.slabs() for label in slab.labels}
     return [
         Patch(
@@ -199,7 +199,7 @@ def _handles(whole: Curves) -> list[Any]:
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
-    """Meeting points, and their legend: names of one place together."""
+    """Draw meeting points and their legend; names of one place are combined."""
     places: dict[tuple[float, float], list[str]] = {}
     for one in points:
         if low <= one.stokes <= high:
@@ -217,7 +217,7 @@ def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: 
 
 
 def _doubts(axes: Axes, found: Lines, whole: Curves, factor: float) -> list[Any]:
-    """What could not be traced or settled."""
+    """Note on lines and places that could not be traced or verified."""
     style: Any = {"linestyle": "", "marker": "x", "color": "#C00000", "markersize": 6}
     places = [(x / factor, stokes) for x, stokes, _ in whole.unsettled]
     if places:

@@ -1,4 +1,4 @@
-"""Names of regions in a picture: set inside the region, where no curve and no mark is."""
+"""Placement of region names in a figure: inside the region, clear of curves and marks."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 
 from ...generated.automaton import OUTCOMES
 
-_CELL = 3.0  # pixels
-_CLEAR = 2  # cells between a name and what is not of its region
+_CELL = 3.0  # margin, pixels
+_CLEAR = 2  # cells between a name and the edge of its region
 _INK = "#202020"
-# What a region may be called, the best first
+# Possible names of a region, the preferred first
 _NAMES = (
     (OUTCOMES[0], "S"),
     (OUTCOMES[1], "stick-rotate-\nseparate", "SRS"),
@@ -28,10 +28,10 @@ def place_names(
     axes: Axes,
     outcome: Callable[[np.ndarray, np.ndarray], np.ndarray],
 ) -> None:
-    """Write each region's name in it, or its letters where there is no room; nothing where these do not fit either.
+    """Write each region's name in it, or its letters if there is no room, or nothing if these do not fit either.
 
     Arguments:
-        outcome: of arrays of places, as drawn on the axes.
+        outcome: function of arrays of places, in the coordinates of the axes.
     """
     canvas = FigureCanvasAgg(figure)
     figure.draw_without_rendering()
@@ -88,12 +88,12 @@ def _regions(labels: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
 
 
 def _spread(region: np.ndarray, same: np.ndarray) -> np.ndarray:
-    """The region with what is reached from it along rows and columns."""
+    """The region extended along rows and columns as far as the label continues."""
     for axis in (0, 1):
         for way in (1, -1):
             order = region if way > 0 else np.flip(region, axis)
             inside = same if way > 0 else np.flip(same, axis)
-            # carried on until the label ends: the last reached place lies after the last place outside
+            # extended until the label ends: the last reached place is after the last place outside
             index = np.arange(order.shape[axis]).reshape((-1, 1) if axis == 0 else (1, -1))
             reached = np.maximum.accumulate(np.where(order, index, -1), axis=axis)
             outside = np.maximum.accumulate(np.where(inside, -1, index), axis=axis)
@@ -103,7 +103,7 @@ def _spread(region: np.ndarray, same: np.ndarray) -> np.ndarray:
 
 
 def _room(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:
-    """Row and column of the middle of a box of this size inside the region, as far from its edges as can be."""
+    """Row and column of the middle of a box of this size inside the region, as far from its edges as possible."""
     best, low, high = None, 0, max(region.shape)
     while low <= high:
         margin = (low + high) // 2
@@ -116,7 +116,7 @@ def _room(region: np.ndarray, width: int, height: int) -> tuple[float, float] | 
 
 
 def _fitting(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:
-    """The middle of a box that lies in the region, the one nearest to the region's own middle."""
+    """The middle of a box inside the region, the nearest to the region's middle."""
     rows, columns = region.shape
     if width > columns or height > rows:
         return None

@@ -1,4 +1,4 @@
-"""The regions of a plane: which outcome lies between its curves."""
+"""The regions of a plane: the outcomes between its curves."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class Slab:
     """A part of the window between two values of x in which no curve begins or ends.
 
     Attributes:
-        low, high: of x.
-        arcs: the curves that cross it, upwards.
-        labels: between them, from the lower edge of the window to the upper.
+        low, high: range of x.
+        arcs: the curves that cross it, from below to above.
+        labels: outcomes between them, from the lower edge of the window to the upper.
     """
 
     low: float
@@ -31,11 +31,11 @@ class Slab:
 
 
 def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[Slab]:
-    """The window in slabs, in the order of x.
+    """The slabs of the window, in the order of x.
 
     Arguments:
-        arcs: with x ascending: the label on the right is below, the one on the left above.
-        column, labels: values of x and the outcome there, which decides where no curve passes.
+        arcs: arcs with x ascending, so that the right label is below and the left one above.
+        column, labels: values of x and the outcomes there, which apply to slabs without curves.
     """
     ends = np.unique(np.concatenate([[0.0, 1.0], *([arc.points[[0, -1], 0] for arc in arcs])]))
     ends = ends[np.concatenate([[True], np.diff(ends) > 1e-12])]
@@ -54,7 +54,7 @@ def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[S
 
 
 def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The region's label at points (n x 2), and the vertical distance to the nearest curve of their slab."""
+    """Labels of the regions at points (n x 2), and vertical distances to the nearest curve of their slabs."""
     labels, distance = np.full(points.shape[0], UNKNOWN), np.full(points.shape[0], np.inf)
     which = np.searchsorted([part.high for part in parts], points[:, 0]).clip(0, len(parts) - 1)
     for k, part in enumerate(parts):
@@ -71,7 +71,7 @@ def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.
 
 
 def apart(arcs: Sequence[Arc], points: np.ndarray) -> np.ndarray:
-    """Distance in the window from points to the nearest curve."""
+    """Distances in the window from points to the nearest curve."""
     found = np.full(points.shape[0], np.inf)
     for arc in arcs:
         one, way = arc.points[:-1], np.diff(arc.points, axis=0)

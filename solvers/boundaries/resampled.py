@@ -19,15 +19,15 @@ def resampled(
     extras: tuple[str, ...] = (),
     lenient: bool = False,
 ) -> Iterator[tuple[PhaseRun, np.ndarray, np.ndarray | None, np.ndarray]]:
-    """Each phase, the state before it, states inside it as columns, and the state after it.
+    """Yield for each phase the state before it, states inside it as columns, and the state after it.
 
     Arguments:
         grid: parts of a phase's duration.
-        wanted: which phases are integrated; None for the states inside the others.
-        lenient: None as well where an integration fails.
+        wanted: selects the phases to integrate; the states inside the others are None.
+        lenient: None also where an integration fails, instead of an error.
 
     Raises:
-        IntegrationFailed: unless lenient.
+        IntegrationFailed: an integration failed and `lenient` is False.
     """
     model = path.model
     size = len(model.state) + len(extras)

@@ -1,4 +1,4 @@
-"""Roots in ln St of functions that know their sign everywhere and their value where they are smooth."""
+"""Roots in ln St of functions with a sign everywhere and a value where they are smooth."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import dataclass
 
 from ..errors import ComputationError
 
-LOCATED = 1e-9  # relative width, or error estimate, at which a root is located
+LOCATED = 1e-9  # relative width or error estimate at which a root counts as located
 _TRIES = 60
-# Bound on the secant's error over the product of its last two steps (half of f''/f'): amplitudes bend fast.
+# Bound of the secant's error over the product of its last two steps, f''/(2 f'); amplitudes are strongly curved.
 _CURVED = 1e4
-_WIDE = 3e-3  # a bracket wider than this is halved where the secant is slow
+_WIDE = 3e-3  # a wider bracket is halved where the secant converges slowly
 
 
 @dataclass(frozen=True)
 class Sample:
-    """A function at ln St = `at`: its sign, and its value where that is smooth."""
+    """A function at ln St = `at`: its sign, and its value where it is smooth."""
 
     at: float
     positive: bool
@@ -29,14 +29,14 @@ Function = Callable[[float], tuple[bool, float | None]]
 
 
 def sample(function: Function, stokes: float) -> Sample:
-    """The function at a Stokes number."""
+    """Sample the function at a Stokes number."""
     return Sample(math.log(stokes), *function(stokes))
 
 
 def root(function: Function, negative: Sample, positive: Sample) -> float:
     """Stokes number of the root between a negative and a positive sample (the negative one lower).
 
-    Secant steps through the two latest values, bisection where a value is missing, a step leaves the bracket, or the
+    Secant steps through the two latest values; bisection where a value is missing, a step leaves the bracket, or the
     bracket is wide and the secant slow. It ends without a last evaluation once the secant's own error, about the
     product of the last two steps, is below LOCATED; where the function jumps, once the bracket is.
 
@@ -74,9 +74,9 @@ def root(function: Function, negative: Sample, positive: Sample) -> float:
 
 
 def _straight(older: Sample | None, first: Sample, second: Sample) -> bool:
-    """Whether three samples show one slope: at a jump, where a secant's steps say nothing, they do not."""
+    """True if three samples have one slope; False at a jump, where the secant's steps estimate no error."""
     if older is None or older.value is None or first.value is None or second.value is None:
-        return True  # nothing speaks against it
+        return True  # too few samples to contradict it
     one = (first.value - older.value) * (second.at - first.at)
     other = (second.value - first.value) * (first.at - older.at)
     return one * other > 0 and 0.2 < one / other < 5

@@ -1,4 +1,4 @@
-"""The saddle that an escape passes: rigid rotation at the top of the effective potential's barrier, and its modes."""
+"""The saddle of an escape: rigid rotation at the maximum of the effective potential, and its modes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Region
 
-# A doublet this near (of the barrier's gap) on the unstable mode alone, all others this much smaller, follows it.
+# Relative distance to the barrier's gap, and size of other modes, below which only the unstable mode matters.
 _NEAR, _ALONE = 0.1, 1e-3
 
 
@@ -28,12 +28,12 @@ def barrier_of(probe: EventLocator) -> Barrier | None:
 
 @dataclass(frozen=True)
 class Saddle:
-    """Rigid rotation at the top of the barrier, and how its neighbourhood moves.
+    """Rigid rotation at the barrier, and its linearised dynamics.
 
     Arguments:
-        modes: left eigenvectors as rows; times a deviation they give each mode's amplitude, as its part of the gap.
-        rates: their eigenvalues.
-        unstable: index of the one that grows.
+        modes: left eigenvectors as rows; the product with a deviation is each mode's amplitude, as its part of the gap.
+        rates: the eigenvalues.
+        unstable: index of the growing mode.
     """
 
     gap: float
@@ -43,13 +43,13 @@ class Saddle:
     unstable: int
 
     def nearest(self, states: np.ndarray) -> tuple[int, np.ndarray]:
-        """Which of the states (columns) is nearest, and its amplitudes."""
+        """Index of the nearest of the states (columns), and its amplitudes."""
         amplitudes = self.modes @ (states[: self.state.size] - self.state[:, None])
         k = int(np.argmin(np.sum(np.abs(amplitudes) ** 2, axis=0)))
         return k, amplitudes[:, k]
 
     def side(self, state: np.ndarray) -> bool | None:
-        """Whether a doublet that creeps past is outside; None where it is not clear that it only creeps."""
+        """True if a doublet that creeps past is outside; None unless only the unstable mode is left."""
         amplitudes = np.abs(self.modes @ (state[: self.state.size] - self.state))
         own, others = amplitudes[self.unstable], np.delete(amplitudes, self.unstable)
         if own > _NEAR * self.gap or np.any(others > _ALONE * own):
@@ -58,9 +58,9 @@ class Saddle:
 
 
 def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:
-    """The saddle at a barrier for the trajectory's angular momentum; None where nothing grows."""
+    """The saddle at a barrier for the trajectory's angular momentum; None without a growing mode."""
     saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
-    # a doublet that escapes comes by while opening
+    # an escaping doublet passes it while opening
     film = int(barrier.gap < 1 or not probe.model.edged)
     region = Region(film, int(barrier.gap < probe.edge), False, probe.model.cavitates)
     matrix = np.asarray(_jacobian(probe.model, region)(saddle, probe.p).full())

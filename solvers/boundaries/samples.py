@@ -1,7 +1,7 @@
 """Collisions along lines of constant angle, sampled over the Stokes number until their margins are resolved.
 
-Where two neighbours differ in outcome, or in the criterion that they meet or the number of their events, and where a
-margin turns towards zero between them, more collisions are sampled between the two.
+More collisions are sampled between two neighbours that differ in outcome, criterion or number of events, and where a
+margin may have an extremum towards zero between them.
 """
 
 from __future__ import annotations
@@ -14,31 +14,31 @@ import numpy as np
 SAMPLE = np.dtype(
     [
         ("stokes", "f8"),
-        ("outcome", "i1"),  # index in OUTCOMES; -1: could not be computed
+        ("outcome", "i1"),  # index in OUTCOMES; -1 if it failed
         ("reversal", "i1"),  # the first rebound criterion met, -1 for none
-        ("events", "i4"),  # how many
+        ("events", "i4"),  # number of events
         ("restitution", "f8"),
-        ("time", "f8"),  # of contact, x0/v0; nan for a stick
-        ("criterion", "f8"),  # margin of the rebound criteria, positive if one is met; nan where it is not known
-        ("reach", "f8"),  # gap at which a stick falls back, x0; nan where it is not known
+        ("time", "f8"),  # contact time, x0/v0; NaN for a stick
+        ("criterion", "f8"),  # margin of the rebound criteria, positive if one is met; NaN if unknown
+        ("reach", "f8"),  # gap at which a stick falls back, x0; NaN if unknown
     ]
 )
-BRACKET = 1e-4  # width in ln St to which a change of outcome is enclosed by samples
-FINEST = 1e-5  # width in ln St below which nothing else is sampled
-_INSIDE = 7  # samples put between two
+BRACKET = 1e-4  # width in ln St to which samples bracket a change of outcome
+FINEST = 1e-5  # smallest spacing in ln St of other samples
+_INSIDE = 7  # new samples between two
 _ROUNDS = 9
-_MOST = 150  # pairs of neighbours of a line, the widest, that are sampled between in a round though outcomes agree
-_NOISE = 1e-6  # relative: a smaller turn of a margin is rounding and tolerance
+_MOST = 150  # most pairs with equal outcomes (the widest) that are refined in a round
+_NOISE = 1e-6  # relative; a smaller change of a margin may be numerical error
 Sampler = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Angles (rad), Stokes numbers -> SAMPLE, an element a collision."""
 
 
 def sampled(angles: np.ndarray, grid: np.ndarray, sampler: Sampler) -> list[np.ndarray]:
-    """Samples of each line, ascending in the Stokes number; collisions that could not be computed have outcome -1.
+    """Samples of each line, ascending in the Stokes number; failed collisions have outcome -1.
 
     Arguments:
-        angles: of the lines, rad.
-        grid: Stokes numbers to begin with, ascending.
+        angles: angles of the lines, rad.
+        grid: initial Stokes numbers, ascending.
     """
     found = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size)).reshape(angles.size, grid.size)
     lines = list(found)
@@ -54,7 +54,7 @@ def sampled(angles: np.ndarray, grid: np.ndarray, sampler: Sampler) -> list[np.n
 
 
 def first_grid(span: tuple[float, float], per_decade: int) -> np.ndarray:
-    """Stokes numbers evenly spaced in their logarithm, both ends included."""
+    """Initial Stokes numbers, evenly spaced in the logarithm, including both ends."""
     count = max(3, 1 + math.ceil(math.log10(span[1] / span[0]) * per_decade))
     grid = np.geomspace(*span, count)
     grid[[0, -1]] = span
@@ -62,18 +62,18 @@ def first_grid(span: tuple[float, float], per_decade: int) -> np.ndarray:
 
 
 def merged(line: np.ndarray, fresh: np.ndarray) -> np.ndarray:
-    """A line with more samples, ascending."""
+    """A line with additional samples, ascending."""
     both = np.concatenate([line, fresh])
     return both[np.argsort(both["stokes"], kind="stable")]
 
 
 def known(line: np.ndarray) -> np.ndarray:
-    """The samples that could be computed."""
+    """The samples that did not fail."""
     return line[line["outcome"] >= 0]
 
 
 def _between(line: np.ndarray) -> np.ndarray:
-    """Stokes numbers to be sampled next on a line."""
+    """Stokes numbers of the next samples of a line."""
     failed = np.cumsum(line["outcome"] < 0)[line["outcome"] >= 0]
     line = known(line)
     if line.size < 2:
@@ -81,7 +81,7 @@ def _between(line: np.ndarray) -> np.ndarray:
     at = np.log(line["stokes"])
     width = np.diff(at)
     changes = line["outcome"][1:] != line["outcome"][:-1]
-    wanted = changes & (width > BRACKET) & (np.diff(failed) < _INSIDE)  # once was tried where all fail
+    wanted = changes & (width > BRACKET) & (np.diff(failed) < _INSIDE)  # do not refine further where all fail
     others = (_another_way(line) | _towards_zero(line)) & ~changes & (width > FINEST)
     widest = np.argsort(np.where(others, -width, 0.0), kind="stable")[:_MOST]
     wanted[widest] |= others[widest]
@@ -92,7 +92,7 @@ def _between(line: np.ndarray) -> np.ndarray:
 
 
 def _another_way(line: np.ndarray) -> np.ndarray:
-    """Neighbours of one outcome that come to it another way: there the margins may jump."""
+    """Mask of neighbours with one outcome but different events, between which margins may jump."""
     criteria = line["reversal"][1:] != line["reversal"][:-1]
     events = line["events"][1:] != line["events"][:-1]
     found: np.ndarray = criteria | (events & (line["outcome"][1:] > 0))
@@ -100,9 +100,9 @@ def _another_way(line: np.ndarray) -> np.ndarray:
 
 
 def _towards_zero(line: np.ndarray) -> np.ndarray:
-    """Neighbours between which a margin may reach zero: it turns there, by more than is left of it.
+    """Mask of neighbours between which a margin may reach zero: it has an extremum and changes by more than its value.
 
-    Times, and the gaps at which sticks fall back, have no zero at a separatrix, so any maximum counts.
+    Times and fall-back gaps have no zero at a separatrix, so any maximum counts.
     """
     separates = line["outcome"] > 0
     margins = (

@@ -1,4 +1,4 @@
-"""All curves between outcomes in a plane: sought from a lattice and seed lines, followed from meeting to meeting."""
+"""Search for all boundaries in a plane, from a lattice and seed lines; curves are followed between meeting points."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from .arcs import CHORD, Arc, refined
 from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
 from .plane import Plane
 
-LONGEST = 0.03  # step of a continuation, of the window
+LONGEST = 0.03  # step of the continuation, relative to the window
 _MOST_CURVES = 400
-_SAME = 3e-5  # of the window: meeting points that are nearer are one
+_SAME = 3e-5  # meeting points closer than this are identical, relative to the window
 _COVERED, _SLACK = (
     5e-3,
     5e-4,
-)  # distances within which a curve that is known is looked for about a seed, a lattice's edge
-_SAME_PLACE = 1e-6  # within which a seed is on it
-_STEP = 1e-3  # the first, from a seed
-_ZOOMS = 4  # times that an interval with a third outcome in it is divided
+)  # distances within which a known curve accounts for a seed or an edge of the lattice
+_SAME_PLACE = 1e-6  # distance within which a seed lies on it
+_STEP = 1e-3  # first step from a seed
+_ZOOMS = 4  # rounds of dividing an interval that contains a third outcome
 
 
 @dataclass
 class Meeting:
-    """A point from which curves leave; those that have been followed are `used`."""
+    """A point where curves meet; branches already followed are `used`."""
 
     place: np.ndarray
     leaving: list[Branch]
@@ -36,7 +36,7 @@ class Meeting:
 
 @dataclass
 class Survey:
-    """Curves of a plane, found so far, and what could not be followed."""
+    """Curves of a plane found so far, and places that could not be followed."""
 
     plane: Plane
     arcs: list[Arc] = field(default_factory=list)
@@ -45,19 +45,19 @@ class Survey:
     _waiting: list[tuple[Meeting, int]] = field(default_factory=list)
 
     def seek(self, at: np.ndarray, labels: np.ndarray) -> None:
-        """Follow what shows between neighbours of a polyline of points (n x 2) with labels (n) and is not known."""
+        """Follow the curves that labels (n) of a polyline of points (n x 2) show and that are not known yet."""
         known = np.flatnonzero(labels >= 0)
         for one, other in pairwise(known.tolist()):
             if labels[one] != labels[other] and not self._covered(at[one], at[other], labels[one], labels[other]):
                 self._seek_between(at[one], at[other])
 
     def seed(self, place: np.ndarray, below: int, above: int) -> None:
-        """Follow the curve through a change of label upwards at a place, unless it is known."""
+        """Follow the curve through a change of label in upward direction at a place, unless it is known."""
         near = np.array([0.0, _COVERED])
         for y in self._between(np.clip(place - near, 0, 1), np.clip(place + near, 0, 1), below, above):
             if abs(y - place[1]) < 2 * CHORD:
                 return
-            # straight lines between points of a curve are not the curve
+            # chords of a curve deviate from it
             found = crossings(
                 self.plane.labels, np.array([[place[0], y]]), np.array([[0.0, 1.0]]), np.array([_COVERED]),
                 np.array([below]), np.array([above]),
@@ -88,13 +88,13 @@ class Survey:
             )[0]
             if not np.isnan(found).any():
                 self._start(found, right, left)
-            elif zooms:  # a third outcome lies between
+            elif zooms:  # there is a third outcome between them
                 self._seek_between(at[one], at[other], zooms - 1)
             elif not any(np.linalg.norm(point.place - centre) < _SAME for point in self.meetings):
                 self.failures.append((centre, "a change of outcome was seen and could not be located"))
 
     def _start(self, place: np.ndarray, one: int, other: int) -> None:
-        """Follow the curve through a place both ways."""
+        """Follow the curve through a place in both directions."""
         for radius in (CIRCLE, CIRCLE / 10, CIRCLE / 100):
             leaving = branches(self.plane.labels, place, radius)
             own = [branch for branch in leaving if {branch.right, branch.left} == {one, other}]
@@ -121,7 +121,7 @@ class Survey:
         self._empty()
 
     def _empty(self) -> None:
-        """Follow what leaves the meeting points."""
+        """Follow the remaining branches of the meeting points."""
         while self._waiting:
             point, k = self._waiting.pop()
             if k in point.used:
@@ -136,7 +136,7 @@ class Survey:
             self._keep(Arc(self._ended(arc, found.end), branch.right, branch.left))
 
     def _ended(self, arc: Arc, end: str) -> np.ndarray:
-        """The points of a curve with the meeting point that it ends at."""
+        """The points of a curve, completed by the meeting point at its end."""
         if end != "lost":
             return arc.points
         last = arc.points[-1]
@@ -156,7 +156,7 @@ class Survey:
             point.used.add(k)
         kept = arc.points
         while len(kept) > 2 and np.linalg.norm(kept[-1] - point.place) < 10 * SHORTEST:
-            kept = kept[:-1]  # beside the point itself chords would turn at random
+            kept = kept[:-1]  # close to the meeting point the directions of chords are noise
         return np.vstack([kept, point.place])
 
     def _meet(self, place: np.ndarray, leaving: list[Branch]) -> Meeting:
@@ -167,18 +167,18 @@ class Survey:
 
     def _keep(self, arc: Arc) -> None:
         if len(arc.points) > 1:
-            self.arcs += refined(self.plane, [arc])  # so that what is on it is known to be
+            self.arcs += refined(self.plane, [arc])  # so that points on it are recognised
 
     def _covered(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> bool:
-        """Whether a curve that is known passes between two points of a vertical or horizontal with these labels."""
+        """True if a known curve with these labels passes between two points of a vertical or horizontal line."""
         return next(self._between(low, high, right, left), None) is not None
 
     def _between(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> Iterator[float]:
-        """Where curves that are known pass between two points of a vertical or horizontal with these labels."""
+        """Places where known curves with these labels pass between two points of a vertical or horizontal line."""
         axis = int(abs(high[1] - low[1]) > abs(high[0] - low[0]))
         for arc in self.arcs:
             for place, along in passes(arc.points, 1 - axis, low[1 - axis]):
-                # going up, what is on the right of a curve that goes to the right is below
+                # for a curve towards larger x, its right side is below
                 forward = along > 0 if axis == 1 else along < 0
                 sides = (arc.right, arc.left) if forward else (arc.left, arc.right)
                 if low[axis] - _SLACK <= place <= high[axis] + _SLACK and sides == (right, left):
@@ -186,7 +186,7 @@ class Survey:
 
 
 def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float, float]]:
-    """Where a polyline passes a value of one coordinate: the other there, and by how much the first changes."""
+    """Crossings of a polyline with a value of one coordinate: the other coordinate, and the change of the first."""
     own, other = points[:, axis], points[:, 1 - axis]
     change = np.diff(own)
     low, high = np.minimum(own[:-1], own[1:]), np.maximum(own[:-1], own[1:])
@@ -196,7 +196,7 @@ def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float,
 
 
 def _coming(point: Meeting, arc: Arc, ahead: float) -> int | None:
-    """Which of the curves that leave a point is the one that came to it."""
+    """Index of the branch of a meeting point along which a curve arrived."""
     alike = [k for k, one in enumerate(point.leaving) if (one.right, one.left) == (arc.left, arc.right)]
     alike = [k for k in alike if k not in point.used] or alike
     if not alike:
@@ -214,7 +214,7 @@ def lattice(plane: Plane, columns: int, rows: int) -> tuple[np.ndarray, np.ndarr
 def surveyed(
     plane: Plane, at: np.ndarray, labels: np.ndarray, changes: Iterable[tuple[np.ndarray, int, int]]
 ) -> Survey:
-    """The curves that a lattice and changes on lines show: place, label below, label above."""
+    """The survey of a lattice and of changes on lines (place, label below, label above)."""
     survey = Survey(plane)
     for column, own in zip(at, labels, strict=True):
         survey.seek(column, own)

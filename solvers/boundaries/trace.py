@@ -1,7 +1,7 @@
-"""Boundaries between outcomes, traced: every Stokes number at which the outcome changes, angle by angle.
+"""Tracing of boundaries: every Stokes number at which the outcome changes, angle by angle.
 
-Each line is sampled by collisions until its margins are resolved (`samples`); the changes that show are located by
-functions that are smooth through them (`boundaries.line`), and accepted if collisions on either side agree (`changes`).
+Each line is sampled by collisions until its margins are resolved (`samples`). Changes are located by outcomes or by
+functions that are smooth through them (`boundaries.line`), and accepted if collisions on both sides agree (`changes`).
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from .look import Look, blank
 from .samples import first_grid, known, merged, sampled
 
 SHARPEST = 1e-13
-_TOGETHER = 16  # lines that are sampled together
-_FINER, _SHARPER = 2, 1e-2  # a line that fails once: more samples, and a tolerance that is so much smaller
-_HOLE = 4.5  # spacings of the first grid over which collisions may be missing
-_ROUNDED = 1.01  # times a spacing, which is rounded
-_CREEPING = 0.1  # of the samples of a line: where the kernel hands over more for creeping, Rosenbrock samples the line
-_SLOW = 8  # collisions that are asked for again where more are missing
+_TOGETHER = 16  # lines sampled together
+_FINER, _SHARPER = 2, 1e-2  # for a line that failed once: factors of more samples and of a smaller tolerance
+_HOLE = 4.5  # most initial spacings without a completed collision
+_ROUNDED = 1.01  # factor on a spacing, for rounding
+_CREEPING = 0.1  # largest part of creeping collisions of a line; beyond it Rosenbrock samples the line
+_SLOW = 8  # most missing collisions computed again
 
 
 @dataclass
 class Traced:
-    """Changes and failures of consecutive angles, the collisions they took, and how finely they were sampled."""
+    """Changes and failures of consecutive angles, number of collisions, and resolution of the samples."""
 
     changes: list[tuple[Change, ...]]
     failures: list[str]
@@ -42,7 +42,7 @@ class Traced:
 def traces(
     scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float, tell: Callable[[int], None]
 ) -> Iterator[Traced]:
-    """All parts in their order: the first in this process, which `tell` is told of, the others in one each."""
+    """Traces of all parts in order: the first in this process, which calls `tell`, the others in processes."""
     if len(parts) == 1:
         yield trace(scene, parts[0], span, rtol, tell)
         return
@@ -61,12 +61,13 @@ def trace(
     tell: Callable[[int], None] = lambda _done: None,
     kernel: bool | None = None,
 ) -> Traced:
-    """Changes at angles (rad), a line each: sampled together, then located and confirmed one by one.
+    """Changes at angles (rad), one line each: sampled together, then located and confirmed one by one.
 
-    A line that fails is sampled again, more finely and a hundred times sharper; then it is left out with its reason.
+    A line that fails is sampled again, more finely and with a tolerance a hundred times smaller; if it fails again, its
+    reason is recorded.
 
     Arguments:
-        kernel: let the Taylor kernel integrate; default: if it can. Without it a line has fewer samples.
+        kernel: use the Taylor kernel; default: if it supports the scene. Without it a line has fewer samples.
     """
     traced = Traced([], [], 0, 0.0)
     for first in range(0, angles.size, _TOGETHER):
@@ -115,10 +116,10 @@ def _block(
 
 
 def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) -> tuple[np.ndarray, float]:
-    """Samples of a line and their widest relative spacing; some that are missing are asked for with more patience.
+    """Samples of a line and their widest relative spacing; some missing ones are computed again with a larger budget.
 
     Raises:
-        ComputationError: too many in a row are missing still.
+        ComputationError: too many in a row are still missing.
     """
     spacing = math.log(grid[1] / grid[0])
     at = _spaced(samples, grid)
@@ -140,6 +141,6 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
 
 
 def _spaced(samples: np.ndarray, grid: np.ndarray) -> np.ndarray:
-    """Logarithms of the Stokes numbers of known samples, from the first of the grid to its last."""
+    """Logarithms of the Stokes numbers of known samples, with the first and last of the grid."""
     spaced: np.ndarray = np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]]))
     return spaced

@@ -1,4 +1,4 @@
-"""Proofs that a doublet never separates, so that a trajectory can end as soon as its outcome is decided."""
+"""Certificates that a doublet never separates, so that integration can stop once the outcome is decided."""
 
 from __future__ import annotations
 

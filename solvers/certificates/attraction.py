@@ -1,4 +1,4 @@
-"""An attraction that falls with the gap, and so holds a doublet for good."""
+"""Attraction certificate: an attraction that decreases with the gap and confines the doublet permanently."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .base import Certainty, Certificate, NoCertificate
 
 
 class AttractionCertificate:
-    """Something attracts so strongly that the gap's maxima only fall from now on.
+    """Certificate that the attraction is so strong that the maxima of the gap can only decrease.
 
     Arguments:
-        beside: another proof for the same model, tried first; it is what a trajectory watches for.
+        beside: another certificate for the same model, tried first; its level is the watched event.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate | None = None) -> None:
@@ -34,9 +34,9 @@ class AttractionCertificate:
 
     def _held(self, y: np.ndarray) -> bool:
         if not y[0] >= self._nearest:
-            return False  # the margins take the solids for the nearest it gets; initial contact may lie inside them
+            return False  # the margins assume a gap above solid contact; initial contact may lie below it
         found = self.model.values("attraction_margins", y, self.p)
         hold = found["hold"]
-        # each by more than the error of what it is made of; a NaN proves nothing
+        # each inequality must hold by more than its error; with NaN the comparison is false
         energy = max(float(y[1]) ** 2, 1.0)
         return hold > 0 and found["rebound"] < -self.margin * hold and found["escape"] < -self.margin * energy

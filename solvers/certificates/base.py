@@ -1,4 +1,4 @@
-"""What a proof is that a doublet never separates, and by how much it must hold."""
+"""Protocol of certificates, and the margin by which they must hold."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import numpy as np
 from ...generated.automaton import CLOSING
 from ..model.phases import Phase
 
-STILL = 1e-9  # of v0: slower is a turning point
-# more of SAFETY at the level where a trajectory stops, so that rounding there does not leave the proof undecided
+STILL = 1e-9  # relative to v0; a slower motion is at a turning point
+# added to SAFETY at the watched level, so that rounding does not leave the certificate undecided at the event
 BEYOND = 1.0
 
 
 class Certainty(IntEnum):
-    """Verdict of a proof on a state; true if the two never separate."""
+    """Verdict of a certificate on a state; true if the pair never separates."""
 
     OPEN = 0
-    CERTAIN = 1  # for practical purposes
+    CERTAIN = 1  # certain for practical purposes
     PROVED = 2
 
     @classmethod
@@ -29,26 +29,26 @@ class Certainty(IntEnum):
 
 
 def at_maximum(y: np.ndarray, phase: Phase) -> bool:
-    """Whether a phase starts here from a maximum of the gap."""
+    """True if a phase starts here from a maximum of the gap."""
     return not phase.resting and phase.motion == CLOSING and abs(y[1]) <= STILL
 
 
 class Certificate(Protocol):
-    """The interface of a proof, which has no state of its own.
+    """Interface of a certificate; it keeps no mutable state.
 
-    `y` is the locating state: the model's states, then the works against attractions.
+    `y` is the located state: the model's states, then the works against attractions.
     """
 
-    # what a trajectory watches for (`WatchedEvents.certificate`); with "energy", `y` carries the works
+    # the watched event (`WatchedEvents.certificate`); for "energy", `y` includes the works
     watches: str | None
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        """What is watched for: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the
-        relative margin of the proof on strings; None if there is nothing to watch for.
+        """The watched level: the energy (over m v0^2) below which the doublet at `y` is proved to stick, or the
+        relative margin of the pendulum certificate; None if no event is watched.
         """
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        """Whether the stick is decided at `y`.
+        """The verdict on a stick at `y`.
 
         Arguments:
             maxima: states at the last maxima of the gap, `y` among them if it is one.
@@ -56,7 +56,7 @@ class Certificate(Protocol):
 
 
 class NoCertificate:
-    """No certificate. An oblique doublet with a film alone always parts; on strings it has `PendulumCertificate` or none."""
+    """No certificate: an oblique doublet with a film alone separates; with strings see `PendulumCertificate`."""
 
     watches: str | None = None
 

@@ -1,4 +1,4 @@
-"""Chatter that no proof ends: cycles whose maxima do not grow, held by what attracts."""
+"""Criterion for chatter without a proof: cycles whose maxima do not grow, confined by an attraction."""
 
 from __future__ import annotations
 
@@ -12,31 +12,32 @@ from ..model.phases import Phase
 from .base import Certainty, Certificate, at_maximum
 from .quadrature import panels
 
-CYCLES = 20  # maxima that are taken for chatter, if none of the next is above the one before
-_GAPS = 49  # at which the doublet is asked whether it gets there
+CYCLES = 20  # successive maxima without growth that count as chatter
+_GAPS = 49  # number of gaps ahead at which the margin is evaluated
 
 
 def chatters(maxima: Sequence[np.ndarray], kept: slice, margin: float) -> bool:
-    """Whether none of many maxima is above the one before.
+    """True if none of many successive maxima is above the one before.
 
     Arguments:
         maxima: states at the last maxima of the gap.
-        kept: which states must not grow.
-        margin: their relative error.
+        kept: indices of the states that must not grow.
+        margin: relative error of the states.
     """
     last = np.array([y[kept] for y in maxima[-1 - CYCLES :]])
     return len(last) > CYCLES and not bool(np.any(last[1:] > last[:-1] * (1 + margin)))
 
 
 class ChatterCertificate:
-    """Between unequal spheres, or with laws of one's own, an attraction that holds what has rebounded many times.
+    """For unequal spheres or a user's laws: a stick of a doublet that has rebounded many times and is confined by an
+    attraction.
 
-    At a gap that stays the same, the orbit's momentum is that of rigid rotation and two modes that decay. Where it
-    falls and is above the rigid one it never comes back to what it was, and with no more of it what pulls inward at a
-    maximum of the gap allows none that is higher. The gap does not quite stay the same, so this is no theorem.
+    At constant gap, the orbital momentum is that of rigid rotation plus two decaying modes. Where it decreases and is
+    above the rigid value, it never returns to its present value; with no larger orbital momentum, the inward force at a
+    maximum of the gap allows no higher maximum. The gap is not exactly constant, so this is not a theorem.
 
     Arguments:
-        beside: the proof that is tried first.
+        beside: another certificate, tried first.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate) -> None:
@@ -55,7 +56,7 @@ class ChatterCertificate:
         return Certainty.of(held, theorem=False)
 
     def _held(self, y: np.ndarray) -> bool:
-        gaps = float(y[0]) + (self.end - float(y[0])) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
+        gaps = float(y[0]) + (self.end - float(y[0])) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
         at_end = np.array([self.end, *y[1:]])
         if y[2] < self.model.values("rigid_rotation", at_end, self.p)["orbital_momentum"]:
             return False

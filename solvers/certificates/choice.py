@@ -1,4 +1,4 @@
-"""Which proof holds for a model."""
+"""Choice of the certificate for a model."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .pendulum import PendulumCertificate
 
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
-    """The certificate that holds for a model."""
+    """The certificate that applies to a model."""
     found = _first(model, p, rtol)
     if covers(model):
         return OrbitalMomentumCertificate(model, p, rtol, found)
@@ -25,7 +25,7 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 
 
 def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
-    """What is asked first, or alone."""
+    """The certificate that is tried first, or alone."""
     if model.has("pendulum_margins") and model.choice.law("arm") == "midgap" and _integrable(model):
         return PendulumCertificate(model, p, rtol)
     turning = model.oblique and not model.wall
@@ -41,24 +41,24 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 
 
 def energy_proof(proof: Certificate) -> EnergyCertificate | None:
-    """The proof by energy that a trajectory has, alone or beside another."""
+    """The energy certificate contained in `proof`, or None."""
     while isinstance(proof, AttractionCertificate | OrbitalMomentumCertificate | ChatterCertificate):
         proof = proof.beside
     return proof if isinstance(proof, EnergyCertificate) else None
 
 
 def _holds(model: Model) -> bool:
-    """Whether attraction alone can prove a stick: the forces fall with the gap, and the arm conserves L."""
+    """True if the attraction certificate applies: forces decrease with the gap and the lever arm conserves L."""
     attracting = [getattr(model.laws, slot) for slot in ("bridge", "attraction") if model.choice.law(slot)]
     falling = all(getattr(law, "FALLS", False) for law in attracting)
     return model.has("attraction_margins") and falling and model.choice.law("arm") in (None, "midgap")
 
 
 def _momentum(model: Model) -> bool:
-    """Whether the film has a momentum integral: not if its force is not proportional to u."""
+    """True if the film has a momentum integral, that is if its force is proportional to u."""
     return not any(str(symbol) in model.state for symbol in model.extra("film", "resistance"))
 
 
 def _integrable(model: Model) -> bool:
-    """Whether the laws say what the film takes and how far the glass criterion reaches (a user's need not)."""
+    """True if the laws define `stopping` of the film and `reach` of the glass criterion (a user's may not)."""
     return hasattr(model.laws.film, "stopping") and hasattr(model.laws.glass, "reach")

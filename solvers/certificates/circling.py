@@ -1,11 +1,12 @@
 """Limit of a doublet that repeatedly enters and leaves its film, less deeply in each cycle.
 
-Beyond the film and the edge of the shear (the gap e) nothing is lost and the orbit's momentum J stays. With every turn
-the dip into the film gets shallower, and the shear brings J nearer to its value J_e where the doublet turns as one body
-at e; both approach their limits by powers of the number of turns. So the limit is known though no number of turns
-reaches it: an orbit that just touches e, with J_e. If attraction turns that orbit back before rupture the doublet stays
-a stick; if not it separates, after however many turns. What is left of the radial energy does not change this as long
-as it is a small and not a growing part of what the barrier has still to lose, which two states of the trajectory show.
+Outside the film and the edge of the tangential force (at gap e) no energy is lost and the orbital momentum J is
+constant. In each cycle the doublet enters the film less deeply, and the tangential force brings J closer to J_e, its
+value for rigid rotation at e. Both converge algebraically with the number of cycles, so integration does not reach the
+limit, but the limit is known: an orbit that touches e, with J_e. If the attraction confines that orbit before rupture,
+the doublet sticks; if not, it separates after finitely many cycles. The remaining radial energy does not change this
+result while it is a small and not growing part of the remaining decrease of the barrier; two states of the trajectory
+test this.
 """
 
 from __future__ import annotations
@@ -18,17 +19,17 @@ from ..model.contact import contact_gap
 from .orbital_momentum import OrbitalMomentumCertificate
 from .quadrature import panels
 
-_SHALLOW = 0.1  # a dip is shallow below this part of the film
-_SMALL = 0.9  # radial energy over the remaining decrease of the barrier: below it none escapes before the limit
-_GROWTH = 1.05  # of that ratio, between two states, which counts as none
+_SHALLOW = 0.1  # largest depth in the film, relative to its thickness, of a shallow cycle
+_SMALL = 0.9  # largest ratio of the radial energy to the remaining decrease of the barrier
+_GROWTH = 1.05  # tolerated growth of that ratio between the two states
 _GAPS = 201
 
 
 def comes_to(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y: np.ndarray) -> bool | None:
-    """Whether a doublet that circles is held in the limit of many turns; None where that is not clear.
+    """True if a circling doublet sticks in the limit of many cycles, False if it separates, None if undecided.
 
     Arguments:
-        earlier, y: the model's states after some turns, and after several times as many.
+        earlier, y: the model's states after some cycles and after several times as many.
     """
     first, last = _turn(proof, earlier), _turn(proof, y)
     if first is None or last is None or abs(last.barrier) < proof.margin * last.ahead:
@@ -39,7 +40,7 @@ def comes_to(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y: np.ndarr
 
 @dataclass(frozen=True)
 class _Turn:
-    """Energies at the edge: of the radial motion, the limit's barrier, and what the barrier has still to lose."""
+    """Energies at the edge: radial motion, barrier of the limit, remaining decrease of the barrier."""
 
     radial: float
     barrier: float
@@ -47,9 +48,9 @@ class _Turn:
 
 
 def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
-    """None for a doublet that does not dip shallowly into its film, pushed outwards at the edge.
+    """Energies of a cycle; None unless it is shallow and the net force at the edge is outward.
 
-    Nor with the surface arm, whose angular momentum drifts on while the dips get shallower.
+    Also None with the surface lever arm, whose angular momentum keeps drifting.
     """
     model, edge = proof.model, max(proof.edge, 1.0)
     if model.strings or proof.lever == "surface" or not model.edged or not edge < proof.end:
@@ -66,7 +67,7 @@ def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
 
 
 def _inward(proof: OrbitalMomentumCertificate, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """What pulls inward at these gaps, with the momenta of a state."""
+    """Inward force at these gaps, with the momenta of a state."""
     states = np.repeat(y[: len(proof.model.state), None], gaps.size, axis=1)
     states[0] = gaps
     force: np.ndarray = np.asarray(proof.model.function("inward_force")(states, proof.p).full())[0]
@@ -74,13 +75,13 @@ def _inward(proof: OrbitalMomentumCertificate, gaps: np.ndarray, y: np.ndarray) 
 
 
 def _work(proof: OrbitalMomentumCertificate, y: np.ndarray, start: float, end: float) -> float:
-    """Work against what pulls inward."""
+    """Work against the inward force from gap `start` to `end`."""
     edges = start + (end - start) * np.linspace(0.0, 1.0, 9)
     return float(np.sum(panels(lambda gaps: _inward(proof, gaps, y), edges)))
 
 
 def _barrier(proof: OrbitalMomentumCertificate, y: np.ndarray, edge: float) -> float:
-    """The most work that it takes from the edge to any gap further out."""
+    """The largest work against the inward force from the edge to any larger gap."""
     gaps = np.geomspace(edge, proof.end, _GAPS)
     work = np.concatenate([[0.0], np.cumsum(panels(lambda at: _inward(proof, at, y), gaps))])
     top = 1 + int(np.argmax(work[1:]))
@@ -90,5 +91,5 @@ def _barrier(proof: OrbitalMomentumCertificate, y: np.ndarray, edge: float) -> f
     parts = np.linspace(low, high, _GAPS)
     pull = _inward(proof, parts, y)
     turns = np.flatnonzero((pull[:-1] > 0) & (pull[1:] <= 0))
-    summit = float(parts[turns[0]]) if turns.size else float(gaps[top])  # flat there: the rest is of second order
+    summit = float(parts[turns[0]]) if turns.size else float(gaps[top])  # an error of second order
     return float(work[top - 1]) + _work(proof, y, low, summit)

@@ -1,7 +1,8 @@
-"""By energy: too little of it for the barrier of the effective potential on the far side.
+"""Energy certificate: the energy is below a barrier of the effective potential at a larger gap.
 
-Mechanical energy never increases and, without strings, angular momentum is conserved: energy below the barrier of
-U_eff = L^2/(2 I) + W_c (+ U_s) further out cannot be made up for. Beside a wall all is as head-on: nothing turns.
+Mechanical energy never increases and, without strings, angular momentum is conserved: a pair with less energy than the
+barrier of U_eff = L^2/(2 I) + W_c (+ U_s) never crosses it. A wall is treated as head-on, as no line of centres
+rotates.
 """
 
 from __future__ import annotations
@@ -29,11 +30,11 @@ class Barrier:
 
 
 class EnergyCertificate:
-    """Energy below a barrier of the effective potential that lies further out.
+    """Certificate that the energy is below a barrier of the effective potential at a larger gap.
 
-    For the surface arm angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite; there
-    the level is lowered by what the drift can still do, and the stick is not called a theorem (between equal spheres
-    `OrbitalProof` decides in its place).
+    For the surface lever arm the angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite.
+    The level is then lowered by the largest effect of the drift, and the stick is not a theorem (for equal spheres
+    `OrbitalMomentumCertificate` decides instead).
     """
 
     watches: str | None = "energy"
@@ -56,7 +57,7 @@ class EnergyCertificate:
             return None
         scale = self._largest + abs(
             ahead[0].height
-        )  # the same all along the trajectory, or a stop would move its own level
+        )  # constant along the trajectory; otherwise the level would depend on the event's own state
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
@@ -64,21 +65,21 @@ class EnergyCertificate:
 
     def _below(self, y: np.ndarray, phase: Phase) -> bool:
         if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
-            return True  # nothing moves that could part them, or changes what turns; and the force is inward
+            return True  # no motion can separate the pair or change the rotation, and the force is inward
         if phase.resting and self.rests(y):
             return True
         level = self._level(y, phase, SAFETY)
         return level is not None and self.energy(y) < level
 
     def rests(self, y: np.ndarray) -> bool:
-        """Whether a doublet at rest in its gap is held there while its slip dies away.
+        """True if a doublet at rest in its gap stays there while its slip decays.
 
-        Its slip energy never grows, and states of one angular momentum have the energy of rigid rotation and that of
-        their deviation from it (`derive.checks.partners.slip_energy_adds`): an orbit that exceeds the rigid one by
-        more than the slip energy would take never comes. Where angular momentum drifts, twice that.
+        The slip energy never grows, and at given angular momentum the kinetic energy is that of rigid rotation plus
+        that of the deviation from it (`derive.checks.partners.slip_energy_adds`). The slip energy thus bounds the
+        excess of the orbital momentum over its rigid value. Twice this bound is used where angular momentum drifts.
         """
         model, margin, orbital_momentum = self.model, SAFETY * self.rtol, self._rigid(y, float(y[0]))
-        if model.reduced:  # one slip, which falls without changing sign
+        if model.reduced:  # a single slip, which decreases without changing sign
             orbital_momentum = max(float(y[2]), orbital_momentum)
         else:
             rigid = list(model.values("rigid_rotation", y, self.p).values())
@@ -95,7 +96,7 @@ class EnergyCertificate:
         return self.model.values("energies", y, self.p)["kinetic"]
 
     def _turning(self, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
-        """A state at rest in this gap whose orbit alone has momentum."""
+        """A state with zero normal velocity at this gap, and momentum only in the orbital motion."""
         state = np.zeros(len(self.model.state))
         state[[0, 2]] = y[0], orbital_momentum
         return state
@@ -106,15 +107,15 @@ class EnergyCertificate:
         return float(sum(self.model.values(self.model.escape, y, self.p).values()) + work)
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
-        """Maxima that no later one exceeds, from the inside out, for the angular momentum of `y`."""
+        """Maxima not exceeded at larger gaps, in order of the gap, for the angular momentum of `y`."""
         return self._conserved if self.theorem else self._searched(tuple(y[2 : len(self.model.state)].tolist()))
 
     def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
-        """What a drifting angular momentum can still add to the energy, over m v0^2 (surface arm; else 0).
+        """Bound of the energy that a drift of angular momentum can add, over m v0^2 (surface lever arm; else 0).
 
-        The arm is short by x/r of r/2, so |dL| = (x/r) |dJ|. J can still change by what keeps it from rigid rotation,
-        and while the doublet breathes by the change of the rigid share. Energy and barrier move by omega dL each,
-        where omega L/2 is the rigid rotation's energy.
+        The lever arm is shorter than r/2 by the fraction x/r, so |dL| = (x/r) |dJ|. J can change by its deviation from
+        rigid rotation and, as the gap varies, by the change of its rigid value. Energy and barrier change by omega dL
+        each, where omega L/2 is the energy of rigid rotation.
         """
         if self.theorem:
             return 0.0
@@ -126,7 +127,7 @@ class EnergyCertificate:
             reach = barrier
         lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
         energy = self.model.values("effective_potential", y, self.p)["energy"]
-        # initial contact is without spin: all of L is the orbit's, and is the unit of `angular_momentum`
+        # without spin at initial contact L is orbital, and that L is the unit of `angular_momentum`
         momentum = self.model.values("angular_momentum", y, self.p)["angular_momentum"]
         whole = momentum * self.model.values("start", y, self.p)["orbital_momentum"]
         return float(4 * energy * max(orbital_momentum / rigid, 1.0) * lost / whole)
@@ -163,16 +164,16 @@ class EnergyCertificate:
         return tuple(reversed(highest_after))
 
     def _root(self, low: float, high: float, y: np.ndarray) -> float:
-        """Where the slope turns negative, by repeated division."""
+        """Gap at which the slope becomes negative, by repeated subdivision."""
         for _ in range(3):
             parts = np.linspace(low, high, 201)
             slope = self._slope(parts, y)
             last = int(np.argmax(slope[1:] <= 0))
             low, high = parts[last], parts[last + 1]
-        # over 1e-7 of the bracket the slope is straight
+        # over 1e-7 of the bracket the slope is linear
         return float(low + (high - low) * slope[last] / (slope[last] - slope[last + 1]))
 
     def _rise(self, top: float, y: np.ndarray) -> float:
-        """Effective potential at `top` less that at initial contact, by Gauss-Legendre panels in ln(gap)."""
+        """Effective potential at `top` minus that at initial contact, by Gauss-Legendre panels in ln(gap)."""
         edges = np.linspace(0.0, np.log(top), 2 + int(8 * abs(np.log(top))))
         return float(np.sum(panels(lambda logs: self._slope(np.exp(logs), y) * np.exp(logs), edges)))

@@ -1,4 +1,4 @@
-"""Head-on with a film alone: its momentum integral decides."""
+"""Film certificate, head-on with a film alone: by the film's momentum integral."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PARTS = 50  # panels of the quadrature between two depths
 
 
 class FilmCertificate:
-    """Head-on, film alone: du/dx = -(6 pi mu a^2/m) resistance, so the velocity at every gap is known in advance."""
+    """Certificate for a head-on film alone: du/dx = -(6 pi mu a^2/m) resistance gives the velocity at every gap."""
 
     watches: str | None = None
 
@@ -43,39 +43,39 @@ class FilmCertificate:
             return True
         if phase.motion != CLOSING:
             return self.held(gap, normal_velocity)
-        # closing: neither the solids nor the glass pressure are met before the film stops the motion
+        # closing: the film must stop the motion before solid contact and before the glass pressure is reached
         grid = self.approach(gap, FILM_DEPTHS)
         speed = self.slowed(-normal_velocity, grid)
         if speed[-1] > -self.margin:
             return False
-        # from one depth to the next the speed falls and the pressure per speed rises: their ends bound the pressure
+        # between two depths the speed falls and the pressure per speed rises, so their end values bound the pressure
         return self.clear(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0))
 
     def approach(self, gap: float, depths: int) -> np.ndarray:
-        """Gaps on the way to contact, in equal ratio: PARTS from one depth to the next."""
+        """Gaps from `gap` to contact in geometric progression, PARTS for each depth."""
         deepest = max(self.contact, gap * LEAST_DEPTH)
         return np.geomspace(gap, deepest, depths * PARTS + 1)
 
     def held(self, gap: float, normal_velocity: float) -> bool:
-        """Whether the film stops an opening doublet: u falls by its integral up to x = x0; not if it cavitates."""
+        """True if the film stops an opening doublet: u decreases by the integral up to x0 unless it cavitates."""
         if normal_velocity == 0.0:
-            return True  # at rest nothing moves it
+            return True  # at rest it stays at rest
         loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
         return bool(normal_velocity - loss < -self.margin)
 
     def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
-        """Closing speed along a falling gap; losses are negative there. Below zero: it has been stopped before."""
+        """Closing speed along decreasing gaps (losses are negative there); negative beyond the stop."""
         found: np.ndarray = speed + self._momentum_loss(grid)
         return found
 
     def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
-        """Whether no glass pressure is met at these gaps and closing speeds."""
-        beside = np.zeros((len(self.model.state) - 2, gaps.size))  # what moves across the line of centres
+        """True if the glass pressure is not reached at these gaps and closing speeds."""
+        beside = np.zeros((len(self.model.state) - 2, gaps.size))  # the tangential states, zero
         clearance = np.asarray(_glass(self.model)(np.vstack([gaps, -speeds, beside]), self.p).full())
         return bool(np.min(clearance) > self.margin * self.glass)
 
     def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
-        """Loss of u along a path of gaps, cumulative."""
+        """Cumulative loss of u along a grid of gaps."""
         losses: np.ndarray = np.concatenate([[0.0], np.cumsum(panels(self._resistance_at, grid))]) / self.stokes
         return losses
 

@@ -1,4 +1,4 @@
-"""Attractions beside a film, where nothing turns: energy, or the film that stops the approach."""
+"""Certificate for film and attractions, head-on or with a wall: by energy, or by the film that stops the approach."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from .energy_barrier import EnergyCertificate
 from .film import PARTS, FilmCertificate
 from .quadrature import panels
 
-_WEAK = 1e-3  # of m v0^2; the error of a level is 3e-5 at most, that of the loosest tolerance
+_WEAK = 1e-3  # in units of m v0^2; the error of a level is at most 3e-5, at the loosest tolerance
 
 
 class FilmAndAttractionCertificate(EnergyCertificate):
-    """Head-on or beside a wall, a film and what attracts: energy, or the film that stops the approach.
+    """Certificate for film and attractions, head-on or with a wall: by energy, or by the film that stops the approach.
 
-    An attraction too weak to show in the energy still holds what the film has stopped. What would close at w under
-    the film alone closes at most at w + g with the attraction, g^2/2 being its work from x = x0 on: where v = w + g,
-    v >= g, so v grows no faster than w + g does. If w vanishes before the solids are met and w + g meets no glass
-    pressure, the solids are met at no more than g, and e_dry <= 1 gives back less than it takes to get to x0.
+    An attraction too weak for the energy certificate still confines a pair that the film has stopped. If the closing
+    speed is w under the film alone, it is at most w + g with the attraction, where g^2/2 is the work from x = x0 on:
+    where v = w + g, v >= g, so v grows no faster than w + g. If w vanishes before solid contact and w + g does not
+    reach the glass pressure, the solids meet at a speed of at most g, and with e_dry <= 1 the rebound does not reach
+    x0.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
@@ -36,7 +37,7 @@ class FilmAndAttractionCertificate(EnergyCertificate):
         )
 
     def _weak(self, y: np.ndarray) -> bool:
-        """Whether what rises beyond x0 is too low for the energy to decide soon; else the film's quadrature is dear."""
+        """True if the barriers beyond x0 are too low for the energy to decide; saves the quadrature otherwise."""
         touch = self.model.values("effective_potential", np.array([1.0, *y[1:]]), self.p)["energy"]
         return all(barrier.height - touch < _WEAK for barrier in self.barriers(y))
 
@@ -45,7 +46,7 @@ class FilmAndAttractionCertificate(EnergyCertificate):
         if gap > 1:
             return False
         closing = phase.motion == CLOSING
-        grid = film.approach(gap if closing else 1.0, ATTRACTED_FILM_DEPTHS)  # what opens may rise up to x0 and fall
+        grid = film.approach(gap if closing else 1.0, ATTRACTED_FILM_DEPTHS)  # an opening pair may reach x0 and return
         if closing:
             speed = film.slowed(-normal_velocity, grid)
             if speed[-1] > -film.margin:
@@ -62,11 +63,11 @@ class FilmAndAttractionCertificate(EnergyCertificate):
 
     @staticmethod
     def _pulls(*works: np.ndarray) -> bool:
-        """Whether none of the works ever falls: a law of one's own may push."""
+        """True if the works never decrease; a user's law may be repulsive."""
         return all(bool(np.all(np.diff(work) >= 0)) for work in works)
 
     def _fallen(self, grid: np.ndarray) -> np.ndarray:
-        """Work of the attraction from the first gap on, cumulative; the slope of the potential is nothing else here."""
+        """Cumulative work of the attraction from the first gap on, from the potential at zero angular momentum."""
         still = np.zeros(len(self.model.state))
         works: np.ndarray = np.concatenate([[0.0], np.cumsum(-panels(lambda gaps: self._slope(gaps, still), grid))])
         return works

@@ -1,7 +1,7 @@
-"""By the orbital angular momentum: what holds a doublet now holds it for good.
+"""Orbital-momentum certificate: bounds the energy that spin can still transfer to the orbit.
 
-It decides where energy does not: fast spin that the orbit will never get back, resting contact, cycles on glassy liquid
-that lose next to nothing, and the surface arm, for which angular momentum is not conserved.
+It decides cases that the energy certificate does not: fast spin that the orbit cannot regain, resting contact, cycles
+on glassy liquid with small losses, and the surface lever arm, for which angular momentum is not conserved.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from .chatter import chatters
 from .quadrature import panels
 
 _LEVERS = ("midgap", "surface")
-_GAPS = 49  # at which the doublet is asked whether it gets there
+_GAPS = 49  # number of gaps ahead at which the margin is evaluated
 
 
 def covers(model: Model) -> bool:
-    """Whether the proof is about this model: equal spheres that turn, the library's laws, something that attracts."""
+    """True if the certificate applies: oblique, equal spheres, the library's laws, an attraction."""
     return model.has("orbital_margins") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
 
 
 class OrbitalMomentumCertificate:
-    """Asks, after another proof, whether some gap ahead is out of reach for good.
+    """Certificate, tried after another one, that some larger gap can never be reached.
 
-    On strings no proof covers the slip that their torque makes; there it ends chatter, after some cycles whose maxima
-    do not grow, and the stick is not called a theorem. Nor is it with the surface arm (docs/physics.md).
+    With strings no proof covers the slip caused by their torque. There it ends chatter after some cycles whose maxima
+    do not grow, and the stick is not a theorem. Nor is it with the surface lever arm (docs/physics.md).
 
     Arguments:
-        beside: another proof for the same model, tried first unless the arm lets angular momentum drift; it is what a
-            trajectory watches for.
+        beside: another certificate for the same model, tried first unless angular momentum drifts; its level is the
+            watched event.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate) -> None:
@@ -65,22 +65,22 @@ class OrbitalMomentumCertificate:
 
     @property
     def proves(self) -> bool:
-        """Whether `holds` is a theorem for this model."""
+        """True if `holds` is a theorem for this model."""
         return not (self._drifts or self.model.strings)
 
     def settles(self, y: np.ndarray) -> bool:
-        """Whether a doublet with the surface arm is held once it turns as one body at the edge of the shear.
+        """True if a doublet with the surface lever arm sticks once it rotates rigidly at the tangential edge.
 
-        It is, as with the other arm, but for the angular momentum that the surface arm makes in the film meanwhile:
-        no theorem, for chatter that nothing else ends.
+        The argument is that of the other lever arm. It neglects the angular momentum that the surface lever arm adds in
+        the film, so it is not a theorem; it is used for chatter that no other criterion ends.
         """
         return self._drifts and not self.model.strings and self.holds(y, settled=True)
 
     def holds(self, y: np.ndarray, settled: bool = False) -> bool:
-        """Whether the margin is below zero at some gap ahead by more than its error.
+        """True if the margin is negative at some larger gap by more than its error.
 
         Arguments:
-            settled: count on omega = xi at the edge of the shear with the surface arm as well.
+            settled: assume omega = xi at the edge of the tangential force with the surface lever arm as well.
         """
         gap, normal_velocity, orbital_momentum = map(float, y[:3])
         if not gap < self.end:
@@ -89,8 +89,8 @@ class OrbitalMomentumCertificate:
             orbital_momentum / (4 + self.aspect * gap) ** 2 - self.model.values("orbital_margins", y, self.p)["slip"]
         )
         if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbital_momentum:
-            return False  # beyond what is proved of the surface arm's exchange: rho < 4 a
-        edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # close ones first
+            return False  # the bound for the surface lever arm is proved only for rho < 4 a
+        edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
         inward, attraction = self._work(edges, y, orbital_momentum), self._work(edges, y, 0.0)
         found = np.asarray(
             self.model.function("orbital_margins")(self._states(edges[1:], y, orbital_momentum), self.p).full()
@@ -99,12 +99,12 @@ class OrbitalMomentumCertificate:
         needed = normal_velocity**2 / 2 - inward + self._exchange(edges[1:], y, found, settled or not self._drifts)
         turned = (self.obliquity**2 / 16) * abs(orbital_momentum) * np.maximum(-slips, 0.0)
         error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
-        return bool(np.any(needed < -self.margin * error))  # a comparison with NaN proves nothing
+        return bool(np.any(needed < -self.margin * error))  # a comparison with NaN is false
 
     def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray, settled: bool) -> np.ndarray:
         """Energy that the tangential force can still transfer from spin to orbit before each of these gaps.
 
-        Beyond the edge of the shear only what it does before omega = xi there.
+        Beyond the edge of that force, only the transfer until omega = xi at the edge.
         """
         names = self.model.names("orbital_margins")
         slips, energy = found[names.index("slip")], found[names.index(self.lever)]
@@ -115,7 +115,7 @@ class OrbitalMomentumCertificate:
         rigid = self.model.values("rigid_rotation", np.array([self.edge, *y[1:]]), self.p)
         if y[2] >= rigid["orbital_momentum"]:
             return np.where(beyond, 0.0, possible)
-        at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbit, and spin where it is a state
+        at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbital momentum, and spin if it is a state
         left = np.asarray(
             self.model.function("orbital_margins")(
                 self._states(gaps, at_edge, rigid["orbital_momentum"]), self.p
@@ -124,7 +124,7 @@ class OrbitalMomentumCertificate:
         return np.where(beyond, energy - left[names.index(self.lever)], possible)
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
-        """Work against what pulls inward from the first gap to each of the others, the orbit's momentum as given."""
+        """Work against the inward force from the first gap to each of the others, at the given orbital momentum."""
         force = self.model.function("inward_force")
         work: np.ndarray = np.cumsum(
             panels(lambda gaps: np.asarray(force(self._states(gaps, y, orbital_momentum), self.p).full()), edges)

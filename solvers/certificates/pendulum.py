@@ -1,4 +1,4 @@
-"""Turning on strings: they outweigh the centrifugal force for good, and the film stops every rebound."""
+"""Pendulum certificate: the strings outweigh the centrifugal force permanently, and the film stops every rebound."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .base import BEYOND, Certainty
 
 
 class PendulumCertificate:
-    """Strings that turn, a film and no bridge: all but lubrication pulls inward for good."""
+    """Certificate for an oblique pendulum with a film and no bridge: all forces but lubrication stay inward."""
 
     watches: str | None = "pendulum"
 

@@ -1,1 +1,1 @@
-"""One collision: its outcome by either engine, as text and as picture."""
+"""One collision: its outcome by either engine, as text and as a figure."""

@@ -1,4 +1,4 @@
-"""What an engine finds of one collision, in dimensionless numbers, put together as its result in SI."""
+"""Conversion of an engine's dimensionless findings for one collision into a `Collision` in SI units."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Finding:
-    """What an engine finds: times in x0/v0, gaps in x0, rates in omega0; the ledger and the trajectory are in SI.
+    """An engine's findings: times in x0/v0, gaps in x0, rates in omega0; the ledger and the trajectory are in SI.
 
     Arguments:
-        outputs: the model's outputs where it separates, by name; else empty.
-        rotation: angle turned until then, rad.
-        time: of the end.
-        drift: |L/L(0) - 1| at the end, where L is conserved.
+        outputs: the model's outputs at separation, by name; empty for a stick.
+        rotation: angle turned by the line of centres until the end, rad.
+        time: end of the trajectory: separation, or for a stick the end of integration.
+        drift: |L/L(0) - 1| at the end; None where the angular momentum L is not conserved.
     """
 
     outcome: str
@@ -43,7 +43,7 @@ class Finding:
 
 
 def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision:
-    """The result of a collision; what a stick leaves undefined is None."""
+    """The `Collision` in SI units; quantities that a stick leaves undefined are None."""
     separated = found.outcome != "stick"
     time = found.time * n.time
 
@@ -85,7 +85,7 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
 def _partner_spin(
     scene: Scene, own: float | None, outputs: Mapping[str, float], n: DimensionlessGroups
 ) -> float | None:
-    """Spin of the partner: its own, that of an equal, or none for a wall."""
+    """Spin of the partner, rad/s: its own output, that of an equal sphere, or 0 for a wall."""
     if scene.partner is None or own is None:
         return None
     if scene.wall:

@@ -1,4 +1,4 @@
-"""One collision by CVODES or Rosenbrock: located, integrated, and its ledger closed."""
+"""One collision by CVODES or Rosenbrock: events located, phases integrated, the energy ledger checked."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ def by_casadi(
     told: Told = tolerance,
     replay: Callable[..., Replay] = replay,
 ) -> Collision:
-    """By CVODES or Rosenbrock: what `collide` does with one of them.
+    """One collision by CVODES or Rosenbrock; the implementation of `collide` for these engines.
 
     Arguments:
-        find: what locates the trajectory; it is the same for both engines.
-        told: what an engine's integrators are told at a tolerance.
-        replay: integrates the located phases with the engine.
+        find: locates the sequence of events; the same for both engines.
+        told: integrator tolerances of an engine at a given `rtol`.
+        replay: integrates the located phases.
     """
     found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, replay)
     return _result(scene, n, *found, trajectory)
@@ -61,10 +61,11 @@ def _compute(
     told: Told,
     replay: Callable[..., Replay],
 ) -> tuple[EventSequence, Replay, Flow, str, float]:
-    """Locate, then integrate with the engine; both tighter while the engine's error exceeds the distance to a boundary.
+    """Locate the events, then integrate the phases with the engine.
 
-    Where no tolerance helps, the located trajectory itself is the answer. Also returns the engine that answers and the
-    tolerance that it took.
+    Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
+    to a boundary. Where no tolerance helps, the trajectory of the event location is the result. Also returns the engine
+    and the tolerance that were used.
     """
     small = load(select_model(scene, n.oblique, fold=True))
     choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)
@@ -91,7 +92,7 @@ def _compute(
 
 
 def _extras(model: Model, ledger: bool) -> tuple[str, ...]:
-    """What is integrated along: the rotation where it is not a state, the ledger's terms that the model has."""
+    """Names of the quadratures: the rotation where it is not a state, and the model's terms of the ledger."""
     rotation = ("rotation",) if model.has("turning_rate") and not model.strings else ()
     return rotation + (tuple(name for name in model.names("energy_rates") if name in _LEDGER) if ledger else ())
 
@@ -173,7 +174,7 @@ def _demand_closed(energy: Energy, rtol: float) -> None:
 
 
 def _drift(model: Model, replayed: Replay, p: np.ndarray) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
+    """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
     if model.strings or model.wall:
         return None
     if not model.oblique:

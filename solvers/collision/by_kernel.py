@@ -1,4 +1,4 @@
-"""One collision by the kernel, as `collide` shows it."""
+"""One collision by the Taylor kernel, with its ledger and trajectory."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def kind_of(answer: np.void) -> tuple[str, str | None]:
-    """Outcome of an answer, and the first criterion met."""
+    """Outcome of a kernel record, and the first rebound criterion met (None if none)."""
     return OUTCOMES[answer["outcome"]], KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
 
 
@@ -37,11 +37,11 @@ def collision(
     trajectory: bool = False,
     budget: int = STEPS,
 ) -> Collision | None:
-    """The collision by one call of the kernel; None if it hands it over, or there is none here.
+    """The collision by one call of the kernel; None if the kernel cannot complete it or is not available.
 
     Arguments:
-        ledger: with energies and the drift of angular momentum.
-        trajectory: with the trajectory, sampled from the steps' own series.
+        ledger: include the energy ledger and the drift of angular momentum.
+        trajectory: include the trajectory, sampled from the Taylor series of the steps.
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
     told = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
@@ -52,7 +52,7 @@ def collision(
     outcome, reversal = kind_of(found)
     separated = bool(found["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
-        return None  # the trajectory is wrong, whatever else it looks like
+        return None  # the energy budget does not close, so the trajectory is wrong
     happened = told.events[0, : found["events"]]
     model = load(select_model(scene, n.oblique, fold=True))
     finding = Finding(
@@ -88,7 +88,7 @@ def _energy(scene: Scene, n: DimensionlessGroups, book: np.void) -> Energy:
 
 
 def _drift(scene: Scene, n: DimensionlessGroups, book: np.void) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings or a wall, which take from L; 0 head-on."""
+    """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
     if scene.pendulum is not None or (scene.wall and n.oblique):
         return None
     return abs(float(book["momentum"]) - 1.0) if n.oblique else 0.0
@@ -104,11 +104,10 @@ def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, told: Recorde
 
 
 def stretches(steps: Steps, states: int) -> list[Stretch]:
-    """The phases of one collision, each with its states at parts of its duration, the angle turned last; none at all
-    where initial contact decides.
+    """The phases of one collision, each with a sampler of its states; empty where initial contact decides the outcome.
 
     Arguments:
-        states: how many of the series are the model's own.
+        states: number of series that are states of the model; the angle turned may follow them.
     """
     from ..engines.casadi.trajectory import Stretch
 

@@ -1,4 +1,4 @@
-"""One collision: scene in, `Collision` out."""
+"""`collide`: computes one collision of a scene."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def collide(
         relative_speed: the magnitude of the relative velocity. Each overrides whichever the scene has.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
-        engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where it does not apply); None
+        engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None
             chooses (cvodes for one collision).
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
@@ -49,7 +49,7 @@ def collide(
         ComputationError: the trajectory could not be completed; says in which phase, when and at what state.
 
     Warns:
-        ModelWarning: the scene leaves the range that a law was made for.
+        ModelWarning: the scene leaves the range of validity of a law.
 
     Example:
         >>> from wetdoublet.solvers import collide
@@ -70,6 +70,6 @@ def collide(
 def _by_kernel(
     scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool
 ) -> Collision:
-    """By the Taylor kernel; what it hands over is Rosenbrock's."""
+    """By the Taylor kernel; by Rosenbrock where the kernel does not complete the collision."""
     found = collision(scene, n, rtol, ledger, trajectory)
     return found or by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)

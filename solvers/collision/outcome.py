@@ -1,4 +1,4 @@
-"""What one collision comes to, in SI units: its outcome, events and energy, as data."""
+"""Data of one collision in SI units: outcome, events and energy ledger."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from ..scene.scene import Scene
 if TYPE_CHECKING:
     import xarray
 
-_OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # a residual beyond this many rtol, and this part of the largest term
+_OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
 
 @dataclass(frozen=True)
 class Energy:
-    """The energy ledger of a trajectory, J.
+    """The energy ledger (budget) of a collision, J.
 
-    `initial` and `final` are kinetic, `strings` is the gain of potential, `attraction` the work against van der Waals
-    forces (None without them); `residual` is what is left of initial - final - (all losses and works).
+    `initial` and `final` are kinetic energies, `strings` is the gain of potential energy, `attraction` the work against
+    van der Waals forces (None without them); `residual` is initial - final - (all losses and works).
     """
 
     initial: float
@@ -36,12 +36,12 @@ class Energy:
         return self.initial - self.final - spent - (self.attraction or 0.0)
 
     def is_open(self, rtol: float) -> bool:
-        """Whether the residual is beyond what a tolerance leaves, so that the trajectory must be wrong."""
+        """True if the residual exceeds what the tolerance explains, so that the trajectory must be wrong."""
         return abs(self.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * self.largest
 
     @property
     def largest(self) -> float:
-        """The largest term."""
+        """The largest term by magnitude, J."""
         return max(abs(value) for value in self.to_dict().values())
 
     def to_dict(self) -> dict[str, float]:
@@ -60,7 +60,7 @@ class Energy:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened during a trajectory, and when (s)."""
+    """An event of a collision and its time, s since initial contact."""
 
     kind: str
     time: float
@@ -68,21 +68,22 @@ class Event:
 
 @dataclass(frozen=True, kw_only=True)
 class Outcome:
-    """One collision as data. SI units and radians; what a stick leaves undefined is None.
+    """One collision as data, in SI units and radians; quantities that a stick leaves undefined are None.
 
     Attributes:
         outcome: "stick", "stick-rotate-separate" or "bounce".
         restitution: normal restitution e_n (0 for a stick).
         tangential_restitution: r_f omega_f/(r_0 omega_0); None head-on.
-        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F the attraction at contact; None without.
-        final_spin: spin of each sphere, of the first if the partner is another one.
-        final_spin_partner: spin of the partner; None without a [partner].
-        rotation: angle turned by the line of centres until separation.
-        until: for a stick, where integration stopped, s.
-        certified: the stick is proved.
-        reversal: the first criterion met, if any.
-        warnings: where the scene leaves the range that a law was made for, a sentence each.
-        trajectory: Dataset over `time`, if asked for.
+        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F the attraction at initial contact; None without
+            attraction.
+        final_spin: spin of each sphere, rad/s; of the first if the partner differs.
+        final_spin_partner: spin of the partner, rad/s; None without a [partner].
+        rotation: angle turned by the line of centres until separation, rad.
+        until: for a stick, the time at which integration stopped, s.
+        certified: True if a certificate proves the stick.
+        reversal: the first rebound criterion met, if any.
+        warnings: one sentence for each law used outside its range of validity.
+        trajectory: Dataset over `time`, if requested.
     """
 
     outcome: str

@@ -1,4 +1,4 @@
-"""The result of one collision: immutable, prints well, converts to the JSON object, draws itself."""
+"""The result of one collision: immutable; prints as a table, converts to the JSON object, draws a figure."""
 
 from __future__ import annotations
 

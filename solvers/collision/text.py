@@ -1,4 +1,4 @@
-"""A collision as a short table for a person: plain ASCII but for the scene's own name, at most 88 columns."""
+"""A collision as a short text table: ASCII except for the scene's name, at most 88 columns."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ CUT_OFFS = {
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
 _POWER = re.compile(r"[A-Za-z]+\^")
-_MANY = 40  # events: more are rebound after rebound
-_LABEL = 24  # columns of the names on the left
-_FIRST, _LAST = 9, 3  # events shown of a trajectory that has more
-_SCALE = 100.0  # a ledger whose terms exceed the initial energy by more than this is not given in percent of it
+_MANY = 40  # events; a longer list consists of repeated rebounds
+_LABEL = 24  # width of the names on the left, characters
+_FIRST, _LAST = 9, 3  # events shown of a longer list
+_SCALE = 100.0  # above this ratio of the largest term to the initial energy, terms are not given in percent of it
 
 
 def prefix(size: float) -> tuple[float, str]:
-    """Return (factor, prefix) under which a quantity of this size is written: 2e-5 -> (1e-6, "u")."""
+    """Return the SI prefix for a quantity of this size, as (factor, prefix): 2e-5 -> (1e-6, "u")."""
     size = abs(size)
     if size == 0 or not math.isfinite(size) or size < 1e-16:
         return _PREFIXES[0]
@@ -45,7 +45,7 @@ def quantity(value: float | None, unit: str) -> str:
 
 
 def plain(value: float | None, unit: str = "") -> str:
-    """Return a number with four digits, its unit as it stands; a dash for None."""
+    """Return a number with four digits and its unit without a prefix; a dash for None."""
     if value is None:
         return "-"
     text = f"{value:.4g}"
@@ -58,27 +58,27 @@ def degrees(value: float | None) -> str:
 
 
 def name_of(scene: Scene, longest: int = 32) -> str:
-    """Return the scene's name in one line without control characters, shortened to `longest` characters."""
+    """Return the scene's name on one line without control characters, shortened to `longest` characters."""
     return _cut(scene.name, longest) or "unnamed scene"
 
 
 def _cut(text: str, longest: int) -> str:
-    """Return somebody's text in one line without control characters, not too long."""
+    """Return a text on one line without control characters, shortened to `longest` characters."""
     text = " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
 def reason(collision: Outcome) -> str:
-    """Return why the collision ended as it did, in words."""
+    """Return the reason of the outcome, in words."""
     if collision.outcome == BOUNCE and collision.reversal is not None:
         return CRITERIA[collision.reversal].sentence
     if collision.outcome != STICK:
-        return "escaped by centrifugal force, no criterion met"
+        return "escaped by centrifugal force, no rebound criterion met"
     return _stuck(collision)
 
 
 def stopped(collision: Outcome) -> str:
-    """Return where the integration of a stick stopped because the outcome was certain; nothing if it did not."""
+    """Return why and when the integration of a stick stopped early; empty if it did not."""
     if not collision.until or _last(collision) in CUT_OFFS:
         return ""
     return f"integration stopped there, {quantity(collision.until, 's')} after initial contact"
@@ -134,7 +134,7 @@ def _outcome(collision: Outcome) -> list[str]:
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
     if collision.outcome == "stick" and collision.reversal:
-        lines.append(_line("", f"the {collision.reversal} criterion had reversed it on the way"))
+        lines.append(_line("", f"the {collision.reversal} criterion had made it rebound on the way"))
     if collision.outcome == "stick" and stopped(collision):
         lines.append(_line("", stopped(collision)))
     if collision.scene.partner is not None:
@@ -144,9 +144,9 @@ def _outcome(collision: Outcome) -> list[str]:
         _line("approach speed", speed, "normal component"),
         _line("restitution e_n", plain(restitution), gained),
     ]
-    if collision.outcome == "stick":  # the rest is undefined
+    if collision.outcome == "stick":  # the other quantities are undefined
         return lines
-    if collision.scene.wall:  # no line of centres turns
+    if collision.scene.wall:  # a wall has no rotating line of centres
         return [
             *lines,
             _line("tangential e_t", plain(collision.tangential_restitution), "of the velocity along the wall"),
@@ -225,7 +225,7 @@ def _exponent(value: float, digits: int) -> str:
 
 
 def _model(scene: Scene) -> list[str]:
-    """Which variants of the equations were used, wrapped where they do not fit."""
+    """Lines that name the laws used, wrapped to the width of the table."""
     used = {"arm": scene.model.arm, "tangential": scene.model.tangential}
     used |= {"glass": scene.model.glass} if scene.liquid.glass_transition_pressure is not None else {}
     used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
@@ -234,7 +234,7 @@ def _model(scene: Scene) -> list[str]:
         used |= {"rupture": scene.bridge.rupture} if scene.bridge.rupture != "common" else {}
     if scene.pendulum is not None:
         used["strings"] = scene.pendulum.law
-    if scene.package is not None:  # laws of slots that no entry of a scene names
+    if scene.package is not None:  # laws that the user's model chooses, not an entry of the scene
         used |= {slot: scene.package.laws(slot)[0] for slot in scene.package.unnamed}
         used |= {name.replace("_", " "): str(value) for name, value in scene.custom.items()}
     lines = wrap(", ".join(f"{slot} {law}" for slot, law in used.items()), WIDTH - _LABEL, break_on_hyphens=False)
@@ -242,7 +242,7 @@ def _model(scene: Scene) -> list[str]:
 
 
 def _assumed(scene: Scene) -> list[str]:
-    """What of the scene is a guess."""
+    """Lines that name the scene's assumed values."""
     return [_cut(line, WIDTH) for line in scene.assumed]
 
 

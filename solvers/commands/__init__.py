@@ -1,1 +1,1 @@
-"""The commands, one a file: each checks its options first, and imports what it needs when it runs."""
+"""The commands, one per file. Each checks its options first and imports what it needs only when it runs."""

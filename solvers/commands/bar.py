@@ -1,4 +1,4 @@
-"""A progress bar on standard error: on a terminal only."""
+"""A progress bar on standard error, shown only on a terminal."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-_SIZE = {"ncols": 80, "nrows": 24}  # of a terminal that does not say
+_SIZE = {"ncols": 80, "nrows": 24}  # assumed where the terminal does not report its size
 
 
 class Bar:
-    """A bar that is called with (done, total), None where the total is not known.
+    """A progress bar, updated by calling it with (done, total); the total may be None if unknown.
 
     Arguments:
-        unit: what is counted, as `collisions`.
+        unit: name of the counted items, such as `collisions`.
     """
 
     def __init__(self, unit: str) -> None:
@@ -25,25 +25,25 @@ class Bar:
     def __call__(self, done: int, total: int | None) -> None:
         from tqdm import tqdm
 
-        if self._shown is None:  # what an earlier run has done says nothing of the speed of this one
+        if self._shown is None:  # starts at the first count, because work of an earlier run would distort the speed
             size = {"dynamic_ncols": True} if _size_is_known() else _SIZE
             self._shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
         self._shown.update(done - self._shown.n)
 
     def note(self, text: str) -> None:
-        """Show what is being waited for behind the counts."""
+        """Show a text behind the counts."""
         if self._shown is not None:
             self._shown.set_postfix_str(text)
 
     def close(self) -> None:
-        """Remove it."""
+        """Remove the bar."""
         if self._shown is not None:
             self._shown.close()
 
 
 @contextmanager
 def bar(unit: str) -> Iterator[Bar]:
-    """Yield a bar, which is removed at the end; nothing is shown in a pipe."""
+    """Yield a bar, which is removed at the end; nothing is shown if standard error is no terminal."""
     shown = Bar(unit)
     try:
         yield shown

@@ -1,4 +1,4 @@
-"""`wetdoublet bench`: run time against achieved error of the engines for a scene, and what to choose."""
+"""`wetdoublet bench`: run time against achieved error of the engines for a scene, and a recommendation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ERROR = 1e-6
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", lambda v: 0 < v < 1))
 
 
-@click.command("bench", short_help="Run time against error of the engines for a scene, and what to choose.")
+@click.command("bench", short_help="Run time against error of the engines for a scene, and a recommendation.")
 @click.argument("source", metavar="[SCENE]", required=False)
 @options.impact
 @options.changes
@@ -43,7 +43,7 @@ def command(
     """Measure cvodes, rosenbrock and taylor on collisions about the impact of SCENE [granulation], on this machine.
 
     CPU time of a collision alone and in a batch of 100, and its error against another engine at a tighter tolerance,
-    for tolerances 1e-4 to 1e-12; then the engine and tolerance to choose for the error wanted. About ten seconds.
+    for tolerances 1e-4 to 1e-12; then the recommended engine and tolerance for the error wanted. About ten seconds.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""`wetdoublet boundary`: the curves between outcomes, traced."""
+"""`wetdoublet boundary`: traces the curves between outcomes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
     from ..sensitivity.boundaries import BoundarySensitivities
 
-_MOST = 100_000  # lines: half an hour
+_MOST = 100_000  # lines; about half an hour
 _ENTRY = FIELDS["impact.angle"]
 
 
@@ -31,8 +31,8 @@ _ENTRY = FIELDS["impact.angle"]
 @options.scene_argument
 @click.option("--angle", metavar="RANGE", help="Impact angles (degrees): 40, lines 20:65:10, a plane 20:65.")
 @click.option("--over", metavar="NAME=LO:HI", help='A plane of this entry, as liquid.viscosity="1:4 Pa s".')
-@click.option("--stokes", metavar="LO:HI", help="Stokes numbers to look between [1e-4:100].")
-@click.option("--wrt", metavar="NAMES", help="Also how each moves, as with bridge.volume,liquid.viscosity, or all.")
+@click.option("--stokes", metavar="LO:HI", help="Range of Stokes numbers to search [1e-4:100].")
+@click.option("--wrt", metavar="NAMES", help="Derivatives as well, in bridge.volume,liquid.viscosity, or all.")
 @options.changes
 @options.model
 @options.rtol
@@ -55,8 +55,8 @@ def command(
 ) -> None:
     """Changes of outcome of SCENE along lines of constant angle: Stokes number, Ce, and the outcomes on either side.
 
-    With --angle LO:HI, or --over, all curves in the plane of the angle, or of that entry at the scene's angle, and the
-    Stokes number: each is followed to where it leaves the window or meets others, and these points are named.
+    With --angle LO:HI or --over, all curves in the plane of the angle (or of that entry at the scene's angle) and the
+    Stokes number. Each is followed until it leaves the window or meets others; meeting points are listed by kind.
 
     \b
     Examples:
@@ -109,7 +109,7 @@ def command(
 def _plane(
     angle: str | None, over: str | None, wrt: str | None, asked: options.Asked
 ) -> tuple[str, tuple[float, float] | tuple[str, str]] | None:
-    """The entry across and its span, if a plane is asked for."""
+    """The entry on the horizontal axis and its span if a plane is requested, else None."""
     if over is not None:
         name, equals, ends = over.partition("=")
         name = name.strip()
@@ -139,7 +139,7 @@ def _plane(
 
 
 def _ends(label: str, text: str, entry: Field) -> tuple[float, float]:
-    """Both ends of LO:HI, SI."""
+    """The two ends of LO:HI, SI."""
     parts = text.split(":")
     said = " in degrees, or with a unit" if entry.unit == "rad" else " with a unit at either end" if entry.unit else ""
     accepted = f"LO:HI{said}, with LO below HI"
@@ -176,7 +176,7 @@ def _show_atlas(
 
 
 def _names(scene: Scene, wrt: str | None) -> tuple[str, ...] | None:
-    """The parameters of --wrt; `all` stands for every number of the scene, and the angle."""
+    """The parameters of --wrt; `all` stands for every numeric entry of the scene and the angle."""
     if wrt is None:
         return None
     from ..sensitivity.boundaries import check_boundary_wrt

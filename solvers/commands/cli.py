@@ -1,4 +1,4 @@
-"""The command `wetdoublet`: commands are found by name, and every failure is one line and an exit status."""
+"""The command line `wetdoublet`: imports commands by name and reports every failure as one line and an exit status."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ COMMANDS = (
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
 """An option that a command may lack -> what it may have instead."""
 
-_LONGEST = 200  # characters of what the user has typed that are repeated
-BROKEN_PIPE = 141  # as a shell reports the signal
+_LONGEST = 200  # most characters of the user's input repeated in a message
+BROKEN_PIPE = 141  # as a shell reports SIGINT: 128 + 2
 
 
 class Commands(click.Group):
-    """A group that imports a command when it is called, and reports in one line what goes wrong."""
+    """A click group that imports a command when it is called, and reports failures in one line."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names, in the order of the documentation."""
+        """Return the command names in the order of the documentation."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Return the command, imported now."""
+        """Import and return the command."""
         if cmd_name not in COMMANDS:
             return None
         command = import_module(f".{cmd_name}", __package__).command
@@ -48,21 +48,21 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that `args` begin with; InputError with the nearest if there is none."""
+        """Return the command named by the first of `args`; InputError with the nearest name if unknown."""
         if args[0] not in COMMANDS and not args[0].startswith("-"):
             hint = did_you_mean(args[0], COMMANDS)
             raise InputError("COMMAND", args[0], ", ".join(COMMANDS), "is not known" + hint)
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; an interrupt and a reader that has left are exit statuses, not errors."""
+        """Run the command; an interrupt and a closed pipe set the exit status and print no error."""
         try:
             with handled() as signals:
                 sweep_temporary()
                 super().invoke(ctx)
             sys.stdout.flush()
         except click.BadOptionUsage as error:
-            name = ctx.invoked_subcommand  # click does not say whose option it was
+            name = ctx.invoked_subcommand  # click does not name the option
             if error.ctx is None and name and (command := self.get_command(ctx, name)):
                 error.ctx = click.Context(command, parent=ctx, info_name=name)
             raise
@@ -70,14 +70,14 @@ class Commands(click.Group):
             click.echo(str(interrupt) or ("terminated" if signals.terminated else "interrupted"), err=True)
             ctx.exit(signals.status)
         except BrokenPipeError:
-            # nothing can be written any more, not even what the interpreter flushes as it ends
+            # the pipe is closed; the interpreter's flush at exit would fail as well
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             ctx.exit(BROKEN_PIPE)
 
     def main(  # type: ignore[override]  # click's overloads say what standalone_mode returns; this one never returns
         self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
     ) -> None:
-        """Run, and leave with the exit status."""
+        """Run the command and exit with its status."""
         _settle_streams()
         arguments = list(sys.argv[1:] if args is None else args)
         extra["standalone_mode"] = False
@@ -102,16 +102,16 @@ class Commands(click.Group):
 
 
 def _settle_streams() -> None:
-    """Give closed standard streams an end that swallows, and keep matplotlib's remarks off standard error."""
+    """Redirect closed standard streams to the null device, and silence matplotlib's warnings on standard error."""
     for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by the caller, as by >&-
+        if getattr(sys, name) is None:  # closed by the caller (>&-)
             setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 # open to the end
-    # it warns of a home that cannot be written, where it works from a temporary folder, and of slow fonts
+    # matplotlib warns of a read-only home, though it then uses a temporary folder, and of slow fonts
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 
 def _remarks() -> Callable[..., None]:
-    """What writes a warning as one line on standard error, each once a command, however many collisions it is of."""
+    """A `warnings.showwarning` that writes each distinct warning once per command, as one line on standard error."""
     told: set[str] = set()
 
     def remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
@@ -132,7 +132,7 @@ def _report(line: str, status: int, error: BaseException, arguments: list[str]) 
 
 
 def _usage(error: click.UsageError) -> str:
-    """Return click's complaint in our words: the option, the nearest known one, and what is accepted."""
+    """Return click's usage error as our one line: the option, the nearest known one, and what is accepted."""
     ctx = error.ctx
     options = [name for param in ctx.command.get_params(ctx) for name in param.opts if name[0] == "-"] if ctx else []
     if isinstance(error, click.NoSuchOption):
@@ -149,7 +149,7 @@ def _usage(error: click.UsageError) -> str:
 
 
 def _misused(name: str, ctx: click.Context | None) -> str:
-    """Return what is wrong with an option that lacks its value, or has one that it does not take."""
+    """Return the message for an option that lacks its value or has one that it does not take."""
     params = ctx.command.get_params(ctx) if ctx else []
     option = next((param for param in params if name in param.opts and isinstance(param, click.Option)), None)
     if option is not None and option.is_flag:
@@ -167,5 +167,5 @@ def cli() -> None:
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run the command line and exit."""
+    """Run the command line and exit with its status."""
     cli.main(args)

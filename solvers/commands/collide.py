@@ -36,7 +36,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    """Let the two spheres of SCENE collide, once."""
+    """Compute one collision of the two particles of SCENE."""
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     picture = options.check_file(plot, "--plot", options.PICTURES)

@@ -1,4 +1,4 @@
-"""`wetdoublet diff`: what differs between two models, as mathematics and in a few collisions."""
+"""`wetdoublet diff`: differences between two models, in their equations and in a few collisions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from . import options
 _KINDS = "library, a preset or scene file, a folder of `generate`, or MODEL.py"
 
 
-@click.command("diff", short_help="The terms in which two models differ, and what they do.")
+@click.command("diff", short_help="The terms in which two models differ, and their effect.")
 @click.argument("one", metavar="A", required=False)
 @click.argument("other", metavar="B", required=False)
 @click.option("--scene", "probe", metavar="SCENE", default="granulation", help="Scene of the comparison [granulation].")

@@ -10,16 +10,16 @@ from ..errors import CheckFailed, InputError
 from ..host.files import write_all_in
 from . import options
 
-OWN = Path(__file__).resolve().parents[2] / "generated"  # found, not imported: it may be stale or broken
+OWN = Path(__file__).resolve().parents[2] / "generated"  # not imported: may be stale or broken
 
 
-_SHOWN = 5  # extra files named in the message; the listing has them all
+_SHOWN = 5  # most extra files named in the message; the listing names all
 
 
 @click.command("generate", short_help="Derive the equations and emit them as CasADi functions.")
 @click.argument("model", metavar="[MODEL.py]", required=False)
-@click.option("--out", metavar="DIR", help="Write there; for a model it must be given.")
-@click.option("--check", is_flag=True, help="Compare with what is there, byte for byte, and write nothing.")
+@click.option("--out", metavar="DIR", help="Output folder; required for a model.")
+@click.option("--check", is_flag=True, help="Compare with the files there, byte for byte, and write nothing.")
 @click.option("--template", is_flag=True, help="Print a model file that runs as it is.")
 @options.debug
 def command(model: str | None, out: str | None, check: bool, template: bool) -> None:
@@ -59,7 +59,7 @@ def command(model: str | None, out: str | None, check: bool, template: bool) -> 
 
 
 def _model(source: str, out: str | None, check: bool) -> None:
-    """Derive, check and emit a user's model, and say what it is."""
+    """Derive, check and emit a user's model, and print its description."""
     if out is None:
         raise InputError("--out", None, "a folder for the emitted model")
     folder = options.check_folder(out)
@@ -91,7 +91,7 @@ def _model(source: str, out: str | None, check: bool) -> None:
 
 
 def _advice(differences: list[str]) -> str:
-    """What to do about lines of `write.check`: emitting again mends a file and makes one, but removes none."""
+    """The remedy for findings of `write.check`. Emitting again repairs or creates files, but removes none."""
     extra = [str(OWN / line.removeprefix("extra: ")) for line in differences if line.startswith("extra: ")]
     parts = []
     if len(extra) < len(differences):

@@ -55,7 +55,7 @@ def command(
     output: str | None,
     plot: str | None,
 ) -> None:
-    """Outcomes and restitution of SCENE over impact angle and Stokes number, and whatever else varies.
+    """Outcomes and restitution of SCENE over impact angle, Stokes number and further varied entries.
 
     Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end.
 
@@ -93,7 +93,7 @@ def command(
 def _axes(
     stokes: str | None, speed: str | None, relative_speed: str | None, angle: str | None
 ) -> dict[str, list[float]]:
-    """The axes of the impact, SI; InputError naming the first that is wrong."""
+    """The axes of the impact, SI; InputError for the first wrong one."""
     given = {"stokes": stokes, "speed": speed, "relative-speed": relative_speed, "angle": angle}
     axes = {}
     for name, text in given.items():
@@ -134,7 +134,7 @@ def _computed(
     engine: str | None,
     file: Path | None,
 ) -> xarray.Dataset:
-    """Compute the map and write it; an interrupt leaves what is done and says how to go on."""
+    """Compute the map and write it; after an interrupt finished collisions stay in the journal."""
     from ..many.journal import Journal
     from ..many.regime_map import regime_map, write
     from .bar import bar
@@ -170,9 +170,9 @@ def _computed(
         count = 0 if journal is None else journal.count()
         if journal is None or not count:
             if isinstance(error, OSError) and begun and journal is not None:
-                journal.path.unlink(missing_ok=True)  # nothing whole is in it
+                journal.path.unlink(missing_ok=True)  # it holds no finished block
             raise
-        kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # an interrupt may outrun a count
+        kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # from the file: progress may lag
         if isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
         rest = f"the same command computes {'the rest' if count < done[1] else 'nothing again'}"

@@ -1,4 +1,4 @@
-"""Options that mean the same everywhere, and their checks, which come before anything is read or missing."""
+"""Options shared by the commands and their checks, which precede the reading of any file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Command = Callable[..., Any]
 PICTURES = outputs.PICTURES
 
-# Not required by click: a bad option is to be reported before a scene that is missing.
+# Not required by click, so that a bad option is reported before a missing scene.
 scene_argument = click.argument("source", metavar="SCENE", required=False)
 debug = click.option("--debug", is_flag=True, expose_value=False, help="Show a traceback behind an error.")
 as_json = click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table.")
@@ -55,11 +55,11 @@ def impact(command: Command) -> Command:
 
 @dataclass(frozen=True)
 class Asked:
-    """A scene as the command line asks for it: options judged, nothing read yet."""
+    """A scene as requested on the command line: options checked, scene file not read yet."""
 
     source: str | None
     entries: Mapping[str, str]
-    impact: Mapping[str, str]  # with its unit, as it was given
+    impact: Mapping[str, str]  # texts with units, as given
     package: Package | None = None
 
     @classmethod
@@ -73,7 +73,7 @@ class Asked:
         relative_speed: str | None = None,
         model: str | None = None,
     ) -> Asked:
-        """Return what is asked for; InputError naming the first option that is wrong."""
+        """Return the checked request; InputError naming the first wrong option."""
         given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
         read = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in given.items() if text is not None}
         for key, text in read.items():
@@ -94,7 +94,7 @@ class Asked:
         return cls(source, entries, read, package)
 
     def optional_scene(self) -> Scene | None:
-        """Read the scene if one is named; InputError for an option that is given without one."""
+        """Read the scene if one is named; InputError for an option that needs a scene."""
         if self.source is None:
             for option, value in (
                 *((_option(key), text) for key, text in self.impact.items()),
@@ -107,18 +107,18 @@ class Asked:
         return self.scene()
 
     def scene(self) -> Scene:
-        """Read the scene and change it as asked; InputError for whatever is wrong with it."""
+        """Read the scene and apply the changes; InputError for any wrong entry."""
         from ..scene.scene import Scene
         from ..scene.scenefile import PRESETS
 
         if self.source is None:
             raise InputError("SCENE", None, "a scene file (TOML) or a preset: " + ", ".join(PRESETS))
         changed = Scene.load(self.source, self.package).with_entries(self.entries).with_impact(**self.impact)
-        return Scene.load(changed)  # with everything that a model demands
+        return Scene.load(changed)  # checks the entries that a user's model requires
 
 
 def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str, str]:
-    """Return the entries of --set by dotted name, each right by itself."""
+    """Return the entries of --set by dotted name, each checked by itself."""
     entries, known = {}, fields(package)
     for change in changes:
         name, equals, value = change.partition("=")
@@ -135,7 +135,7 @@ def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str
 
 
 def entries(changes: Sequence[str]) -> dict[str, str]:
-    """Return the entries of --set by dotted name, read only with the scene that they are for."""
+    """Return the entries of --set by dotted name, unchecked; each applies to a scene that is read later."""
     found = {}
     for change in changes:
         name, equals, value = change.partition("=")
@@ -188,18 +188,18 @@ def _in_units(entry: Field) -> str:
 
 
 def check_file(path: str | None, option: str, suffixes: Sequence[str] = (), *, replaced: bool = False) -> Path | None:
-    """Return the file to be written, if one is named; InputError naming the option if it cannot be."""
+    """Return the output file, or None; InputError naming the option if it cannot be written."""
     return None if path is None else outputs.check_file(path, option, suffixes, replaced=replaced)
 
 
 def check_apart(file: Path | None, option: str, other: Path | None, its_option: str) -> None:
-    """InputError if two options name the same file."""
+    """Raise InputError if two options name the same file."""
     if file is not None and other is not None and file.resolve() == other.resolve():
         raise InputError(option, str(file), "two different files", f"is given to {its_option} as well")
 
 
 def check_folder(path: str | None, option: str = "--out") -> Path | None:
-    """Return the folder to write into, if one is named; InputError naming the option if it never could be."""
+    """Return the output folder, or None; InputError naming the option if it cannot be created or used."""
     return None if path is None else outputs.check_folder(path, option)
 
 

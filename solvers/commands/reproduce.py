@@ -1,4 +1,4 @@
-"""`wetdoublet reproduce`: the paper's figures and numbers beside ours."""
+"""`wetdoublet reproduce`: the paper's figures and numbers compared with ours."""
 
 from __future__ import annotations
 

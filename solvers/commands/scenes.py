@@ -1,4 +1,4 @@
-"""`wetdoublet scenes`: what there is to begin with."""
+"""`wetdoublet scenes`: lists or prints the presets."""
 
 from __future__ import annotations
 
@@ -68,6 +68,6 @@ def _new(name: str) -> Path:
 
 
 def _listing() -> str:
-    """One line a preset: its name, and what it is."""
+    """One line per preset: its name and description."""
     width = max(map(len, PRESETS))
     return "\n".join(f"{name:<{width}}  {description(name)}" for name in PRESETS)

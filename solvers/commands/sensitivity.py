@@ -20,7 +20,7 @@ from . import options
 )
 @click.option("--wrt", metavar="NAMES", help="Parameters, as liquid.viscosity,impact.angle [all of the scene].")
 @click.option("--method", metavar="M", help="forward or adjoint [forward].")
-@click.option("--hold", metavar="WHAT", help="What of the impact stays: speed, stokes, relative_speed [as given].")
+@click.option("--hold", metavar="WHAT", help="Quantity to hold: speed, stokes, relative_speed [as given].")
 @click.option(
     "--uncertainty",
     "uncertain",
@@ -58,7 +58,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    """Differentiate what a collision of SCENE results in, through its events: gradients and elasticities.
+    """Differentiate the results of a collision of SCENE, through its events: gradients and elasticities.
 
     \b
     Example:

@@ -11,14 +11,14 @@ import click
 from ..errors import CheckFailed, InputError
 from .bar import bar
 
-SCENES = 20_000  # where --stress stands alone
+SCENES = 20_000  # scenes if --stress has no value
 
 
 class Counted(click.Command):
-    """A command whose --stress may stand alone: what follows it is its value, unless it is an option."""
+    """A command whose --stress takes an optional value."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Judge a negative number here, which click takes for an option."""
+        """Check a negative number before click, which would read it as an option."""
         for option, value in pairwise(args):
             if option == "--stress" and value[:1] == "-" and value[1:2].isdigit():
                 count_of(value)
@@ -26,7 +26,7 @@ class Counted(click.Command):
 
 
 def count_of(text: str) -> int:
-    """Return the number of scenes; InputError unless it is one."""
+    """Return the number of scenes; InputError unless it is a whole number in range."""
     try:
         count = int(text)
     except ValueError:
@@ -37,7 +37,7 @@ def count_of(text: str) -> int:
 
 
 def check_alone(stress: str | None, out: str | None, others: Mapping[str, str | None]) -> None:
-    """InputError for --out without --stress, and for what --stress, which draws its own scenes, does not take."""
+    """Raise InputError for --out without --stress, and for arguments that do not apply with --stress."""
     if stress is None:
         if out is not None:
             raise InputError("--out", out, "--stress N with --out", "needs --stress")
@@ -49,9 +49,12 @@ def check_alone(stress: str | None, out: str | None, others: Mapping[str, str | 
 
 
 def stress_test(count: int, folder: Path) -> None:
-    """Run, report, and say in one last line what came of it; CheckFailed if engines disagree without a reason.
+    """Run the stress test, write the report and print one line of summary.
 
-    An interrupt ends it with a report of what is judged by then.
+    An interrupt ends the run with a report of the scenes judged so far.
+
+    Raises:
+        CheckFailed: engines disagree without an explanation.
     """
     from ..verify.stress.report import write
     from ..verify.stress.run import stress

@@ -1,4 +1,4 @@
-"""`wetdoublet verify`: the laws, each with its figure; or all engines against each other."""
+"""`wetdoublet verify`: checks of the laws with their numbers; or all engines against each other."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .stress import SCENES, Counted, check_alone, count_of, stress_test
 @options.changes
 @options.model
 @click.option("-o", "output", metavar="FILE.md", help="Write the report as Markdown to FILE.md as well.")
-@click.option("--plot", metavar="FILE.png", help="Draw where e_n > 1, and what it is made of: .png, .pdf or .svg.")
+@click.option("--plot", metavar="FILE.png", help="Draw the region e_n > 1 and its energy budget: .png, .pdf or .svg.")
 @click.option(
     "--stress",
     metavar="N",

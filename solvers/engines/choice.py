@@ -1,4 +1,4 @@
-"""Which engine answers: the one place that both engines are known at."""
+"""Choice of the engine; the only module of the engines that depends on both."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from .taylor.build import supported
 
 
 def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
-    """The engine for `count` collisions of a scene, if it is not asked for: the Taylor kernel where they are not few.
+    """The engine for `count` collisions of a scene: the requested one, else the Taylor kernel for more than `FEW`.
 
-    What the kernel does not know, or a machine without a compiler, is Rosenbrock's, even where the kernel is asked for.
+    Rosenbrock replaces the kernel, even a requested one, where the kernel does not support the scene or there is no
+    compiler.
     """
     if asked not in (None, "taylor") or (asked is None and count <= FEW):
         return asked or "rosenbrock"

@@ -1,4 +1,4 @@
-"""The functions of a scene's model as self-contained C, by CasADi's code generation."""
+"""Export of a scene's model as self-contained C, by CasADi's code generation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _UNITS = {"gap": "x0", "normal_velocity": "v0", "orbital_momentum": "a^2 omega0"
 
 
 def texts(scene: Scene) -> dict[str, str]:
-    """NAME.c and NAME.h of a scene: every function of the smallest full structure it needs, in all regions."""
+    """Texts of NAME.c and NAME.h: every function of the smallest full structure of the scene, in all regions."""
     oblique = scene.angle is None or scene.angle > 0
     model, name = load(select_model(scene, oblique, full=True)), file_name(scene)
     found = functions(model, name)
@@ -32,7 +32,7 @@ def texts(scene: Scene) -> dict[str, str]:
 
 
 def functions(model: Model, prefix: str) -> list[Function]:
-    """The model's functions (state, groups) -> column; those that depend on the region once for each."""
+    """The model's functions (state, groups) -> column; one per region for those that depend on it."""
     found: dict[str, Function] = {}
     for suffix, film, shear in _REGIONS if model.oblique else _REGIONS[:2]:
         for name, function in casadi_functions(model.structure, model.laws, film, shear).items():
@@ -49,7 +49,7 @@ def _renamed(function: Function, name: str) -> Function:
 
 
 def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:
-    """What the functions are, as the head of the file."""
+    """Comment at the head of the file that describes the functions."""
     choice, glassy = model.choice, scene.liquid.glass_transition_pressure is not None
     lines = [
         f"{scene.name or 'scene'}: functions of the structure `{choice.structure}`, emitted by wetdoublet.",

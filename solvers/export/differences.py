@@ -1,4 +1,4 @@
-"""Two models side by side: the terms in which their equations differ, and what that does to a few collisions."""
+"""Differences between two models: terms of their equations, and results of a few collisions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _LINE = math.radians(45)
 
 @dataclass(frozen=True)
 class Side:
-    """One of the two: texts of its emitted modules by room; its scene, if it can be computed."""
+    """One of the two models: texts of its emitted modules by name, and its scene if it can be computed."""
 
     name: str
     modules: dict[str, str]
@@ -40,7 +40,7 @@ class Side:
 
 @dataclass(frozen=True)
 class Probe:
-    """A collision on either side, each outcome and e_n (None: it failed)."""
+    """One impact computed with both models: outcome and e_n of each (None if failed)."""
 
     stokes: float
     angle: float  # rad
@@ -49,7 +49,7 @@ class Probe:
 
 @dataclass(frozen=True)
 class Differences:
-    """What differs. `boundaries` has, for either side, (change, St, Ce) along 45 deg."""
+    """The differences. `boundaries` has, for each side, (change, St, Ce) along 45 deg."""
 
     names: tuple[str, str]
     changes: tuple[Change, ...]
@@ -61,12 +61,12 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
     """Compare two models.
 
     Arguments:
-        one, other: `library`, a preset or scene file, a model's folder or file, or two folders of `generate`.
-        probe: the scene that models are put into, and whose collisions are compared.
-        changes: entries changed in the second.
+        one, other: `library`, a preset, a scene file, a model's folder or file, or a folder of `generate`.
+        probe: the scene into which models are put for the compared collisions.
+        changes: entries to change in the second scene.
 
     Raises:
-        InputError: names what is none of these.
+        InputError: an argument is none of these.
     """
     from ...derive.emit.compare import compare, equations  # imports sympy
     from ...derive.emit.read import ReadError
@@ -89,7 +89,7 @@ def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[S
     if bounded.is_folder(one) and bounded.is_folder(other):
         try:
             packages = [open_package(one, "A"), open_package(other, "B")]
-        except InputError:  # the library's own, or of another version: what was emitted is compared, nothing computed
+        except InputError:  # perhaps of another version: compare emitted texts, compute nothing
             return Side(one, _folder(one), None), Side(other, _folder(other), None)
         first, second = (Scene.load(probe, package) for package in packages)
     else:
@@ -111,7 +111,7 @@ def _scene(source: str, probe: str, label: str) -> Scene:
 
 
 def _modules(scene: Scene) -> dict[str, str]:
-    """Emitted text of the structure and laws of a scene's oblique collisions."""
+    """Emitted texts of the structure and laws of a scene's oblique collisions."""
     choice = select_model(scene, oblique=True, full=True)
     found = {"": _structure(choice)}
     for slot, name in choice.laws:
@@ -135,7 +135,7 @@ def _law(package: Package | None, slot: str, name: str) -> str:
 
 
 def _folder(path: str) -> dict[str, str]:
-    """Texts of every law, structure and scaling in a folder that `generate` made."""
+    """Texts of every law, structure and scaling in a folder written by `generate`."""
     folder = Path(path)
     accepted = "a folder made by `wetdoublet generate --out DIR`"
     try:

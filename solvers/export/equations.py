@@ -1,4 +1,4 @@
-"""The equations of a scene's model in print: LaTeX and Markdown, out of the derivation (imports sympy)."""
+"""The equations of a scene's model as LaTeX and Markdown, from the derivation (imports sympy)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def texts(scene: Scene) -> dict[str, str]:
-    """NAME.tex and NAME.md of a scene's model."""
+    """Texts of NAME.tex and NAME.md of a scene's model."""
     from ...derive.emit.document.document import document
 
     laws = chosen_laws(scene)
@@ -33,12 +33,12 @@ def texts(scene: Scene) -> dict[str, str]:
 
 
 def chosen_laws(scene: Scene) -> dict[str, str]:
-    """Slot -> law of everything that an oblique collision of the scene has."""
+    """Slot -> law for an oblique collision of the scene."""
     return dict(select_model(scene, oblique=True, full=True).laws)
 
 
 def user_model(package: Package | None) -> UserModel | None:
-    """The derivation's own form of a user's model, from the model file in its folder."""
+    """A user's model as an object of the derivation, read from the model file in its folder."""
     if package is None:
         return None
     from ...derive.user_model.modelfile import read
@@ -47,6 +47,6 @@ def user_model(package: Package | None) -> UserModel | None:
 
 
 def file_name(scene: Scene) -> str:
-    """A file's name, and a C identifier, from the scene's."""
+    """A file name and C identifier made from the scene's name."""
     plain = re.sub(r"\W+", "_", scene.name, flags=re.ASCII).strip("_").lower() or "scene"
     return plain if plain[0].isalpha() else f"scene_{plain}"

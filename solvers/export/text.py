@@ -31,7 +31,7 @@ def typeset(expression: Any) -> str:
 
 
 def as_text(found: Differences) -> str:
-    """As plain text."""
+    """The differences as plain text."""
     lines = [f"A: {found.names[0]}", f"B: {found.names[1]}", ""]
     lines += ["no equation differs"] if not found.changes else [f"{_count(found)}:"]
     for equation, changes in groupby(found.changes, key=lambda change: change.equation):
@@ -50,7 +50,7 @@ def as_text(found: Differences) -> str:
 
 
 def as_markdown(found: Differences) -> str:
-    """As Markdown, formulas between dollars."""
+    """The differences as Markdown, formulas between dollar signs."""
     lines = [f"# {found.names[0]} and {found.names[1]}", "", f"{_count(found)}.", ""]
     if found.changes:
         lines += ["| equation | term | A | B |", "|---|---|---|---|"]
@@ -66,7 +66,7 @@ def as_markdown(found: Differences) -> str:
 
 
 def as_latex(found: Differences) -> str:
-    """As a LaTeX document."""
+    """The differences as a LaTeX document."""
     body = []
     for equation, changes in groupby(found.changes, key=lambda change: change.equation):
         body += [rf"\paragraph{{{_tex(equation)}}}", r"\begin{align*}"]
@@ -113,7 +113,7 @@ def _rows(found: Differences) -> list[tuple[str, ...]]:
 
 
 def _lines(found: Differences) -> list[str]:
-    """The changes of outcome along 45 deg, one line each that either side has."""
+    """Lines for the changes of outcome along 45 deg on either side."""
     rows: list[str] = []
     sides = [{name: (stokes, ce) for name, stokes, ce in line} for line in found.boundaries]
     for name in dict.fromkeys(name for side in sides for name in side):

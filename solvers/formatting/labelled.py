@@ -1,6 +1,7 @@
-"""Columns of numbers as labelled Datasets, quickly: what has the same shape is laid out once.
+"""Fast construction of labelled Datasets: the layout of variables of one shape is built once and cached.
 
-xarray takes longer to put a Dataset together than a hundred collisions take; a copy with other numbers is soon made.
+Building a Dataset takes xarray longer than the kernel takes for a hundred collisions; copying one with other numbers
+is cheap.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ def labelled(
     attributes: Mapping[str, Any],
     axes: Mapping[str, tuple[str, ...]] | None = None,
 ) -> xarray.Dataset:
-    """What `xarray.Dataset` makes of them.
+    """The Dataset that `xarray.Dataset` would build of these variables and coordinates.
 
     Arguments:
         axes: names along a dimension, its index.
@@ -34,14 +35,14 @@ def labelled(
     blank = _laid_out(shapes, tuple((axes or {}).items()))
     found = blank.copy(data={name: values for name, (_, values, _) in columns.items()}).set_coords(coordinates)
     for name, (_, _, said) in columns.items():
-        found.variables[name].attrs = said  # its own: an array among them must not be shared
+        found.variables[name].attrs = said  # a copy, so that arrays among the attributes are not shared
     found.attrs = attributes
     return found
 
 
 @lru_cache(maxsize=32)
 def _laid_out(shapes: tuple[_Shape, ...], axes: tuple[tuple[str, tuple[str, ...]], ...]) -> xarray.Dataset:
-    """The variables without their numbers, which takes no memory."""
+    """The Dataset's layout, with placeholder values that take no memory."""
     import xarray as xr
 
     blank = {name: (dims, np.broadcast_to(0.0, shape)) for name, dims, shape in shapes}

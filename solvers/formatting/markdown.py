@@ -1,4 +1,4 @@
-"""Tables in Markdown, and times as they are shown in them."""
+"""Tables in Markdown, and formats of times in them."""
 
 from __future__ import annotations
 
@@ -20,5 +20,5 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def ms(seconds: float) -> str:
-    """Milliseconds with three digits."""
+    """A time in milliseconds with three digits."""
     return f"{seconds * 1e3:#.3g}".removesuffix(".")

@@ -8,11 +8,11 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 
 def plain(axis: Any, subs: tuple[float, ...] = (1, 2, 5)) -> None:
-    """Label 0.01, 0.02, 0.05, ... and nothing between.
+    """Label only 0.01, 0.02, 0.05, ... of a logarithmic axis.
 
     Arguments:
-        axis: of matplotlib, either one, logarithmic already.
-        subs: which multiples of a power of ten.
+        axis: a matplotlib x or y axis, already logarithmic.
+        subs: labelled multiples of each power of ten.
     """
     axis.set_major_locator(LogLocator(subs=subs))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

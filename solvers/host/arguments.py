@@ -10,7 +10,7 @@ from ..errors import InputError, did_you_mean
 
 
 def check_names(asked: object, known: Sequence[str], label: str) -> tuple[str, ...]:
-    """Return names that are asked for, each once; InputError for one that is not known, with the nearest."""
+    """Return the requested names without duplicates; InputError for an unknown one, with the nearest."""
     accepted = ", ".join(known)
     if isinstance(asked, str):
         asked = (asked,)
@@ -31,7 +31,7 @@ def check_name(asked: object, known: Sequence[str], label: str) -> str:
 
 def check_flag(value: object, label: str) -> bool:
     """Return a truth value; InputError for anything else."""
-    if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):  # numpy's own
+    if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):  # a numpy bool
         return bool(value)
     raise InputError(label, value, "True or False", "is neither")
 

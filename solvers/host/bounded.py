@@ -1,4 +1,4 @@
-"""Files that users name, read within bounds: of size, of time, and of how deeply what they hold is nested."""
+"""Reading of files named by users, within bounds of size, time and nesting depth."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import stat
 import time
 from pathlib import Path
 
-UNOPENED = 0.7  # s: a pipe that nobody has opened for writing by then is not waited for
-SILENT = 60.0  # s: what has not been delivered as a whole by then is given up
+UNOPENED = 0.7  # s to wait for a writer to open a pipe
+SILENT = 60.0  # s in which a pipe must deliver everything
 
-LARGEST = 1_000_000  # bytes of a model file, or of anything that is emitted
+LARGEST = 1_000_000  # bytes; most of a model file or an emitted file
 
 _PART = 65536
-_DEEPEST = 8  # tables within tables: a scene has one
-_TEXT = re.compile(  # comments and the four kinds of strings of TOML, one that is not closed up to its end
+_DEEPEST = 8  # nested tables; a scene has one level
+_TEXT = re.compile(  # comments and the four kinds of TOML strings; an unclosed string extends to the end
     r'#[^\n]*|"""(?:\\.|[^\\])*?(?:"{3,5}|\Z)|\'\'\'.*?(?:\'{3,5}|\Z)|"(?:\\.|[^"\\\n])*"?|\'[^\'\n]*\'?',
     re.DOTALL,
 )
@@ -25,28 +25,28 @@ _CHAIN = re.compile(rf"(?<![\w-]){_KEY}(?:[ \t]*+\.[ \t]*+{_KEY}){{{_DEEPEST}}}"
 
 
 class NotRead(Exception):
-    """Why a file cannot be read, in words that follow its name."""
+    """The reason why a file cannot be read, worded to follow its name."""
 
 
 def is_folder(path: str | Path) -> bool:
-    """Whether there is a folder of that name, which may be none that a file system takes."""
+    """True if a folder of that name exists; False also for invalid names."""
     return stat.S_ISDIR(_mode(path))
 
 
 def is_file(path: str | Path) -> bool:
-    """Whether there is a file of that name, no pipe or device."""
+    """True if a regular file of that name exists."""
     return stat.S_ISREG(_mode(path))
 
 
 def exists(path: str | Path) -> bool:
-    """Whether there is anything of that name."""
+    """True if anything of that name exists."""
     return _mode(path) != 0
 
 
 def _mode(path: str | Path) -> int:
     try:
         return os.stat(path).st_mode  # noqa: PTH116 # a Path cannot be made of everything
-    except (OSError, ValueError):  # there is none, or it cannot be: too long, with a null byte
+    except (OSError, ValueError):  # absent, or an invalid name (too long, null byte)
         return 0
 
 
@@ -54,16 +54,17 @@ def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILE
     """Return the content of a file, a pipe or a device.
 
     Arguments:
-        path: what to read; `/dev/stdin` and the pipes of process substitution are files too.
-        most: bytes; more is refused, whatever else would still come.
-        unopened: s to wait until something has opened a pipe for writing.
-        silent: s in which a pipe must have delivered everything.
+        path: file to read; also `/dev/stdin` and pipes of process substitution.
+        most: largest number of bytes.
+        unopened: s to wait for a writer to open a pipe.
+        silent: s in which a pipe must deliver everything.
 
     Raises:
-        NotRead: larger, too slow, or not to be opened; FileNotFoundError if there is nothing of that name.
+        NotRead: too large, too slow, or cannot be opened.
+        FileNotFoundError: there is nothing of that name.
     """
     try:
-        # without O_NONBLOCK the opening of a pipe waits for its writer
+        # without O_NONBLOCK, open() of a pipe would wait for its writer
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
     except FileNotFoundError:
         raise
@@ -73,7 +74,7 @@ def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILE
         kind = os.fstat(descriptor).st_mode
         waits = stat.S_ISFIFO(kind) or stat.S_ISCHR(kind)
         content = _delivered(descriptor, most, unopened, silent) if waits else _whole(descriptor, most)
-    except OSError as error:  # a folder, among others
+    except OSError as error:  # for instance a folder
         raise NotRead(f"cannot be read ({error.strerror or error})") from None
     finally:
         os.close(descriptor)
@@ -83,7 +84,7 @@ def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILE
 
 
 def _whole(descriptor: int, most: int) -> bytes:
-    """At most a byte too many of a file that does not wait."""
+    """Up to `most + 1` bytes of a regular file."""
     content = b""
     while len(content) <= most and (part := os.read(descriptor, _PART)):
         content += part
@@ -91,15 +92,15 @@ def _whole(descriptor: int, most: int) -> bytes:
 
 
 def _delivered(descriptor: int, most: int, unopened: float, silent: float) -> bytes:
-    """What a pipe or a terminal delivers until its end."""
+    """The bytes that a pipe or a terminal delivers until its end."""
     begun = time.monotonic()
-    content, met = b"", False  # met: somebody writes, or has written
+    content, met = b"", False  # met: a writer has opened the pipe
     while len(content) <= most:
         left = (silent if met else unopened) - (time.monotonic() - begun)
         ready = bool(select.select([descriptor], [], [], max(0.0, left))[0])
         try:
             part = os.read(descriptor, _PART)
-        except BlockingIOError:  # a writer is there and has nothing to say yet
+        except BlockingIOError:  # the writer has not written yet
             if met and left <= 0:
                 raise NotRead(f"did not deliver everything within {silent:g} s") from None
             met = True
@@ -113,7 +114,7 @@ def _delivered(descriptor: int, most: int, unopened: float, silent: float) -> by
 
 
 def text(path: Path) -> str:
-    """Return the text of an emitted file; NotRead if it is nested too deeply, OSError or ValueError if it is none."""
+    """Return the text of an emitted file; NotRead if it is nested too deeply, OSError or ValueError if unreadable."""
     content = read(path, LARGEST).decode()
     if path.suffix == ".json" and too_deep(content):
         raise NotRead("is nested too deeply")
@@ -121,9 +122,9 @@ def text(path: Path) -> str:
 
 
 def depth(text: str) -> int:
-    """Return how deeply TOML (or JSON) is nested, at most: brackets within brackets, and keys with dots in them.
+    """Return an upper bound of the nesting depth of TOML or JSON: nested brackets, and dotted keys.
 
-    Parsers recurse into the first and take the square of the second in time and memory, so it is asked before them.
+    Parsers recurse over brackets, and need time and memory quadratic in dotted keys, so this is checked before parsing.
     """
     bare = _TEXT.sub('""', text)
     level = deepest = 0
@@ -134,5 +135,5 @@ def depth(text: str) -> int:
 
 
 def too_deep(text: str) -> bool:
-    """Whether text is nested more deeply than anything that is read here."""
+    """True if text is nested more deeply than any accepted file."""
     return depth(text) > _DEEPEST

@@ -1,4 +1,4 @@
-"""Calling CasADi functions from numpy without its matrices in between: some microseconds instead of some tens."""
+"""Calls of CasADi functions on numpy arrays without conversion to CasADi matrices; about ten times faster."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from casadi import Function
 
 
 class Buffered:
-    """A function of dense columns with its arguments and one result in fixed memory; one thread's, as the function is.
+    """A function of dense columns with arguments and one result in fixed memory. Use it in one thread only.
 
     Arguments:
         function: the CasADi function.
-        inputs: indices of the arguments that are passed; the others are zero.
-        result: index of the result that is wanted.
+        inputs: indices of the passed arguments; the others are zero.
+        result: index of the returned result.
     """
 
     def __init__(self, function: Function, inputs: tuple[int, ...], result: int = 0) -> None:
@@ -21,7 +21,7 @@ class Buffered:
         self._arguments = [np.zeros(function.nnz_in(k)) for k in inputs]
         for k, argument in zip(inputs, self._arguments, strict=True):
             self._buffer.set_arg(k, memoryview(argument))  # type: ignore[call-arg, arg-type]  # stubs: (index, pointer, size) only
-        self._counts = not function.is_a("External")  # compiled to C an integrator keeps no statistics
+        self._counts = not function.is_a("External")  # an integrator compiled to C keeps no statistics
         self._result = np.zeros(function.nnz_out(result))
         self._buffer.set_res(result, memoryview(self._result))  # type: ignore[call-arg, arg-type]  # as above
 
@@ -36,6 +36,6 @@ class Buffered:
 
     @property
     def steps(self) -> int:
-        """Steps of an integrator's last call; 0 where it is compiled."""
+        """Number of steps of the integrator's last call; 0 if it is compiled."""
         stats = self._buffer.stats() if self._counts else {}
         return int(stats.get("n_steps", stats.get("nsteps", 0)))

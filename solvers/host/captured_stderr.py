@@ -1,4 +1,4 @@
-"""What CasADi prints on stderr, kept from the user by the thread that causes it.
+"""Capture, per thread, of the text that CasADi prints on stderr.
 
 CasADi prints on `sys.stderr`, which all threads share. A temporary replacement stores the output of capturing threads
 and passes the output of all others to the original stream. Threads may start and end capturing in any order.
@@ -40,8 +40,8 @@ class _Sieve:
 
 @contextlib.contextmanager
 def listening() -> Iterator[io.StringIO]:
-    """Keep what this thread prints on `sys.stderr`."""
-    global _listeners  # of the process, as sys.stderr is
+    """Capture the text that this thread prints on `sys.stderr`."""
+    global _listeners  # one lock for the process, because sys.stderr is shared
     before, heard = _HEARD.text, io.StringIO()
     with _COUNTING:
         _listeners += 1

@@ -1,7 +1,7 @@
-"""The machine's C compiler: found, tried, and run with a time limit.
+"""The machine's C compiler: search, test and compilation with a time limit.
 
-A compiler is one that has compiled a program of two lines that then runs. Without one everything runs interpreted; that
-is said once. WETDOUBLET_COMPILE_SECONDS is the time that it has for a file.
+A compiler is accepted if it compiles a two-line program that then runs. Without one everything is interpreted, with one
+remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the time limit for a file.
 """
 
 from __future__ import annotations
@@ -26,45 +26,45 @@ from .thread_caches import once
 
 _COMPILERS = ("cc", "gcc", "clang")
 _SECONDS = "WETDOUBLET_COMPILE_SECONDS"
-_LIMIT = 120.0  # s; the largest kernel takes some ten on a busy machine
+_LIMIT = 120.0  # s; the largest kernel takes about ten on a busy machine
 _TRIAL_LIMIT = 20.0  # s
-_LONGEST = 86400.0  # s: what a process can be waited for is not without end
-_GIVEN_UP = "WETDOUBLET_NO_COMPILER"  # set for workers too, once one has not ended
-_INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses, the second that of a shell script
+_LONGEST = 86400.0  # s; cap of the time limit, as the system's waits accept no arbitrary times
+_GIVEN_UP = "WETDOUBLET_NO_COMPILER"  # inherited by workers; set after a compiler has exceeded its time
+_INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses after SIGINT, of a program and of a shell script
 _TRIAL = """#include <math.h>
 int main(int count, char **words) { return words[0] && sqrt(8.0 + count) == 3.0 ? 42 : 1; }
 """
 _ANSWER = 42
-_RUNNING: dict[subprocess.Popen[bytes], int] = {}  # by the threads that wait for them
+_RUNNING: dict[subprocess.Popen[bytes], int] = {}  # running compilers, by the waiting thread
 _STOPPED: set[subprocess.Popen[bytes]] = set()
 
 
 class CannotCompile(Exception):
-    """A file did not become a library; the message is the reason, in a few words."""
+    """A file could not be compiled to a library; the message is the reason."""
 
 
 class Compiler(NamedTuple):
     """A C compiler that works.
 
     Arguments:
-        command: what to run, a word each: `("ccache", "/usr/bin/gcc")`.
-        version: what it says of itself.
+        command: the words of the command: `("ccache", "/usr/bin/gcc")`.
+        version: output of its `--version`.
     """
 
     command: tuple[str, ...]
     version: str
 
     def __str__(self) -> str:
-        """As one would type it."""
+        """The command as typed in a shell."""
         return shlex.join(self.command)
 
 
 @once
 def compiler() -> Compiler | None:
-    """The machine's C compiler, $CC before others; None, said once, if there is none.
+    """The machine's C compiler, preferably $CC; None, with one remark, if there is none.
 
     Raises:
-        InputError: WETDOUBLET_COMPILE_SECONDS is no time.
+        InputError: WETDOUBLET_COMPILE_SECONDS is not a valid time.
     """
     limit = _limit()
     if _GIVEN_UP in os.environ:
@@ -94,10 +94,10 @@ def compiler() -> Compiler | None:
 
 
 def key(source: str, flags: Sequence[str], machine: str = "") -> str:
-    """Digest of everything that a library depends on; without a compiler there is none to name.
+    """Digest of everything that a compiled library depends on: source, flags and the compiler's version.
 
     Arguments:
-        machine: what it is compiled for, where that is the machine it is compiled on.
+        machine: description of this machine, for code compiled for its processor only.
     """
     found = compiler()
     content = "\0".join([source, str(found), found.version if found else "", *flags, machine])
@@ -108,7 +108,7 @@ def library(source: str, flags: Sequence[str]) -> bytes:
     """A C file compiled to a shared library.
 
     Raises:
-        CannotCompile: it cannot be; says why in a few words.
+        CannotCompile: the compilation failed; gives the reason.
         KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
     """
     found = compiler()
@@ -129,12 +129,12 @@ def library(source: str, flags: Sequence[str]) -> bytes:
 
 
 def more_flags() -> tuple[str, ...]:
-    """What the compiler is told besides, as WETDOUBLET_CFLAGS names it: sanitizers, debugging."""
+    """Additional compiler flags from WETDOUBLET_CFLAGS, such as sanitizers."""
     return tuple(shlex.split(os.environ.get("WETDOUBLET_CFLAGS", "")))
 
 
 def stop(threads: Collection[int]) -> None:
-    """End the compilers that these threads wait for, as an interrupt does."""
+    """Stop the compilers that these threads wait for, as an interrupt does."""
     for process, waiting in list(_RUNNING.items()):
         if waiting in threads:
             _STOPPED.add(process)
@@ -142,7 +142,7 @@ def stop(threads: Collection[int]) -> None:
 
 
 def _limit() -> float:
-    """Seconds that a compiler may take."""
+    """Time limit of a compilation, s."""
     text = os.environ.get(_SECONDS, "")
     if not text:
         return _LIMIT
@@ -156,7 +156,7 @@ def _limit() -> float:
 
 
 def _command(named: str) -> tuple[str, ...] | None:
-    """The words of a command, the first a path; a path with spaces may be given as it is. None if there is no such."""
+    """The words of a command, the first an executable's path, which may contain spaces; None if not found."""
     whole = shutil.which(named)
     if whole is not None:
         return (whole,)
@@ -169,9 +169,9 @@ def _command(named: str) -> tuple[str, ...] | None:
 
 
 def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
-    """The compiler of a command if it compiles a program that runs, or what is wrong with it.
+    """The compiler of a command if it compiles a program that runs; else the reason as text.
 
-    That it does is kept with its version, size and date, so that the next process need not try again.
+    Success is cached with the compiler's version, size and date, so that later processes skip the test.
     """
     try:
         status, said = _run((*command, "--version"), limit)
@@ -193,7 +193,7 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
 
 
 def _identity(word: str) -> str:
-    """Size and date of the program that a word of a command names."""
+    """Size and date of the executable that a word of a command names."""
     path = shutil.which(word)
     if path is None:
         return ""
@@ -202,7 +202,7 @@ def _identity(word: str) -> str:
 
 
 def _try(command: tuple[str, ...], limit: float) -> None:
-    """Compile the trial and run it. CannotCompile, TimeoutExpired or OSError if that fails."""
+    """Compile the test program and run it. CannotCompile, TimeoutExpired or OSError if that fails."""
     with cache.room() as place:
         (place / "source.c").write_text(_TRIAL)
         program = _compiled(command, (), place, limit)
@@ -212,7 +212,7 @@ def _try(command: tuple[str, ...], limit: float) -> None:
 
 def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
     try:
-        with cache.in_memory(program) as descriptor:  # the folder may be one from which nothing is run
+        with cache.in_memory(program) as descriptor:  # the folder may be mounted noexec
             return _run((f"/proc/self/fd/{descriptor}",), limit, passed=(descriptor,))
     except OSError:
         path = place / "trial"
@@ -222,7 +222,7 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
-    """What a compiler makes of `source.c` in a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+    """Path of the compiled `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
     made = place / "made"
     status, said = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
     if status:
@@ -236,13 +236,14 @@ def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit
 def _run(
     command: tuple[str, ...], limit: float, place: Path | None = None, passed: tuple[int, ...] = ()
 ) -> tuple[int, str]:
-    """Run a command in a process group of its own; its status and what it says, errors last.
+    """Run a command in its own process group; returns its status and output, errors last.
 
-    If this raises, nothing is left of the group.
+    The whole group is killed if this raises.
 
     Raises:
-        TimeoutExpired, OSError: it has not ended; it cannot be run.
-        KeyboardInterrupt: it was interrupted, or this process was meanwhile.
+        TimeoutExpired: the command exceeded its time.
+        OSError: it cannot be run.
+        KeyboardInterrupt: it or this process was interrupted.
     """
     environment = os.environ | {"LC_ALL": "C"} | ({"TMPDIR": str(place)} if place else {})
     process = subprocess.Popen(
@@ -254,7 +255,7 @@ def _run(
         out, err = process.communicate(timeout=limit)
     except BaseException:
         _end(process)
-        with suppress(subprocess.TimeoutExpired):  # what it has started elsewhere may keep its output open
+        with suppress(subprocess.TimeoutExpired):  # descendants in other groups may keep its output open
             process.communicate(timeout=1)
         raise
     finally:
@@ -267,7 +268,7 @@ def _run(
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """Kill a process and those that it has started."""
+    """Kill a process and its group."""
     try:
         os.killpg(process.pid, signal.SIGKILL)
     except (AttributeError, OSError):

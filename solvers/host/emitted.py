@@ -1,7 +1,7 @@
-"""Emitted modules by name: the library's, held against their manifest; what is not committed is derived on first use.
+"""Emitted modules of the library by name, verified against the manifest; uncommitted ones are derived on first use.
 
-What is derived goes to the user's cache, addressed by the derivation's sources and versions, so that sympy is loaded
-once and never again. `generated/` and the cache are the only places that this imports from.
+Derived modules are cached for the user under a digest of the derivation's sources and versions, so that sympy is
+needed only once. Modules are imported only from `generated/` and from the cache.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from ..errors import CheckFailed
 _PACKAGE = f"{__package__.rsplit('.', 2)[0]}.generated"
 _FOLDER = Path(__file__).resolve().parents[2] / "generated"
 _DERIVE = _FOLDER.with_name("derive")
-DERIVING = threading.RLock()  # held by whoever uses sympy: it is not for several threads
+DERIVING = threading.RLock()  # sympy is not thread-safe
 
 
 @cache
 def manifest() -> dict[str, Any]:
-    """The library's manifest."""
+    """The library's manifest (digests of the emitted files)."""
     found: dict[str, Any] = json.loads(_manifest_text())
     return found
 
@@ -38,12 +38,12 @@ def _manifest_text() -> str:
 
 @cache
 def library_digest() -> str:
-    """Digest of the library's equations: of its manifest, which has those of every law and structure."""
+    """Digest of the manifest, and so of all laws and structures of the library."""
     return hashlib.sha256(_manifest_text().encode()).hexdigest()
 
 
 def structure(name: str) -> ModuleType:
-    """The module of a structure: committed, or derived on first use."""
+    """The module of a structure, committed or derived on first use."""
     return module(name)
 
 
@@ -57,10 +57,10 @@ def module(name: str) -> ModuleType:
     """An emitted module of the library.
 
     Arguments:
-        name: dotted, below `generated`; a structure that is not committed is derived.
+        name: dotted name below `generated`; a structure that is not committed is derived.
 
     Raises:
-        CheckFailed: the file is not the one that was emitted; says what to run.
+        CheckFailed: the file was changed after it was emitted; names the command to run.
     """
     path = name.replace(".", "/") + ".py"
     if not committed(path):
@@ -71,7 +71,7 @@ def module(name: str) -> ModuleType:
 
 
 def text(name: str) -> str:
-    """Text of an emitted module of the library, which is never run. Errors: see `module`."""
+    """Text of an emitted module of the library, not executed. Errors: see `module`."""
     path = name.replace(".", "/") + ".py"
     if committed(path):
         _verified(path)
@@ -82,7 +82,7 @@ def text(name: str) -> str:
 
 
 def header(path: str) -> str:
-    """Text of an emitted C header of the kernel, a path below `generated`, verified; derived where not committed."""
+    """Text of an emitted C header (path below `generated`), verified; derived if not committed."""
     if committed(path):
         _verified(path)
         return (_FOLDER / path).read_text(encoding="utf-8")
@@ -92,7 +92,7 @@ def header(path: str) -> str:
 
 
 def committed(path: str) -> bool:
-    """Whether a file is among the emitted ones of the package."""
+    """True if a file is among the package's committed emitted files."""
     return path in manifest()["files"]
 
 
@@ -106,7 +106,7 @@ def _verified(path: str) -> None:
 
 
 def executed(name: str, source: bytes) -> ModuleType:
-    """A module of a source that has been verified: what is run is what was read."""
+    """A module executed from its verified source text, without reading the file again."""
     made = ModuleType(name)
     exec(compile(source, f"<{name}>", "exec", dont_inherit=True), made.__dict__)
     return made
@@ -114,7 +114,7 @@ def executed(name: str, source: bytes) -> ModuleType:
 
 @cache
 def derivation() -> str:
-    """Digest of what emitted code comes from: the derivation's sources, and the versions that matter."""
+    """Digest of the derivation's sources and of the versions of its dependencies."""
     from importlib.metadata import version
 
     found = hashlib.sha256()
@@ -126,7 +126,7 @@ def derivation() -> str:
 
 
 def derived_once(name: str, derived: Callable[[], str]) -> str:
-    """A text that is derived where the cache has none of that name from this derivation."""
+    """A text from the cache, derived if the cache has none of that name from this derivation."""
     from .user_cache import kept
 
     stem, _, suffix = name.rpartition(".")
@@ -134,7 +134,7 @@ def derived_once(name: str, derived: Callable[[], str]) -> str:
 
 
 def _alone(derived: Callable[[], str]) -> str:
-    """What is derived, by one thread at a time."""
+    """Run a derivation, one thread at a time."""
     with DERIVING:
         return derived()
 

@@ -1,4 +1,4 @@
-"""Where a benchmark was run."""
+"""Description of the machine and software of a benchmark."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "scikit-sundae"
 
 @contextmanager
 def one_core() -> Iterator[None]:
-    """Keep this process on one core, so that CPU times are of one; where the system can."""
+    """Pin this process to one core, where the system supports it, so that CPU times are comparable."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
@@ -55,7 +55,7 @@ def _version(package: str) -> str | None:
 
 
 def _cpu() -> str:
-    """The processor's name, as the system calls it."""
+    """The processor's name as reported by the system."""
     listed = Path("/proc/cpuinfo")
     if listed.is_file():
         for line in listed.read_text(encoding="utf-8").splitlines():

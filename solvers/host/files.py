@@ -1,7 +1,7 @@
-"""Files that a user asks for: written whole or not at all, and every byte checked.
+"""Atomic writing of output files.
 
-What is to be written is made in memory and put down beside its place, then moved there: a full disk costs the new file,
-never the old one, and no library has the last word on what the system has not taken.
+Content is built in memory, written to a temporary file beside the target and moved into place. A full disk thus loses
+the new file, never the old one, and every failed write is detected.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ def write(path: str | Path, content: bytes | memoryview | str) -> None:
     """Write a file; text as UTF-8.
 
     Raises:
-        OSError: it cannot be written; `filename` is the path, and what was there is there still.
+        OSError: it cannot be written; `filename` is the path, and an existing file is unchanged.
     """
-    target = Path(os.path.realpath(path))  # a link stays one
+    target = Path(os.path.realpath(path))  # write to the target of a symbolic link and keep the link
     data = content.encode() if isinstance(content, str) else content
     try:
         if _replaceable(target):
@@ -36,7 +36,7 @@ def write(path: str | Path, content: bytes | memoryview | str) -> None:
 
 
 def write_all_in(folder: Path, files: Mapping[str, str]) -> list[Path]:
-    """Write texts by relative path below a folder, which is made; returns the files. OSError as `write` raises it."""
+    """Write texts by relative path below a folder, creating it; returns the paths. OSError as in `write`."""
     written = []
     for name, text in files.items():
         path = folder / name
@@ -47,21 +47,21 @@ def write_all_in(folder: Path, files: Mapping[str, str]) -> list[Path]:
 
 
 def save(figure: Figure, path: str | Path, dpi: int) -> None:
-    """Write a picture, of the kind that its name ends in. OSError as `write` raises it."""
+    """Write a figure in the format of the file's suffix. OSError as in `write`."""
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=dpi, format=Path(path).suffix.lstrip(".").lower() or None)
     write(path, drawn.getbuffer())
 
 
 def write_all(descriptor: int, data: bytes | memoryview) -> None:
-    """Write everything. OSError if the system does not take it."""
+    """Write all bytes to a descriptor. OSError if the system refuses."""
     left = memoryview(data)
     while left:
         left = left[os.write(descriptor, left) :]
 
 
 def _replaceable(target: Path) -> bool:
-    """Whether a new file may take the place: nothing is there, or a plain file in a folder that takes files."""
+    """True if a new file may be moved here: the path is free, or a regular file in a writable folder."""
     try:
         found = target.lstat()
     except FileNotFoundError:
@@ -88,4 +88,4 @@ def _fill(descriptor: int, data: bytes | memoryview) -> None:
         with suppress(OSError):
             os.close(descriptor)
         raise
-    os.close(descriptor)  # which may be when the system says that it has no room
+    os.close(descriptor)  # a full disk may be reported only here

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM end a command alike: what is finished is kept and what is begun is cleared away."""
+"""Common handling of Ctrl-C and SIGTERM: finished results are kept, unfinished ones are removed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ INTERRUPTED, TERMINATED = 130, 143  # exit statuses, as a shell reports the sign
 
 
 class Signals:
-    """What has come to the command that runs."""
+    """The signals received by the running command."""
 
     def __init__(self) -> None:
         self.pending = False
@@ -20,7 +20,7 @@ class Signals:
 
     @property
     def status(self) -> int:
-        """Exit status of a command that a KeyboardInterrupt has ended."""
+        """Exit status of a command ended by a KeyboardInterrupt."""
         return TERMINATED if self.terminated else INTERRUPTED
 
     def __call__(self, number: int, _frame: Any) -> None:
@@ -29,7 +29,7 @@ class Signals:
         if number == signal.SIGTERM:
             self.terminated = True
             signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        # not a kind of its own: libraries that are interrupted amid a computation raise this one anew
+        # not a subclass: libraries interrupted in a computation raise KeyboardInterrupt itself again
         raise KeyboardInterrupt("terminated" if self.terminated else "")
 
 
@@ -37,7 +37,7 @@ _SIGNALS = Signals()
 
 
 def check() -> None:
-    """Raise an interrupt that was swallowed, as by CasADi, which takes one amid a conversion of arguments for a no."""
+    """Raise an interrupt that a library has swallowed, as CasADi does during type conversion."""
     if _SIGNALS.pending:
         _SIGNALS.pending = False
         raise KeyboardInterrupt
@@ -45,7 +45,7 @@ def check() -> None:
 
 @contextmanager
 def handled() -> Iterator[Signals]:
-    """Turn SIGTERM into KeyboardInterrupt, as Ctrl-C is one; not where this is no main thread or others handle them."""
+    """Turn SIGTERM into KeyboardInterrupt; no effect outside the main thread or if another handler is installed."""
     _SIGNALS.pending = _SIGNALS.terminated = False
     main = threading.current_thread() is threading.main_thread()
     usual = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}

@@ -1,7 +1,7 @@
 """Temporary files and folders, locked by the process that creates them.
 
-The system releases the lock when that process ends, however it ends; what another process can lock is stale and may be
-deleted. Where there are no such locks nothing is deleted.
+The system releases the lock when that process ends, so a file that another process can lock is stale and may be
+deleted. Nothing is deleted on systems without such locks.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pathlib import Path
 
 try:
     import fcntl
-except ImportError:  # not POSIX
+except ImportError:  # not a POSIX system
     fcntl = None  # type: ignore[assignment]  # tested before each use
 
 TEMPORARY = "wetdoublet-cache-"  # prefix in temporary folders
@@ -27,7 +27,7 @@ _TRIES = 5
 
 @contextmanager
 def held_file(folder: Path, prefix: str) -> Iterator[tuple[int, Path]]:
-    """A new file in a folder, open for writing, for this user alone; removed at the end unless it has been renamed.
+    """A new private file in a folder, open for writing; removed at the end unless renamed.
 
     Raises:
         OSError: it cannot be made.
@@ -47,7 +47,7 @@ def held_file(folder: Path, prefix: str) -> Iterator[tuple[int, Path]]:
 
 @contextmanager
 def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
-    """A new folder in a folder, for this user alone; removed at the end with what is in it.
+    """A new private folder in a folder; removed at the end with its content.
 
     Raises:
         OSError: it cannot be made.
@@ -67,7 +67,7 @@ def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
 
 
 def take(descriptor: int) -> bool:
-    """Lock an open file without waiting; whether nobody else has it. Where there are no locks nobody has."""
+    """Lock an open file without waiting; False if another process holds the lock. True on systems without locks."""
     if fcntl is None:
         return True
     try:
@@ -78,7 +78,7 @@ def take(descriptor: int) -> bool:
 
 
 def _opened(folder: Path) -> int | None:
-    """Descriptor of a folder; None where folders have none, or if somebody has swept it."""
+    """Descriptor of a folder; None if the system has none for folders or the folder is gone."""
     if fcntl is None:
         return None
     try:
@@ -88,7 +88,7 @@ def _opened(folder: Path) -> int | None:
 
 
 def _hold(descriptor: int, path: Path) -> bool:
-    """Lock it; False if somebody has swept it before that."""
+    """Lock a new file or folder; False if another process has removed it before."""
     if fcntl is None:
         return True
     with contextlib.suppress(OSError):  # a file system without locks
@@ -100,22 +100,22 @@ def _hold(descriptor: int, path: Path) -> bool:
 
 
 def temporary() -> list[Path]:
-    """Folders for what ends with the process, the usual one first."""
+    """Folders for temporary files, the system's default first."""
     found = []
     with contextlib.suppress(OSError):
         found.append(Path(tempfile.gettempdir()))
-    shared = Path("/dev/shm")  # in memory; what is made there is private
+    shared = Path("/dev/shm")  # in memory; entries made there are private
     return [*found, *([shared] if shared.is_dir() else [])]
 
 
 def sweep_temporary() -> None:
-    """Remove what this user's killed processes have left in temporary folders."""
+    """Remove stale entries of this user's killed processes from the temporary folders."""
     for folder in temporary():
         sweep(folder, TEMPORARY)
 
 
 def sweep(folder: Path, prefix: str) -> None:
-    """Remove this user's files and folders of that prefix whose makers are gone."""
+    """Remove this user's files and folders with that prefix whose processes have ended."""
     if fcntl is None:
         return
     with contextlib.suppress(OSError):

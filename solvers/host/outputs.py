@@ -1,4 +1,4 @@
-"""Names of files and folders to be written: judged before anything is computed."""
+"""Checks of output files and folders, made before anything is computed."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from ..errors import InputError
 from . import bounded
 
 PICTURES = (".png", ".pdf", ".svg")
-_LONGEST = 200  # bytes of a name: file systems take 255, and what is being written has a longer one
+_LONGEST = 200  # bytes of a name; file systems accept 255, and the temporary file has a longer name
 
 
 def check_file(path: object, label: str, suffixes: Sequence[str] = (), *, replaced: bool = False) -> Path:
-    """Return the path of a file to be written; InputError naming `label` if it cannot be, or has another suffix.
+    """Return the path of an output file; InputError naming `label` if it cannot be written or has a wrong suffix.
 
     Arguments:
-        replaced: it is written beside and then moved into place, so that its folder must take files as well.
+        replaced: the file is moved into place, so that its folder must be writable too.
     """
     accepted = "a file name" + (f" ending in {', '.join(suffixes)}" if suffixes else "") + " in a folder that exists"
     text = _text(path, label, accepted)
@@ -26,7 +26,7 @@ def check_file(path: object, label: str, suffixes: Sequence[str] = (), *, replac
         raise InputError(label, text, accepted, "has an unsupported suffix")
     if len(os.fsencode(file.name)) > _LONGEST:
         raise InputError(label, text, f"{accepted}, of at most {_LONGEST} bytes", "is too long a name")
-    meant = Path(os.path.realpath(file))  # a link may lead nowhere
+    meant = Path(os.path.realpath(file))  # a link may be broken
     if not (bounded.is_folder(file.parent) and bounded.is_folder(meant.parent)):
         raise InputError(label, text, accepted, "is in a folder that does not exist")
     if bounded.is_folder(file):
@@ -38,7 +38,7 @@ def check_file(path: object, label: str, suffixes: Sequence[str] = (), *, replac
 
 
 def check_folder(path: object, label: str) -> Path:
-    """Return the folder to write into, which may not exist yet; InputError naming `label` if it never could."""
+    """Return the output folder, which need not exist; InputError naming `label` if it cannot be created."""
     accepted = "a folder that exists or can be made"
     text = _text(path, label, accepted)
     folder = Path(text)
@@ -66,8 +66,8 @@ def _text(path: object, label: str, accepted: str) -> str:
 
 
 def _takes_files(folder: Path) -> bool:
-    """Whether a file can be made in a folder: tried, because permissions say nothing of /proc and its like."""
-    import tempfile  # takes its time
+    """True if a file can be created in a folder; tested by creating one, as permissions are not reliable in /proc."""
+    import tempfile  # slow import
 
     try:
         with tempfile.TemporaryFile(dir=folder):

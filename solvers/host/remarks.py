@@ -1,7 +1,7 @@
-"""Remarks on standard error: one line each, for what a run does without and goes on.
+"""Remarks on standard error, one line each, about resources that are missing but not necessary.
 
-They are no errors and no part of a result. Worker processes are hushed: the one that started them says what all of them
-meet; what a single one has done it says itself.
+They are neither errors nor part of a result. Worker processes are silent, because the parent reports what concerns all;
+a worker reports only what concerns it alone.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ _HUSHED = "WETDOUBLET_HUSHED"
 
 
 def say(line: str, only_here: bool = False) -> None:
-    """Write a remark; where standard error cannot be written, there is none.
+    """Write a remark; ignored if standard error cannot be written.
 
     Arguments:
-        only_here: no other process has the same to say, so a worker says it too.
+        only_here: the remark concerns this process alone, so a worker writes it too.
     """
     if (only_here or _HUSHED not in os.environ) and sys.stderr is not None:
         with contextlib.suppress(OSError, ValueError):
@@ -29,10 +29,10 @@ def say(line: str, only_here: bool = False) -> None:
 
 @cache
 def say_once(line: str) -> None:
-    """Write a remark that this process has not written yet."""
+    """Write a remark unless this process has already written it."""
     say(line)
 
 
 def silence_workers() -> None:
-    """For a worker process: its remarks are for the process that started it."""
+    """Suppress the remarks of this worker process."""
     os.environ[_HUSHED] = "1"

@@ -1,9 +1,8 @@
-"""Caches for any number of threads: what each thread has for itself, and what is built once for all of them.
+"""Caches for several threads: `own_cache` with results per thread, `once` with results shared by all.
 
-CasADi's functions work in memory of their own, and calls from Python release the interpreter's lock: neither they nor
-the symbols that they are built from may be in two threads at a time. Whatever holds one is kept by `own_cache`.
-Numbers, texts and tables, which nothing changes, may be kept by `functools.lru_cache`, where two threads at worst
-compute the same; what must not be done twice, by `once`.
+CasADi functions have internal work memory, and calls from Python release the interpreter's lock. Neither functions nor
+their symbols may be used by two threads at a time, so objects that hold them are cached by `own_cache`. Immutable data
+may be cached by `functools.lru_cache`, where at worst two threads compute the same; `once` avoids that too.
 """
 
 from __future__ import annotations
@@ -17,12 +16,12 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 P = ParamSpec("P")
 T = TypeVar("T")
-_Workspace = dict[Any, Any]  # caches, by what they are of
-_FREE: deque[_Workspace] = deque()  # of threads that have ended: for the next ones, which then need not build anew
+_Workspace = dict[Any, Any]  # caches by decorated function
+_FREE: deque[_Workspace] = deque()  # workspaces of ended threads, reused by new ones
 
 
 class _Lease:
-    """A workspace, for as long as a thread lives."""
+    """A workspace, held for the life of a thread."""
 
     def __init__(self, free: deque[_Workspace]) -> None:
         self._free = free
@@ -45,7 +44,7 @@ _OWN = _Own()
 
 
 class OwnCache(Generic[P, T]):
-    """A function with a cache in every thread: what it returns is the thread's own."""
+    """A function with a separate cache in every thread."""
 
     def __init__(self, build: Callable[P, T], maxsize: int | None) -> None:
         self.__wrapped__, self._maxsize = build, maxsize
@@ -56,11 +55,11 @@ class OwnCache(Generic[P, T]):
         return found
 
     def cache_clear(self) -> None:
-        """Forget what this thread has."""
+        """Clear this thread's cache."""
         self._here().cache_clear()
 
     def cache_info(self) -> Any:
-        """How often this thread has been given what it had, and how often it was built."""
+        """Hits, misses and size of this thread's cache."""
         return self._here().cache_info()
 
     def _here(self) -> Any:
@@ -72,25 +71,25 @@ class OwnCache(Generic[P, T]):
 
 
 def own_cache(maxsize: int | None) -> Callable[[Callable[P, T]], OwnCache[P, T]]:
-    """Decorate a function of hashable arguments: each thread keeps what it returns, the latest `maxsize` of them."""
+    """Decorate a function of hashable arguments: each thread caches its latest `maxsize` results."""
     return lambda build: OwnCache(build, maxsize)
 
 
 class Locks:
-    """A lock for each of any keys."""
+    """A lock for each key."""
 
     def __init__(self) -> None:
         self._guard = threading.Lock()
         self._of: dict[Hashable, AbstractContextManager[Any]] = {}
 
     def __call__(self, key: Hashable) -> AbstractContextManager[Any]:
-        """The one of a key."""
+        """The lock of a key."""
         with self._guard:
             return self._of.setdefault(key, threading.RLock())
 
 
 class Once(Generic[P, T]):
-    """A function whose results are kept for all threads, each made by one of them while others wait for it."""
+    """A function whose results are shared by all threads; one computes a result while the others wait for it."""
 
     def __init__(self, build: Callable[P, T]) -> None:
         self.__wrapped__ = build
@@ -100,7 +99,7 @@ class Once(Generic[P, T]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         key = (args, tuple(sorted(kwargs.items())))
-        found = self._kept.get(key, self)  # `self` marks a missing entry: a result may be None
+        found = self._kept.get(key, self)  # `self` marks a missing entry, as a result may be None
         if found is self:
             with self._making(key):
                 found = self._kept.get(key, self)
@@ -109,13 +108,13 @@ class Once(Generic[P, T]):
         return cast("T", found)
 
     def cache_clear(self) -> None:
-        """Forget all results: the next caller makes them again."""
+        """Clear all results."""
         self._kept.clear()
 
 
 def once(build: Callable[P, T]) -> Once[P, T]:
-    """Decorate a function of hashable arguments: its result is kept, and made by one thread while others wait for it.
+    """Decorate a function of hashable arguments: one thread computes a result while others wait for it.
 
-    Other arguments do not wait. An error is not kept: the next caller tries again.
+    Calls with other arguments do not wait. Errors are not cached; the next caller tries again.
     """
     return Once(build)

@@ -1,12 +1,12 @@
-"""What is made once a user and kept: derived code, compiled libraries, factors of units. All of it goes through here.
+"""The user's cache of derived code, compiled libraries and unit factors.
 
-An entry is a file STEM.DIGEST.SUFFIX in one folder. Its content is read whole and held against the digest in its name
-before anything is made of it; what does not agree is removed, said, and made again. It is written beside and moved into
-place, never changed: several processes may do so at once. What is loaded as a library is a copy in memory of what was
-verified, so nothing that happens to the file afterwards reaches a running process.
+An entry is a file STEM.DIGEST.SUFFIX in one folder. Its content is read and compared with the digest in its
+name before use; an entry that disagrees is removed, with a remark, and made again. Entries are written to a temporary
+file, moved into place and never changed, so several processes may write at once. A library is loaded from a verified
+copy in memory, so later changes of the file do not affect a running process.
 
-The folder belongs to the user alone: one that others could write to is refused, since what is in it is executed. Where
-nothing can be written, entries go to a private temporary folder that ends with the process, or to memory: said once.
+A folder that other users can write to is refused, because its content is executed. If no folder can be written, entries
+go to a private temporary folder that is removed with the process, or to memory, with one remark.
 """
 
 from __future__ import annotations
@@ -33,21 +33,21 @@ from .thread_caches import Locks
 Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
-_PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # of the process that made it, for its workers
-_MAKING = ".making-"  # prefix in the folder of what is being made
-_DIGITS = 32  # of the digest in a name
-_LARGEST = 1 << 28  # bytes: no entry is as large
-_ROOM = 16 << 20  # bytes that a compiler needs, amply
-_PROBE = 1 << 18  # bytes: more than most entries
-_MEMORY: dict[str, bytes] = {}  # entries for which there is no other place
-_REFUSED: set[Path] = set()  # folders that could not be written, which has been said
+_PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
+_MAKING = ".making-"  # prefix of temporary files
+_DIGITS = 32  # hexadecimal digits of the digest in a name
+_LARGEST = 1 << 28  # bytes; larger than any entry
+_ROOM = 16 << 20  # bytes; ample for a compilation
+_PROBE = 1 << 18  # bytes; more than most entries
+_MEMORY: dict[str, bytes] = {}  # entries kept in memory if no folder can be written
+_REFUSED: set[Path] = set()  # folders whose failure was reported
 _LOCK = threading.RLock()
 _LOADS = itertools.count()
 _MAKING_OF = Locks()
 
 
 def folder() -> Path:
-    """The user's cache folder, which need not exist; WETDOUBLET_CACHE names another than the system's."""
+    """The user's cache folder, which need not exist; WETDOUBLET_CACHE overrides the default."""
     named = os.environ.get(_NAMED)
     if named:
         return Path(named)
@@ -57,17 +57,17 @@ def folder() -> Path:
 
 
 def kept(name: str, made: Callable[[], bytes]) -> bytes:
-    """The content of the entry of that name, made if it is not there or not whole.
+    """The content of the entry of that name; made if missing or damaged.
 
     Arguments:
-        name: STEM.SUFFIX, in which everything is that the content depends on.
-        made: gives the content; what it raises is raised.
+        name: STEM.SUFFIX; must identify everything that the content depends on.
+        made: computes the content; its exceptions propagate.
 
     Example:
         >>> kept("law-3f2a.py", lambda: b"ONE = 1")  # doctest: +SKIP
         b'ONE = 1'
     """
-    with _MAKING_OF(name):  # other threads wait for what one of them makes
+    with _MAKING_OF(name):  # one thread makes the entry; others wait
         content = _found(name)
         if content is None:
             content = made()
@@ -76,22 +76,22 @@ def kept(name: str, made: Callable[[], bytes]) -> bytes:
 
 
 def has(prefix: str) -> bool:
-    """Whether there is an entry whose name begins so; it is not read."""
+    """True if an entry's name begins with `stem`; the entry is not read."""
     listed = (name for shelf in _shelves() for name in _names(shelf))
     return any(name.startswith(prefix) for name in (*_MEMORY, *listed))
 
 
 def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
-    """What `opened` makes of the path of a library of that content, a copy that is nobody else's.
+    """The result of `opened` for the path of a private copy of a library with that content.
 
     Raises:
-        OSError, RuntimeError: as `opened` does; it cannot be loaded.
+        OSError, RuntimeError: from `opened`, if the library cannot be loaded.
     """
     try:
         with in_memory(content) as descriptor:
-            # a path that has been opened before is, to the system's loader, the library it was then
+            # the system's loader returns the old library for a path opened before
             return opened(f"/proc/self{'/.' * next(_LOADS)}/fd/{descriptor}")
-    except (OSError, RuntimeError):  # no such files here, or none that may be executed
+    except (OSError, RuntimeError):  # no files in memory here, or not executable
         with room() as place:
             library = place / "library.so"
             library.write_bytes(content)
@@ -100,7 +100,7 @@ def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
 
 @contextmanager
 def in_memory(content: bytes) -> Iterator[int]:
-    """Descriptor of a file that is in memory alone. OSError where there are none."""
+    """Descriptor of an anonymous file in memory. OSError if not supported."""
     if not hasattr(os, "memfd_create"):
         raise OSError(errno.ENOSYS, "no files in memory")
     descriptor = os.memfd_create("wetdoublet")
@@ -113,10 +113,10 @@ def in_memory(content: bytes) -> Iterator[int]:
 
 @contextmanager
 def room() -> Iterator[Path]:
-    """A private folder with room to compile in, removed at the end, by the next process if this one is killed.
+    """A private folder with space for compilation, removed at the end, or by the next process if this one is killed.
 
     Raises:
-        OSError: there is none.
+        OSError: no folder has the space.
     """
     own = folder()
     with ExitStack() as stack:
@@ -153,7 +153,7 @@ def _found(name: str) -> bytes | None:
 
 
 def _shelves() -> Iterator[Path]:
-    """Folders with entries: the user's, and the one of this run if there is one."""
+    """Folders with entries: the user's, and the temporary one of this run if any."""
     own, private = folder(), os.environ.get(_PRIVATE)
     for shelf in (own, *([Path(private)] if private else [])):
         with suppress(OSError):
@@ -169,7 +169,7 @@ def _names(shelf: Path) -> list[str]:
 
 
 def _whole(path: Path, digest: str) -> bytes | None:
-    """Content of a file if it is the one that was written; else the file is removed, and None."""
+    """Content of a file if its digest is right; else None, and the file is removed."""
     content = None
     try:
         flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
@@ -178,13 +178,13 @@ def _whole(path: Path, digest: str) -> bytes | None:
             if stat.S_ISREG(found.st_mode) and found.st_size <= _LARGEST and _alone(found):
                 content = file.read()
     except OSError as error:
-        if error.errno != errno.ELOOP:  # gone, or not to be read now: nothing is known against it
+        if error.errno != errno.ELOOP:  # absent or unreadable, but not known to be damaged
             return None
     if content is not None and _digest(content) == digest:
         return content
     try:
         path.unlink()
-        say(f"{path} was damaged: it is made again", only_here=True)  # only one process has removed it
+        say(f"{path} was damaged: it is made again", only_here=True)  # another process has removed it
     except FileNotFoundError:
         pass
     except OSError as error:
@@ -197,7 +197,7 @@ def _digest(content: bytes) -> str:
 
 
 def _private(shelf: Path) -> bool:
-    """Whether only this user can write to a folder. OSError if there is none."""
+    """True if only this user can write to a folder. OSError if it does not exist."""
     return _alone(shelf.stat())
 
 
@@ -211,7 +211,7 @@ def _alone(found: os.stat_result) -> bool:
 
 
 def settle() -> None:
-    """Find out where entries can be written, and say it, before workers do: they are hushed, and share the place."""
+    """Determine where entries can be written, and report it, before silent workers start; they share the folder."""
     own = folder()
     with _LOCK:
         if own not in _REFUSED and (reason := _written(own, "", bytes(_PROBE))):
@@ -219,7 +219,7 @@ def settle() -> None:
 
 
 def _put(name: str, content: bytes) -> None:
-    """Put an entry down, in the first place that takes it."""
+    """Write an entry to the first folder that accepts it."""
     own = folder()
     with _LOCK:
         reason = "" if own in _REFUSED else _written(own, name, content)
@@ -240,7 +240,7 @@ def _refuse(own: Path, reason: str, where: str | None) -> None:
 
 
 def _written(place: Path, name: str, content: bytes) -> str:
-    """Write an entry, or without a name only try to; the reason why it cannot be, or ""."""
+    """Write an entry, or without a name only test the folder; returns the reason of failure or ""."""
     stem, _, suffix = name.rpartition(".")
     try:
         if place == folder():
@@ -258,7 +258,7 @@ def _written(place: Path, name: str, content: bytes) -> str:
 
 
 def _moved(name: str, content: bytes) -> str | None:
-    """Make a private folder for this run and put an entry there; its path, or None if no place takes it."""
+    """Create a private folder for this run and write an entry there; returns its path, None if that fails."""
     for root in temporary():
         stack = ExitStack()
         with suppress(OSError):
@@ -273,11 +273,11 @@ def _moved(name: str, content: bytes) -> str | None:
 
 
 def _leave(stack: ExitStack, owner: int) -> None:
-    if os.getpid() == owner:  # no fork of it
+    if os.getpid() == owner:  # not a forked child
         stack.close()
 
 
 @cache
 def _sweep(place: Path, prefix: str) -> None:
-    """Once a process."""
+    """Remove stale temporary entries, once per process."""
     sweep(place, prefix)

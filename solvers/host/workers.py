@@ -1,4 +1,4 @@
-"""Worker processes: started the same way everywhere, ignoring Ctrl-C, and ended with their parent."""
+"""Worker processes, which ignore Ctrl-C and end with their parent."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from typing import Any
 from .remarks import silence_workers
 from .user_cache import settle
 
-_LOOK = 0.2  # s between two looks at whether the parent is there
+_LOOK = 0.2  # s between checks for the parent
 _PR_SET_PDEATHSIG = 1
-_LASTING = threading.Lock()  # of the pool that stays
+_LASTING = threading.Lock()  # of the lasting pool
 
 
 @contextmanager
 def workers(count: int, env: Mapping[str, str] | None = None) -> Iterator[Any]:
-    """A pool of `count` processes for the calling thread; they are killed if it is left by an exception."""
-    from loky import ProcessPoolExecutor  # starts workers without running the caller's script again
+    """A pool of `count` processes for the calling thread; they are killed if an exception leaves the context."""
+    from loky import ProcessPoolExecutor  # starts workers without importing the caller's script
 
     settle()
     pool = ProcessPoolExecutor(max_workers=count, initializer=_begin, initargs=(os.getpid(), True), env=env)
@@ -32,15 +32,15 @@ def workers(count: int, env: Mapping[str, str] | None = None) -> Iterator[Any]:
         yield pool
         done = True
     finally:
-        # idle workers end by themselves; without psutil loky kills by pgrep, which slim systems lack, and never ends
+        # idle workers end by themselves; without psutil loky needs pgrep to kill them, and hangs where that is missing
         pool.shutdown(wait=True, kill_workers=not done)
 
 
 @contextmanager
 def lasting_workers(count: int) -> Iterator[Any]:
-    """A pool that stays for the next caller; it is killed if it is left by an exception.
+    """A pool that is kept for the next caller; killed if an exception leaves the context.
 
-    There is one; while a thread has it, others have one each for the while.
+    There is one such pool; while a thread uses it, other threads get temporary ones.
     """
     if not _LASTING.acquire(blocking=False):
         with workers(count) as pool:
@@ -62,7 +62,7 @@ def lasting_workers(count: int) -> Iterator[Any]:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Hold Ctrl-C and SIGTERM back, also from the processes that are started meanwhile, until these have begun."""
+    """Block Ctrl-C and SIGTERM in this process and in the processes that it starts meanwhile."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -74,23 +74,23 @@ def undisturbed() -> Iterator[None]:
 
 
 def _begin(parent: int, bound: bool) -> None:
-    """In a worker: interrupts and remarks are for the process that started it, whose end is its own.
+    """Initialise a worker: ignore interrupts, suppress remarks, end with the parent process.
 
     Arguments:
-        parent: process number of that process.
-        bound: the thread that started it stays until it ends.
+        parent: process id of the parent.
+        bound: True if the starting thread outlives the worker.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     silence_workers()
-    if bound and sys.platform == "linux":  # at once, even amid a long computation; it comes when the *thread* ends
+    if bound and sys.platform == "linux":  # immediate even in a long computation; sent when the starting *thread* ends
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     threading.Thread(target=_watch, args=(parent,), daemon=True).start()
 
 
 def _watch(parent: int) -> None:
-    """End this process soon after its parent has ended, by whatever."""
+    """End this process soon after its parent has ended for any reason."""
     while os.getppid() == parent:
         time.sleep(_LOOK)
     os._exit(1)

@@ -1,4 +1,4 @@
-"""What `collide_many` is asked for: scenes, impacts and what else varies, checked and brought to one length."""
+"""A validated batch of collisions: scene, impacts and varied entries, as SI arrays of one length."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ QUANTITIES: dict[str, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class Batch:
-    """What to collide: a scene, impacts, other entries that vary, and what to keep. Arrays of one length, SI."""
+    """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length."""
 
     scene: Scene
     stokes: np.ndarray | None
@@ -48,7 +48,7 @@ class Batch:
         return int(self.angle.size)
 
     def scene_of(self, k: int) -> Scene:
-        """The scene of collision k; InputError if what varies makes it impossible."""
+        """The scene of collision k; InputError if the varied entries make it impossible."""
         if not self.vary:
             return self.scene
         return _varied(self.scene, tuple((name, float(values[k])) for name, values in self.vary.items()))
@@ -62,7 +62,7 @@ class Batch:
         return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
 
     def part(self, which: np.ndarray) -> Batch:
-        """The request of these collisions alone."""
+        """The batch of these collisions alone."""
         return replace(
             self,
             stokes=None if self.stokes is None else self.stokes[which],
@@ -85,10 +85,10 @@ def validated_batch(
     engine: str | None,
     of: Sequence[str],
 ) -> Batch:
-    """A validated Request, everything brought to one length.
+    """A validated `Batch`, its arrays broadcast to one length.
 
     Arguments:
-        impact: what is asked for as `stokes`, `speed`, `relative_speed` and `angle`; None: the scene's.
+        impact: `stokes`, `speed`, `relative_speed` and `angle` as they were given; None for the scene's.
     """
     loaded = Scene.load(scene)
     kept = check_outputs(of)
@@ -120,12 +120,12 @@ def validated_batch(
 
 
 def check_outputs(of: Sequence[str]) -> tuple[str, ...]:
-    """The quantities to keep; InputError for one that there is not."""
+    """The quantities to keep; InputError for an unknown one."""
     return check_names(of, (*QUANTITIES, "outcome", "certified", "reason"), "of")
 
 
 def checked_impact(scene: Scene, impact: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """Impacts by dotted name, SI; what is not given is the scene's. InputError if that has none."""
+    """Impacts by dotted name, SI; defaults are the scene's. InputError if the scene has none."""
     asked = {name: values for name, values in impact.items() if name != "angle" and values is not None}
     names = [name.partition(".")[2] for name in SPEEDS]
     if len(asked) > 1:
@@ -144,9 +144,9 @@ def checked_impact(scene: Scene, impact: Mapping[str, Any]) -> dict[str, np.ndar
 
 
 def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> tuple[Scene, dict[str, np.ndarray]]:
-    """Other entries that vary, SI, and the scene that has them so; InputError for a name that cannot.
+    """Other entries that vary, SI, and the scene with `bridge.volume` in the same unit; InputError for a wrong entry.
 
-    A volume that varies with its unit is one in m^3, whatever the scene says, and one without is V/R^3.
+    Values of `bridge.volume` with a unit are volumes in m^3 and plain numbers are V/R^3, whatever the scene gives.
     """
     vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
     found = {}
@@ -166,7 +166,7 @@ def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> 
 
 
 def check_varies(name: str, values: object, label: str = "vary", package: Package | None = None) -> None:
-    """InputError unless an entry of this name may vary: a number that is none of the impact's."""
+    """Raise InputError unless the entry is a number outside [impact]."""
     known = fields(package)
     if name not in known:
         raise unknown(name, values, package) or unknown_entry(name, values)
@@ -177,7 +177,7 @@ def check_varies(name: str, values: object, label: str = "vary", package: Packag
 
 
 def check_some_scene(request: Batch) -> None:
-    """InputError if what varies makes every single collision impossible; where it spoils a few, they are marked."""
+    """Raise InputError if the varied entries make every collision impossible; single failures are marked later."""
     first: InputError | None = None
     for k in range(request.size if request.vary else 0):
         try:
@@ -191,7 +191,7 @@ def check_some_scene(request: Batch) -> None:
 
 
 def checked_numbers(name: str, values: Any, entry: Field | None = None) -> np.ndarray:
-    """An array of SI numbers, in one dimension or none, each acceptable for its field; text carries its unit.
+    """A 0-D or 1-D array of SI numbers within the field's range; text carries its unit.
 
     Raises:
         InputError: as `values.array`, and numbers outside the field's range.
@@ -200,8 +200,8 @@ def checked_numbers(name: str, values: Any, entry: Field | None = None) -> np.nd
     found = array(values, entry, name)
     if found.ndim > 1:
         raise InputError(name, f"{found.ndim} dimensions", "one dimension, or a single number", "is not accepted")
-    # every range is an interval: the values between two ends that it holds need not be asked
-    ends = (float(found.min()), float(found.max())) if found.size else ()  # NaN if any is
+    # every range is an interval: if it holds the smallest and the largest value, it holds all
+    ends = (float(found.min()), float(found.max())) if found.size else ()  # NaN if any value is
     if not all(math.isfinite(end) and entry.range.holds(end) for end in ends):
         for value in np.unique(found):
             entry.number(float(value))
@@ -209,7 +209,7 @@ def checked_numbers(name: str, values: Any, entry: Field | None = None) -> np.nd
 
 
 def checked_span(name: str, values: Any) -> tuple[float, float]:
-    """Two SI numbers that are ascending; InputError for anything else."""
+    """Two ascending SI numbers; InputError for anything else."""
     found = checked_numbers(name, values)
     accepted = "(LO, HI) with LO below HI"
     if found.shape != (2,):

@@ -1,4 +1,4 @@
-"""A request for many collisions, through the kernel: columns of SI quantities in, columns of results out."""
+"""A batch of collisions by the Taylor kernel: columns of SI quantities in, columns of results out."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from ..settings import FEW
 from .batch import Batch
 
 Block = dict[str, np.ndarray]
-_STRETCH = 65536  # collisions between two signs of life; memory stays flat
-_MOST = 1e30  # magnitude of an SI quantity, and its inverse the least
-_NEVER = ("glass_transition_pressure", "youngs_modulus")  # so large that a criterion is never met
-_NEAR = 1e-9  # of a limit between good and bad input: the scene itself shall judge
+_STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
+_MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
+_NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to disable a rebound criterion
+_NEAR = 1e-9  # relative distance to a limit of valid input below which the scene itself is validated
 
 
 def collided(
     request: Batch, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
-    """Collide the collisions `which` of a request, in that order; returns those that are for other engines to do.
+    """Compute the collisions `which` of a batch; returns the indices of those that need another engine.
 
     Arguments:
-        finished: told of every block that is done.
+        finished: called with the indices and results of every finished block.
     """
     left = [which[:0]]
     for first in range(0, which.size, _STRETCH):
@@ -41,7 +41,7 @@ def collided(
         if found is None:
             return which
         kept = found["status"] <= LAST_ANSWER
-        if part.size == kept.size and kept.all():  # nearly always: then nothing is copied
+        if part.size == kept.size and kept.all():  # the usual case; avoids copies
             finished(part, _block(request, found, impacts))
             continue
         done = sound.copy()
@@ -52,10 +52,10 @@ def collided(
 
 
 def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
-    """The impacts of a request in SI, and which collisions they are: the others are bad input, or may be."""
+    """The impacts of a batch in SI, and a mask of their collisions; the others need the scene's own validation."""
     scene = request.scene
     values: dict[str, np.ndarray] = {}
-    with np.errstate(all="ignore"):  # what leaves a double's range is not usual
+    with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
             values, sound = _columns(request)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
@@ -70,7 +70,7 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
 
 
 def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
-    """Where an SI quantity is of a magnitude with which nothing leaves a double's range; else `numbers` shall judge."""
+    """Mask of values with which no dimensionless group overflows; others are left to `nondimensionalise`."""
     size = np.abs(values)
     most = 1e200 if name in _NEVER else _MOST
     usual: np.ndarray = (size == 0) | ((size >= 1 / _MOST) & (size <= most))
@@ -78,7 +78,7 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
 
 
 def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Quantities of every collision where entries vary, and which the rules for entries together leave beyond doubt."""
+    """Quantities of every collision where entries vary, and a mask of those that certainly satisfy the entry rules."""
     scene = request.scene
     entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
     found = quantities(entries | dict(request.vary), scene.ways)
@@ -87,7 +87,7 @@ def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
 
 
 def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Where the rules of `scene.entry_rules` hold with room to spare; elsewhere the scene itself shall judge."""
+    """Mask of collisions that satisfy `scene.entry_rules` with a margin; the scene itself validates the others."""
     film = values["film_thickness"]
     sound = values["roughness"] < film * (1 - _NEAR)
     rupture = film
@@ -98,7 +98,9 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
         rupture = gap * film
     if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    if scene.particles.youngs_modulus is None:  # something has to keep the gap open
+    if (
+        scene.particles.youngs_modulus is None
+    ):  # attraction diverges at zero gap, and without glass criterion nothing stops the approach
         sound &= (values["roughness"] > 0) | (scene.attraction is None) & (
             values["glass_transition_pressure"] < NO_GLASS
         )
@@ -109,7 +111,7 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
 
 
 def _block(request: Batch, found: np.ndarray, impacts: Impacts) -> Block:
-    """Answers as the columns of a result: those that are asked for."""
+    """Kernel records as the requested columns of a result."""
     separated = found["outcome"] > 0
 
     def thickness() -> np.ndarray | float:

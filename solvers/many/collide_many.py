@@ -1,7 +1,7 @@
-"""Many collisions at once: the building block of maps and everything else that scans.
+"""Many collisions in one call: the basis of maps and of everything else that scans.
 
-Each collision is located with CasADi's Rosenbrock integrator compiled to C; blocks of them go to the machine's cores.
-A collision that fails is marked with its reason and the rest go on.
+The Taylor kernel computes them in blocks; those that it does not complete, and those of other engines, go in blocks to
+worker processes. A collision that fails is marked with its reason and the rest go on.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     import xarray
 
 FAILED = -1
-_BLOCK = 50  # collisions a worker takes at a time
+_BLOCK = 50  # collisions in a block for a worker
 _ALONE = FEW  # fewer collisions are not worth starting workers for
-_SLOW_ALONE = 20  # nor are fewer of those that the kernel has handed over: they take up to seconds each
+_SLOW_ALONE = 20  # the same for collisions that the kernel did not complete; they take up to seconds each
 
 Block = dict[str, np.ndarray]
 Finished = Callable[[np.ndarray, Block], None]
@@ -63,14 +63,14 @@ def collide_many(
         vary: other entries by dotted name (SI numbers), 1-D of the same length.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: what to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap.
+        of: quantities to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap.
 
     Returns:
         Dataset over `collision`: outcome (int8: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 failed), restitution,
         certified, reason (of a failure, else ""), and what `of` names; NaN where a stick leaves a quantity undefined.
 
     Raises:
-        InputError: a name, length or value that cannot be; a collision that fails is no error, it is marked.
+        InputError: an invalid name, length or value. A collision that fails raises nothing; it is marked.
 
     Example:
         >>> from wetdoublet.solvers import collide_many
@@ -86,10 +86,10 @@ def collide_many(
 
 
 def empty(size: int, of: Sequence[str]) -> Block:
-    """Result columns, nothing computed yet: outcome -2."""
+    """Result columns before anything is computed: outcome -2."""
     columns: Block = {"outcome": np.full(size, -2, dtype=np.int8)}
     columns["certified"] = np.zeros(size, dtype=bool)
-    columns["reason"] = np.empty(size, dtype=object)  # None: nothing has failed
+    columns["reason"] = np.empty(size, dtype=object)  # None: has not failed
     for name in dict.fromkeys(("restitution", *of)):
         if name in QUANTITIES:
             columns[name] = np.full(size, np.nan)
@@ -97,18 +97,18 @@ def empty(size: int, of: Sequence[str]) -> Block:
 
 
 def fill(results: Block, where: np.ndarray, block: Block) -> None:
-    """Put a finished block where it belongs."""
+    """Copy a finished block into the result columns."""
     for name, values in block.items():
         results[name][where] = values
 
 
 def compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow = lambda _count: None) -> None:
-    """Collide the collisions `which`, on all cores if they are many; `finished` is told of every block.
+    """Compute the collisions `which`, on all cores if they are many.
 
-    What it has been told stays told, whatever interrupts the rest.
+    Calls `finished` after every block; results of finished blocks are kept if a later one is interrupted.
 
     Arguments:
-        slow: told how many collisions the kernel has handed over, before they are done one after another.
+        slow: called with the number of collisions left to slower engines, before those start.
     """
     size, alone = _BLOCK, _ALONE
     if request.engine == "taylor":
@@ -131,19 +131,19 @@ def compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow = 
 def _in_parallel(
     request: Batch, blocks: list[np.ndarray], cores: int, machine_code: bool
 ) -> Iterator[tuple[np.ndarray, Block]]:
-    """Results in the order in which they are finished; a worker is sent the part of the request it is to do."""
+    """Blocks and their results in the order in which they finish; each worker receives only its part of the batch."""
     from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 
     if request.engine != "cvodes":
-        compiler()  # what is missing is said here
+        compiler()  # a missing compiler is reported here and not by a worker
     if machine_code:
-        run(request.part(blocks[0][:1]), True)  # compile once, before the workers ask for it
+        run(request.part(blocks[0][:1]), True)  # compile once, before the workers need it
     waiting: dict[Any, np.ndarray] = {}
     left = iter(blocks)
     try:
         with workers(cores) as pool:
             while True:
-                with undisturbed():  # an interrupt is for this process, which then stops its workers
+                with undisturbed():  # only this process handles an interrupt; it then stops its workers
                     for block in left:
                         waiting[pool.submit(run, request.part(block), machine_code)] = block
                         if len(waiting) > 2 * cores:
@@ -159,7 +159,7 @@ def _in_parallel(
 
 
 def run(request: Batch, machine_code: bool) -> Block:
-    """Collide everything that is requested, one after another."""
+    """Compute the collisions of a batch one after another."""
     block = empty(request.size, request.of)
     for k in range(request.size):
         for name, value in _one(request, k, machine_code).items():
@@ -206,7 +206,7 @@ def _kept(of: Sequence[str], path: EventSequence, n: DimensionlessGroups) -> dic
 
 
 def _chained(request: Batch, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
-    """One collision by the reference engine."""
+    """One collision by CVODES, as a row of result columns."""
     from ..collision.by_casadi import by_casadi
 
     n = nondimensionalise(scene, speed, angle)
@@ -245,7 +245,7 @@ def as_dataset(request: Batch, results: Block) -> xarray.Dataset:
 
 
 def as_text(results: Block) -> np.ndarray:
-    """The reasons as numpy's own text, empty where nothing failed."""
+    """The reasons as a numpy array of text, empty where nothing failed."""
     failed = results["outcome"] == FAILED
     if not failed.any():
         return np.zeros(failed.size, "<U1")

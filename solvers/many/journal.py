@@ -1,7 +1,7 @@
 """Finished blocks of a scan on disk, so that an interrupted run computes only what is missing.
 
-A journal is a text file, a line a block, each under the key of the request that it belongs to and with its own
-checksum: a line that was torn, or is another request's, is passed over.
+A journal is a text file with one block per line. Each line has the key of its request and a checksum; incomplete lines
+and lines of other requests are skipped.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from .collide_many import Block
 
 
 class Journal:
-    """The journal of one request.
+    """The journal of one request (one map or scan).
 
     Arguments:
         path: the file; it need not exist yet.
-        request: everything that the results depend on, as JSON values; None: `under` says it later.
+        request: everything that the results depend on, as JSON values; None if `under` sets it later.
     """
 
     def __init__(self, path: Path, request: Mapping[str, Any] | None = None) -> None:
@@ -38,23 +38,23 @@ class Journal:
             self.under(request)
 
     def under(self, request: Mapping[str, Any]) -> None:
-        """Make this the journal of a request."""
+        """Set the request whose blocks this journal reads and adds."""
         self.key = hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:32].encode()
 
     @contextmanager
     def held(self, label: str = "journal", file: Path | None = None) -> Iterator[None]:
-        """Keep the journal, and the file that it is kept for, to this run; nothing of it is left if it stays empty.
+        """Lock the journal, and the file that it serves, for this run; an empty journal is removed at the end.
 
-        The lock is one on the journal's file, and ends with this process, however that ends.
+        The lock is on the journal's file, so the operating system releases it when this process ends.
 
         Arguments:
             label: option or argument that names the file.
-            file: what the journal is kept for; None: the journal itself is what was named.
+            file: the file that the journal serves, for error messages; None for the journal itself.
 
         Raises:
-            InputError: another run has it, or the journal cannot be written.
+            InputError: another run holds the lock, or the journal cannot be written.
         """
-        if self._held is not None:  # by the caller
+        if self._held is not None:  # already locked by the caller
             yield
             return
         named = str(file or self.path)
@@ -93,23 +93,23 @@ class Journal:
             except BaseException:
                 os.close(opened)
                 raise
-            os.close(opened)  # the run that had it has removed it meanwhile
+            os.close(opened)  # another run removed the file between opening and locking
 
     def read(self) -> list[tuple[np.ndarray, Block]]:
-        """The blocks of this request that are done."""
+        """The finished blocks of this request."""
         return [_block(record) for key, record in self._records() if key == self.key and record is not None]
 
     def count(self) -> int:
-        """Collisions of this request that are done."""
+        """Number of finished collisions of this request."""
         return sum(len(record["where"]) for key, record in self._records() if key == self.key and record is not None)
 
     def others(self) -> tuple[int, int]:
-        """How much of the file is not this request's: collisions of others, and lines that are no collisions."""
+        """Content that is not this request's: number of collisions of others, number of lines that are no blocks."""
         strange = [record for key, record in self._records() if key != self.key]
         return sum(len(one["where"]) for one in strange if one is not None), sum(one is None for one in strange)
 
     def _records(self) -> Iterator[tuple[bytes, dict[str, Any] | None]]:
-        """Key and content of every line, None for a line that is not whole."""
+        """Key and content of every line; the content is None for an incomplete line."""
         if not self.path.is_file():
             return
         with self.path.open("rb") as file:
@@ -119,18 +119,18 @@ class Journal:
                     yield key, json.loads(text) if text and checksum == _checksum(text) else None
 
     def add(self, where: np.ndarray, block: Block) -> None:
-        """Put down a block, in a single write."""
+        """Append a block in a single write."""
         columns = {name: values.tolist() for name, values in block.items()}
         text = json.dumps({"where": where.tolist(), "columns": columns}).encode()
         try:
             with self.path.open("ab", buffering=0) as file:
-                # begins a line of its own, should the last one be torn
+                # starts with a newline in case the last line is incomplete
                 write_all(file.fileno(), b"\n%s %s %s\n" % (self.key, _checksum(text), text))
         except OSError as error:
             raise OSError(error.errno, error.strerror, str(self.path)) from error
 
     def remove(self) -> None:
-        """Remove what is kept of this request; the file too, unless another request's work is in it."""
+        """Remove the blocks of this request, and the file unless it holds blocks of another request."""
         if not self.path.is_file():
             return
         lines = self.path.read_bytes().split(b"\n")

@@ -1,4 +1,4 @@
-"""A regime map as a figure: outcomes and restitution over impact angle and Stokes number, small multiples if more."""
+"""A regime map as a figure: outcomes and restitution over impact angle and Stokes number."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ from .regime_map import IMPACTS, impact_axis, scene_of
 if TYPE_CHECKING:
     import xarray
 
-COLOURS = ("#0072B2", "#E69F00", "#F0E442")  # Okabe-Ito, of falling darkness: they differ in grey as well
+COLOURS = ("#0072B2", "#E69F00", "#F0E442")  # Okabe-Ito, from light to dark so that they differ in greyscale
 LETTERS = ("S", "SRS", "B")
 _INK = ("white", "black", "black")
 _NOTE = "#6E6E6E"
-_MOST = 9  # panels of a map that varies more than the impact
+_MOST = 9  # most panels of a map that varies more than the impact
 _PANEL, _ACROSS = 3.1, 3  # inches; panels in a row
-_WIDTH, _HEIGHT = 9.0, 4.7  # inches, of a map of the impact alone
+_WIDTH, _HEIGHT = 9.0, 4.7  # inches; map of the impact alone
 _CROSS: Any = {"linestyle": "", "marker": "X", "color": "white", "markeredgecolor": "black", "markersize": 7}
 _NOTHING = "#DDDDDD"
-_BRIGHTEST = 2.0  # e_n at the end of the colour scale, if it is that large: near grazing it grows without bounds
+_BRIGHTEST = 2.0  # upper limit of e_n in the colour scale: near grazing it grows without bound
 _LEVELS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 
 
 def draw_map(data: xarray.Dataset) -> Figure:
-    """Draw a regime map as `regime_map` returns it, or as it is read back from a file."""
+    """Draw a regime map as returned by `regime_map` or read from a file; a panel for each value of a further entry."""
     scene = scene_of(data)
     varied = [name for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
     if varied:
@@ -57,9 +57,9 @@ def draw_map(data: xarray.Dataset) -> Figure:
 
 
 def _variant(scene: Scene) -> str:
-    """Which of the selectable equations, in small print."""
+    """The names of the laws used, as a note for the figure."""
     model = scene.model
-    parts = [f"{model.arm} arm", f"{model.tangential} tangential force"]
+    parts = [f"{model.arm} lever arm", f"{model.tangential} tangential force"]
     parts += [f"{model.glass} glass criterion"] if scene.liquid.glass_transition_pressure is not None else []
     parts.append("no capillary force" if scene.bridge is None else f"capillary force by {scene.bridge.law}")
     if scene.pendulum is not None:
@@ -78,7 +78,7 @@ def _counts(data: xarray.Dataset) -> str:
 
 
 def _pair(data: xarray.Dataset) -> Figure:
-    """Outcomes, and restitution beside them."""
+    """Draw the outcomes, and the restitution beside them."""
     figure = Figure(figsize=(_WIDTH, _HEIGHT), layout="constrained")
     grid = figure.add_gridspec(2, 2, height_ratios=[0.05, 1])
     left = figure.add_subplot(grid[1, 0])
@@ -109,7 +109,7 @@ def _legend(axes: Axes, handles: list[Any]) -> None:
 
 
 def _multiples(data: xarray.Dataset, varied: list[str]) -> tuple[Figure, list[str]]:
-    """A panel for each value of what varies: outcomes, and lines of equal restitution on them."""
+    """Draw a panel for each value of the varied entry: outcomes with lines of equal restitution."""
     sizes = [data.sizes[name] for name in varied]
     total = math.prod(sizes)
     chosen = np.unique(np.linspace(0, total - 1, min(total, _MOST)).round().astype(int))
@@ -143,12 +143,12 @@ def _value(part: xarray.Dataset, name: str) -> str:
 
 
 def _upright(data: xarray.Dataset, name: str) -> np.ndarray:
-    """A variable with a row for each Stokes number or speed."""
+    """A variable as a 2-D array, with a row for each Stokes number or speed."""
     return np.asarray(data[name].transpose(impact_axis(data), "angle").values)
 
 
 def _restitution(data: xarray.Dataset) -> np.ndarray:
-    """Restitution of those that separate."""
+    """Restitution of the pairs that separate, NaN elsewhere."""
     return np.where(_upright(data, "outcome") > 0, _upright(data, "restitution"), np.nan)
 
 
@@ -166,13 +166,13 @@ def _failed(axes: Axes, data: xarray.Dataset) -> None:
 
 
 def _letters(axes: Axes, data: xarray.Dataset) -> None:
-    """The name of each region where it is widest."""
+    """Write the name of each region where it is widest."""
     outcome = _upright(data, "outcome")
     angles, values = np.degrees(data["angle"].values), data[impact_axis(data)].values
     for k, letter in enumerate(LETTERS):
         inside = np.pad(outcome == k, 1)
         depth = np.zeros(inside.shape)
-        while inside.any():  # peel the region; what is left last lies deepest
+        while inside.any():  # erode the region; the points that remain last are farthest from its edge
             depth += inside
             inside = (
                 inside
@@ -185,7 +185,7 @@ def _letters(axes: Axes, data: xarray.Dataset) -> None:
 
 
 def _contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float], colour: str = "black") -> None:
-    """Labelled lines of equal restitution; it jumps from one outcome to the next, so each has lines of its own."""
+    """Draw labelled lines of equal restitution, for each outcome separately because it jumps between them."""
     outcome, restitution = _upright(data, "outcome"), _upright(data, "restitution")
     x, y = np.degrees(data["angle"].values), data[impact_axis(data)].values
     for k in (1, 2):
@@ -197,11 +197,11 @@ def _contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float], colour:
             lines = axes.contour(x, y, values, wanted, colors=colour, linewidths=0.9)
             for label in axes.clabel(lines, fontsize=7.5, fmt=lambda level: f"{level:g}"):
                 place = (label.get_position()[0] - x[0]) / (x[-1] - x[0])
-                label.set_visible(0.03 < place < 0.97)  # one on the edge would be cut in half
+                label.set_visible(0.03 < place < 0.97)  # a label on the edge would be cut off
 
 
 def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = True) -> None:
-    """Scales, ticks and labels."""
+    """Set scales, ticks and labels."""
     name = impact_axis(data)
     if _logarithmic(data[name].values):
         axes.set_yscale("log")
@@ -234,7 +234,7 @@ def _handles(data: xarray.Dataset) -> list[Any]:
 
 
 def _edges(data: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Edges of the cells across and up: half-way between points, and the first and last point themselves."""
+    """Edges of the cells in both directions: midway between points, and the first and last point."""
     values = data[impact_axis(data)].values
     up = np.exp(_between(np.log(values))) if _logarithmic(values) else _between(values)
     return _between(np.degrees(data["angle"].values)), up
@@ -248,7 +248,7 @@ def _between(points: np.ndarray) -> np.ndarray:
 
 
 def _logarithmic(values: np.ndarray) -> bool:
-    """Whether points are spaced evenly in the logarithm rather than as they are."""
+    """True if points are spaced evenly in the logarithm."""
     if values.size < 3 or values[0] <= 0:
         return False
     ratios = np.diff(np.log(values))

@@ -1,4 +1,4 @@
-"""A regime map: outcome and what else is asked for over a grid of impacts and of entries that vary."""
+"""A regime map: outcome and other quantities over a grid of impacts and of entries that vary."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[int, int], None]
 IMPACTS = tuple(name.partition(".")[2] for name in SPEEDS)
-_UNKNOWN = -2  # outcome of a collision that has not been computed
+_UNKNOWN = -2  # outcome of a collision not computed yet
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Grid:
 
     @cached_property
     def order(self) -> np.ndarray:
-        """Flat indices as they are computed: collisions of one scene one after another."""
+        """Flat indices in the order of computation: the collisions of one scene follow one another."""
         indices = np.arange(np.prod(self.shape, dtype=int)).reshape(self.shape)
         return np.moveaxis(indices, [0, 1], [-2, -1]).ravel()
 
@@ -69,7 +69,7 @@ class Grid:
         return values if self.impact == "speed" else np.asarray(normal_speed(values, angle))
 
     def request(self, rtol: float, engine: str, of: Sequence[str]) -> Batch:
-        """All collisions of the grid, as a list."""
+        """All collisions of the grid as one batch."""
         full = np.meshgrid(self.angle, self.values, *self.vary.values(), indexing="ij")
         angle, values, *varied = (axis.ravel() for axis in full)
         return Batch(
@@ -110,10 +110,10 @@ def regime_map(
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
         of: restitution, tangential_restitution, rotation, contact_time, smallest_gap; by default all.
-        progress: told of (collisions done, collisions in all) from time to time.
+        progress: called with (collisions done, collisions in all) after every block.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
-        slow: told how many collisions are left to slower engines, once the kernel has done all others.
+        slow: called with the number of collisions left to slower engines, once the kernel has done all others.
 
     Returns:
         Dataset over (angle, the one of these three, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
@@ -122,7 +122,7 @@ def regime_map(
         are coordinates as well. The scene is among the attributes.
 
     Raises:
-        InputError: a name or value that cannot be; a collision that fails is no error, it is marked.
+        InputError: an invalid name or value. A collision that fails raises nothing; it is marked.
 
     Example:
         >>> from wetdoublet.solvers import regime_map
@@ -194,7 +194,7 @@ def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any]) -> G
 
 
 def _identity(grid: Grid, request: Batch) -> dict[str, Any]:
-    """Everything that the results depend on."""
+    """Everything that the results depend on, as the journal's request."""
     axes = {"angle": grid.angle, grid.impact: grid.values} | {f"vary {name}": axis for name, axis in grid.vary.items()}
     return {
         "scene": [entry for entry in grid.scene.si if not entry[0].startswith("impact.")],
@@ -263,10 +263,10 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
         entries = {name: float(axis[k]) for (name, axis), k in zip(grid.vary.items(), index, strict=True)}
         try:
             scene = grid.scene.with_si(entries) if entries else grid.scene
-        except InputError:  # its collisions are marked as failed
+        except InputError:  # the collisions of an impossible scene are marked as failed
             continue
         here = (slice(None), slice(None), *index)
-        with np.errstate(all="ignore"):  # collisions out of range are marked as failed
+        with np.errstate(all="ignore"):  # an impact out of range is marked as failed
             speeds[here] = grid.speeds(grid.values[None, :], grid.angle[:, None], scene.stokes_per_speed)
             stokes[here] = speeds[here] * scene.stokes_per_speed
         if scene.bridge is not None:
@@ -304,17 +304,17 @@ def impact_axis(data: xarray.Dataset) -> str:
 
 
 def scene_of(data: xarray.Dataset) -> Scene:
-    """The scene of a map, with its model as far as a description goes."""
+    """The scene of a map, read from its attributes."""
     model = data.attrs.get("model")
     return Scene.from_toml(data.attrs["scene"], package=None if model is None else Package(str(model)))
 
 
 def write(data: xarray.Dataset, path: str | Path) -> None:
-    """Write a map as NetCDF4, complete or not at all. OSError if it cannot be written."""
+    """Write a map as NetCDF4, atomically. OSError if it cannot be written."""
     from h5netcdf import File
     from xarray.backends import H5NetCDFStore
 
-    made = io.BytesIO()  # a disk that is full ends HDF5, and this process with it
+    made = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
     with File(made, "w") as file:
         encoding = {name: {"zlib": True} for name in QUANTITIES if name in data}
         data.dump_to_store(H5NetCDFStore(file), encoding=encoding)

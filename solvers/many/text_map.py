@@ -16,14 +16,14 @@ from .regime_map import IMPACTS, impact_axis, scene_of
 if TYPE_CHECKING:
     import xarray
 
-CHARACTERS = "SRB!"  # in the order of the outcomes; the last is FAILED, -1
-_LABEL = 10  # columns to the left of the map
+CHARACTERS = "SRB!"  # characters in the order of the outcomes; the last is FAILED, -1
+_LABEL = 10  # width left of the map, characters
 _ROWS, _MAPS = 32, 4
-_TICK = 10  # columns from one label of the angle to the next
+_TICK = 10  # distance between labels of the angle, characters
 
 
 def table(data: xarray.Dataset) -> str:
-    """The map as text, subsampled where it is too large; several where more than the impact varies."""
+    """The map as text, subsampled where it is too large; one map for each value of a further entry."""
     varied = [str(name) for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
     legend = "   ".join(f"{letter} {name}" for letter, name in zip(CHARACTERS, (*OUTCOMES, "failed"), strict=True))
     lines = [f"{name_of(scene_of(data))}: {data['outcome'].size} collisions", legend]
@@ -57,7 +57,7 @@ def _map(data: xarray.Dataset) -> list[str]:
 
 
 def _some(size: int, most: int) -> list[int]:
-    """All indices, or `most` of them spread evenly, both ends included."""
+    """All indices, or `most` of them evenly spread with both ends."""
     return sorted({round(k) for k in np.linspace(0, size - 1, min(size, most)).tolist()})
 
 
@@ -85,7 +85,7 @@ def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
 
 
 def failures(data: xarray.Dataset) -> str | None:
-    """How many failed, and why, in one line; None if none did."""
+    """One line with the number of failures and their reasons; None without failures."""
     failed = data["outcome"].values == FAILED
     count = int(np.count_nonzero(failed))
     if not count:

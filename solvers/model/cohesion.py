@@ -1,4 +1,4 @@
-"""What attracts the two at initial contact, and the generalised centrifugal number that it makes."""
+"""The attraction at initial contact and the generalised centrifugal number."""
 
 from __future__ import annotations
 
@@ -11,14 +11,13 @@ from .model import ModelKey, load, select_model
 
 
 def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | None:
-    """Return Ce_F = m omega0^2 a/F(x0), F the sum of all attractions at initial contact; None where there is none.
-
-    Head-on and beside a wall it is 0: nothing turns.
+    """Return Ce_F = m omega0^2 a/F(x0), F the sum of all attractions at initial contact; None without attraction.
+    It is 0 head-on and with a wall, where no line of centres rotates.
     """
     if scene.bridge is None and scene.attraction is None:
         return None
     chosen = select_model(scene, oblique=False)
-    free = chosen.structure.replace("_strings", "")  # strings pull, but they are no cohesion
+    free = chosen.structure.replace("_strings", "")  # strings pull inward but are not a cohesive force
     model = load(ModelKey(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
     p = model.group_values(n.groups)
     inward = model.values("inward_force", np.array([1.0, 0.0]), p)["inward_force"]

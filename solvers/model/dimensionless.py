@@ -1,4 +1,4 @@
-"""A collision in dimensionless numbers: the groups its model takes, and the scales that lead back to SI."""
+"""Dimensionless groups of a collision, and the scales for conversion to SI."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class DimensionlessGroups:
     speed: float  # m/s
     length: float  # x0, m
     time: float  # x0/v0, s
-    rate: float  # omega0, rad/s; beside a wall v0 tan(theta0)/a
+    rate: float  # omega0, rad/s; with a wall v0 tan(theta0)/a
     energy: float  # m v0^2, J
     stokes: float
     centrifugal: float | None
@@ -39,7 +39,7 @@ class DimensionlessGroups:
         return self.groups["obliquity"] > 0
 
     def in_si(self, error: ComputationError) -> ComputationError:
-        """A failure in dimensionless time and state, in SI units."""
+        """A `ComputationError` with dimensionless time and state, converted to SI units."""
         state = dict(error.state)
         shown: dict[str, float] = {}
         if "gap" in state:
@@ -58,13 +58,13 @@ class DimensionlessGroups:
 
 
 def _as_given(scene: Scene, speed: float, stokes: float) -> float:
-    """The Stokes number as the impact says it, if it does: not rounded on its way through the speed."""
+    """The impact's Stokes number if given, which avoids the rounding of a conversion by the speed."""
     given = scene.impact.stokes
     return given if given is not None and scene.speed_of(given) == speed else stokes
 
 
-# Ranges of groups and scales, for products and quotients of several to stay within a double's; lower ends for those
-# that others are divided by.
+# Ranges of groups and scales in which products and quotients of several stay within a double's range. Divisors have a
+# lower limit.
 _RANGES = (
     dict.fromkeys(("adhesion", "weight", "obliquity"), (0.0, 1e100))
     | dict.fromkeys(("stokes", "aspect", "capillary", "string_ratio", "rupture_gap"), (1e-100, 1e100))
@@ -77,7 +77,7 @@ _SCALES: dict[str, Formula] = {
 
 
 def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
-    """A group or scale by its formula; InputError where it leaves the range that can be computed with."""
+    """A group or scale by its formula; InputError outside its range in `_RANGES`."""
     function, arguments = formula
     given = [values[argument] for argument in arguments]
     try:
@@ -95,9 +95,9 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
 
 
 def nondimensionalise(scene: Scene, speed: float, angle: float) -> DimensionlessGroups:
-    """Dimensionless numbers of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
+    """Dimensionless groups of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
 
-    A group exists where the scene has what it is made of; an absent criterion of contact has gap 0.
+    A group exists if the scene has all its quantities; without an elastic criterion elastic_gap is 0.
     """
     values = si_values(scene, speed, angle)
     plain = ("dry_restitution", "volume", "contact_angle", "radius_ratio", "mass_ratio")

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
     from ..scene.scene import Scene
 
-# Solutions never come below the contact gap; this keeps trial stages of a step out of x <= 0.
+# Fraction of the contact gap. Solutions stay above the contact gap; the floor keeps trial stages out of x <= 0.
 _FLOOR = 0.5
 _SMALLEST_GAP = 1e-12
 
 
 @dataclass(frozen=True)
 class ModelKey:
-    """Which structure module, with which law in each slot; laws may be those of a user's model."""
+    """Identifier of a model: the structure module and the law in each slot; laws may be of a user's model."""
 
     structure: str
     laws: tuple[tuple[str, str], ...]
@@ -40,7 +40,7 @@ class ModelKey:
 
 
 def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) -> ModelKey:
-    """The smallest structure that has what the scene has.
+    """The key of the smallest structure that represents the scene.
 
     Arguments:
         oblique: the impact angle is not zero.
@@ -77,7 +77,7 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
 
 
 def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """The laws of a choice, with the model's where no entry of the scene could have named it."""
+    """The laws by slot, with the user model's laws in slots that no entry of a scene selects."""
     return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
 
 
@@ -97,7 +97,7 @@ def _law(package: Package | None, slot: str, name: str) -> Any:
 
 
 class _Narrow:
-    """A law of the library where a user's model calls its slot with more arguments: it takes no notice of them."""
+    """A law of the library in a slot to which a user's model passes more arguments; these are dropped."""
 
     def __init__(self, law: ModuleType, package: Package, slot: str) -> None:
         self._law, self._package, self._slot = law, package, slot
@@ -137,22 +137,22 @@ class Model:
 
     @property
     def cavitates(self) -> bool:
-        """Whether the film does not resist opening."""
+        """True if the film cavitates, so that it does not resist separation."""
         return hasattr(self.laws.film, "suction")
 
     @property
     def edged(self) -> bool:
-        """Whether the film ends at x = x0, and not with the bridge."""
+        """True if the film ends at x = x0, and not at the bridge's rupture."""
         return not self.bridge or "film_edge" in self.names("events")
 
     @property
     def escape(self) -> str:
-        """The function that has the energies which can part the two."""
+        """Name of the function with the energies that can separate the pair."""
         return "escape_energy" if self.wall else "energies"
 
     @cached_property
     def works(self) -> tuple[str, ...]:
-        """Works of attractions, by their names in the ledger."""
+        """Names of the works of attractions in the ledger."""
         return tuple(
             work for work, slot in (("capillary", "bridge"), ("attraction", "attraction")) if self.choice.law(slot)
         )
@@ -167,12 +167,12 @@ class Model:
 
     @cached_property
     def contact_gap(self) -> SX:
-        """Gap at which the solids touch."""
+        """Gap at which the solids touch: the larger of elastic length and roughness."""
         return reduce(fmax, (self.groups[name] for name in GAPS.values()))
 
     @cached_property
     def guarded(self) -> dict[str, SX]:
-        """The state with its gap kept positive, for rates; equal to the state wherever a solution goes."""
+        """The state with a positive lower limit of the gap, for rates; no effect on solutions."""
         floor = fmax(_FLOOR * fmin(self.contact_gap, 1), _SMALLEST_GAP)
         return {**self.state, "gap": fmax(self.state["gap"], floor)}
 
@@ -194,7 +194,7 @@ class Model:
         return found
 
     def extra(self, slot: str, function: str) -> list[SX]:
-        """What a slot's function takes beside its own arguments, in a user's model: groups, as symbols."""
+        """Additional arguments that a user's model passes to a slot's function: symbols of groups or states."""
         package = self.choice.package
         names = () if package is None else package.extra(slot, function)
         return [self.groups[name] if name in self.groups else self.state[name] for name in names]
@@ -243,7 +243,7 @@ class Model:
         return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
 
 
-@own_cache(None)  # never evicted: expressions are cached in the symbols of their model
+@own_cache(None)  # never evicted, because cached expressions use the symbols of their model
 def load(choice: ModelKey) -> Model:
-    """The model of a choice, built once."""
+    """The model of a key, built once per thread."""
     return Model(choice)

@@ -14,14 +14,14 @@ from .model import Model, ModelKey, load
 
 @dataclass(frozen=True)
 class Phase:
-    """Where the doublet is and which way it goes.
+    """A phase: region of the gap, direction of motion, contact and cavitation.
 
     Arguments:
         film: 1 inside the film (gap < x0), else 0.
         shear: 1 inside the edge of the tangential force, else 0.
         motion: CLOSING or OPENING.
-        resting: the gap is held in contact.
-        cavitated: the film is there but does not act, since it cavitates while opening.
+        resting: the spheres stay in contact at a constant gap.
+        cavitated: inside the film, which does not act because it cavitates on opening.
     """
 
     film: int
@@ -45,7 +45,7 @@ class Phase:
 
 @dataclass(frozen=True)
 class Region:
-    """What of a phase the equations depend on: both directions of motion share them."""
+    """The part of a phase that determines the equations, which both directions of motion share."""
 
     film: int
     shear: int
@@ -54,13 +54,13 @@ class Region:
 
     @property
     def flags(self) -> dict[str, int]:
-        """What acts, as the structure's functions want it."""
+        """Flags of the acting forces, as arguments of the structure's functions."""
         return {"film": int(self.film and not self.cavitated), "shear": self.shear}
 
 
 @dataclass(frozen=True)
 class Flow:
-    """Equations of a region: the model's states, then `extras` that are integrated along.
+    """Equations of a region: the model's states, then the quadratures `extras`.
 
     Extras: `rotation` (the angle turned), and the ledger's `normal_lubrication`, `tangential_lubrication`, `capillary`,
     `attraction`.
@@ -77,7 +77,7 @@ class Flow:
 
 @dataclass(frozen=True)
 class Expressions:
-    """A flow as CasADi expressions: vector of variables, their rates."""
+    """A flow as CasADi expressions: vector of variables and vector of rates."""
 
     variables: SX
     extras: dict[str, SX]
@@ -92,7 +92,7 @@ def expressions(flow: Flow) -> Expressions:
     state = {**model.guarded, "normal_velocity": SX(0)} if region.resting else model.guarded
     rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, flags)
     if region.resting and not model.oblique:
-        rates = dict.fromkeys(rates, SX(0))  # head-on nothing moves in resting contact
+        rates = dict.fromkeys(rates, SX(0))  # head-on, no state changes in resting contact
     extra_rates: dict[str, SX] = {}
     if flow.extras:
         extra_rates = model("energy_rates", state, flags)
@@ -110,7 +110,7 @@ def expressions(flow: Flow) -> Expressions:
 
 @dataclass(frozen=True)
 class Event:
-    """A function that is positive before the event; `dips` if it may fall below zero and return within a step."""
+    """A guard function, positive before the event; `dips` if it may become negative and return within a step."""
 
     name: str
     function: SX
@@ -119,11 +119,11 @@ class Event:
 
 @dataclass(frozen=True)
 class WatchedEvents:
-    """What an event table depends on besides the flow.
+    """Options of an event table besides the flow.
 
     Arguments:
-        tangential_edge: the edge of the tangential force lies within reach and is not the film's own.
-        certificate: watch for the proof of a stick: "energy" below a level, or "pendulum" by a margin.
+        tangential_edge: the edge of the tangential force is within the range of gaps and differs from the film's.
+        certificate: watch for a certificate of a stick: "energy" below a level, or "pendulum" by a margin.
     """
 
     tangential_edge: bool = False
@@ -133,8 +133,8 @@ class WatchedEvents:
 def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tuple[Event, ...]:
     """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
 
-    The order is the order of precedence among coincident ones. `level` is the energy below which a stick is proved, or
-    the relative margin by which the proof on strings must hold.
+    The order is the precedence among coincident events. `level` is the energy below which a stick is proved, or
+    the relative margin by which the pendulum certificate must hold.
     """
     model, region = flow.model, flow.region
     found = model("events")
@@ -157,7 +157,7 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
 
 
 def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
-    """The function of an event, positive before it; 1 in the direction of motion in which it is not watched."""
+    """The guard function of an event; constant 1 in a direction of motion in which it cannot occur."""
     value = found[row.functions[0]]
     for name in row.functions[1:]:
         value = fmin(value, found[name])
@@ -170,9 +170,9 @@ def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
 
 
 def pendulum_margin(model: Model, margin: SX | float) -> SX:
-    """Negative where the proof on strings holds by the relative `margin`: the worst of its three inequalities.
+    """The largest of the pendulum certificate's three inequalities; negative where it holds by the relative `margin`.
 
-    Not negative where one of them is not a number: fmax would leave that one out.
+    Not negative if one of them is NaN, which fmax would ignore.
     """
     found = model("pendulum_margins")
     outward, pull = found["outward"], found["pull"]

@@ -1,4 +1,4 @@
-"""Where a scene leaves the range that a law was made for: said once, and never an error."""
+"""Warnings about laws used outside their range of validity; never errors."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from ..scene.scene import Scene
 
 @lru_cache(maxsize=64)
 def remarks(scene: Scene) -> tuple[str, ...]:
-    """Return what of the scene lies outside the range its laws were made for, a sentence each.
+    """Return one sentence for each quantity of the scene outside the range of validity of a law.
 
-    Ranges stand with the emitted laws (`VALIDITY`), as far as their sources give them; no range known, nothing said.
+    Ranges are emitted with the laws (`VALIDITY`) as far as their sources state them.
     """
     if scene.bridge is None:
         return ()
@@ -33,7 +33,7 @@ def remarks(scene: Scene) -> tuple[str, ...]:
     return tuple(said)
 
 
-_ROUNDING = 1e-12  # 50 deg is inside of 50 deg
+_ROUNDING = 1e-12  # rounding: 50 deg is within a limit of 50 deg
 _ENTRIES = {"volume": "bridge.volume", "contact_angle": "bridge.contact_angle", "separation": "x_f/R"}
 
 
@@ -45,7 +45,7 @@ def _outside(scene: Scene, name: str, value: float, side: str, bound: float, sou
 
 
 def warn(scene: Scene, stacklevel: int = 3) -> tuple[str, ...]:
-    """Warn of every remark (ModelWarning), and return them."""
+    """Issue every remark as a ModelWarning, and return them."""
     said = remarks(scene)
     for sentence in said:
         warnings.warn(sentence, ModelWarning, stacklevel=stacklevel)

@@ -1,4 +1,4 @@
-"""The paper, reproduced: its figures, table and numbers, one a module, and a report that puts them beside ours."""
+"""Reproduction of the paper: a module for each figure, table and number, and a report that compares them with ours."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ def reproduce(
     detail: Detail | None = None,
     say: Callable[[str], None] | None = None,
 ) -> list[Path]:
-    """Make parts of the paper and the report on them.
+    """Compute parts of the paper and write the report on them.
 
     Arguments:
-        which: names out of PARTS.
-        folder: where to write; made if it is not there.
-        detail: how finely to draw; None is meant for print.
-        say: told what is being done.
+        which: names from PARTS.
+        folder: output folder; created if absent.
+        detail: resolution of the figures; None for print quality.
+        say: called with a text on the current step.
 
     Returns:
-        The files written, the report's last.
+        Paths of the written files, the report's last.
     """
     from . import report
     from .desk import Desk

@@ -1,4 +1,4 @@
-"""Boundaries that several parts share, traced once a run; and how finely everything is drawn."""
+"""Boundaries shared by several parts and traced once per run, and the resolution of figures."""
 
 from __future__ import annotations
 
@@ -28,26 +28,26 @@ if TYPE_CHECKING:
     from ..boundaries.changes import Change
 
 Line = tuple["Change", ...]
-Span = tuple[float, float]  # of St
+Span = tuple[float, float]  # range of St
 Result = TypeVar("Result")
 
-_FEW = 12  # angles; more are shared out among the cores by `boundary` itself, and the kernel is done with them first
+_FEW = 12  # angles; with more, `boundary` itself uses all cores
 _TOP = 89.0  # degrees, the highest line of a map
-_CORNER = 0.025  # of the width of a map
-_AT_ONCE = 9  # collisions between which a criterion is enclosed, again and again
-_ROUND, _BEND = 5, 2  # angles put between two whose outcomes differ, and where a boundary moves far
+_CORNER = 0.025  # smallest visible corner of a boundary, relative to the width of a map
+_AT_ONCE = 9  # collisions in each round of bracketing a criterion
+_ROUND, _BEND = 5, 2  # new angles between two whose outcomes differ, and where a boundary moves far
 
 
 @dataclass(frozen=True)
 class Job:
-    """A scene, the angles (rad) to be traced, and the Stokes numbers to look at; None for all."""
+    """A scene, the angles (rad) to trace, and the range of Stokes numbers (None for the default)."""
 
     scene: Scene
     angles: tuple[float, ...]
     span: Span | None = None
 
     def trace(self) -> Boundaries:
-        """Trace it, now."""
+        """Trace the lines."""
         if self.span is None:
             return boundary(self.scene, angle=list(self.angles))
         return boundary(self.scene, angle=list(self.angles), stokes=self.span)
@@ -55,13 +55,13 @@ class Job:
 
 @dataclass(frozen=True)
 class Detail:
-    """How finely the figures are drawn.
+    """Resolution of the figures.
 
     Arguments:
         step: degrees between lines of a regime map.
-        rounds: how often the lines between which a region begins are refined.
-        curve: points a curve of Fig. 4b has on either side of a boundary.
-        critical: angles (rad) at which Ce* is tabulated.
+        rounds: rounds of refinement between lines where a region begins.
+        curve: points of a curve of Fig. 4b on each side of a boundary.
+        critical: angles (rad) of the table of Ce*.
     """
 
     step: float = 2.5
@@ -71,7 +71,7 @@ class Detail:
 
 
 class Desk:
-    """What has been traced, by scene and angle; `say` is told what is being done."""
+    """Cache of traced lines by scene and angle; `say` is called with the current step."""
 
     def __init__(self, detail: Detail | None = None, say: Callable[[str], None] | None = None) -> None:
         self.detail = detail or Detail()
@@ -81,15 +81,15 @@ class Desk:
         self.failures: list[str] = []
 
     def say(self, what: str) -> None:
-        """Tell what is being done."""
+        """Report the current step."""
         self._say(what)
 
     def lines(self, scene: Scene, angles: Iterable[float]) -> list[Line]:
-        """Changes of outcome at each angle (rad), in their order; none, and a word in `failures`, where that fails."""
+        """Changes of outcome at each angle (rad), in order; empty, with an entry in `failures`, where tracing fails."""
         return self.many([Job(scene, tuple(angles))])[0]
 
     def many(self, jobs: Sequence[Job]) -> list[list[Line]]:
-        """The lines of several jobs; what is not known yet is traced on all cores."""
+        """The lines of several jobs; unknown ones are traced on all cores."""
         wanted: dict[tuple[Scene, Span | None], list[float]] = {}
         for job in jobs:
             known = self._known.setdefault((job.scene, job.span), {})
@@ -109,7 +109,7 @@ class Desk:
     def map(self, scene: Scene, reach: float, first: float = 0.0) -> tuple[list[float], list[Line]]:
         """Angles (rad) of a regime map from `first` degrees on, and their lines.
 
-        They are crowded where a region begins, and where a boundary moves far over a map that ends at St = `reach`.
+        They are denser where a region begins, and where a boundary moves far on a map that ends at St = `reach`.
         """
         steps = np.arange(0.0, _TOP, self.detail.step).tolist()
         angles = [math.radians(value) for value in sorted({first, *(v for v in steps if v > first), _TOP})]
@@ -130,18 +130,18 @@ class Desk:
 
 
 def outcomes(line: Line) -> tuple[str, ...]:
-    """The outcomes along a line of constant angle, going up in St."""
+    """The outcomes along a line of constant angle, in order of St."""
     return (line[0].before, *(change.after for change in line)) if line else ()
 
 
 def _far(here: Line, there: Line, reach: float) -> bool:
-    """True if a boundary moves by more than shows as a corner."""
+    """True if a boundary moves enough to be visible as a corner."""
     moved = (abs(min(one.stokes, reach) - min(other.stokes, reach)) for one, other in zip(here, there))
     return max(moved, default=0.0) > _CORNER * reach
 
 
 def change_at(line: Line, before: str) -> Change:
-    """The change at which an outcome ends; ComputationError if none was found."""
+    """The change at which an outcome ends; ComputationError if there is none."""
     for change in line:
         if change.before == before:
             return change
@@ -149,7 +149,7 @@ def change_at(line: Line, before: str) -> Change:
 
 
 def shown(read: Callable[[], float]) -> str:
-    """A number of a table, or `failed`: one that cannot be computed does not take the others with it."""
+    """A number of a table, or `failed` if it cannot be computed, so that the others are still shown."""
     try:
         return number(read())
     except ComputationError:
@@ -157,7 +157,7 @@ def shown(read: Callable[[], float]) -> str:
 
 
 def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-6) -> float:
-    """The Stokes number, between `low` and `high`, from which a reversal criterion is met, enclosed to `rtol`."""
+    """The Stokes number between `low` and `high` from which a rebound criterion is met, bracketed to `rtol`."""
     look = Look(scene, RTOL)
     while high - low > rtol * high:
         stokes = np.geomspace(low, high, _AT_ONCE)
@@ -170,7 +170,7 @@ def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rto
 
 
 def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[Result]:
-    """The function of each item, on all cores."""
+    """Results of the function for all items, computed on all cores."""
     if len(items) < 2:
         return [function(item) for item in items]
     with lasting_workers(usable_cores()) as pool:
@@ -178,7 +178,7 @@ def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[
 
 
 def progress() -> Callable[[str], None]:
-    """Words on standard error on a terminal, each in place of the last; nothing elsewhere."""
+    """Progress texts on standard error, each replacing the last; nothing if it is no terminal."""
     if not sys.stderr.isatty():
         return lambda _: None
 

@@ -1,4 +1,4 @@
-"""Ce* when one quantity is doubled, all others as they are, with the glass criterion out of reach."""
+"""Factors of Ce* when one quantity is doubled and all others are fixed, with the glass criterion disabled."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ DOUBLED = {
 }
 ARMS = ("midgap", "surface")
 _AT = math.radians(45)
-_OUT_OF_REACH = 1e9  # times the preset's glass-transition pressure
+_OUT_OF_REACH = 1e9  # factor on the preset's glass-transition pressure
 
 
 def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
-    """Trace the S/SRS boundary of every doubled scene."""
+    """Compute the part: the S/SRS boundary of every scene with a doubled quantity."""
     desk.say("factors: Ce* with one quantity doubled")
     angles = desk.detail.critical
     arms = {arm: _base(arm) for arm in ARMS}
@@ -89,7 +89,7 @@ def _range(key: str, factors: dict[str, dict[str, list[float]]]) -> str:
 
 
 def _nearest(angles: Sequence[float], factors: dict[str, dict[str, list[float]]]) -> str:
-    """Arm and angle whose factors are nearest to the printed ones, in the sum of the squared differences."""
+    """Lever arm and angle whose factors are nearest to the printed ones, by the sum of squared differences."""
     apart = {
         (arm, angle): sum((found[key][k] - PRINTED[key].value) ** 2 for key in DOUBLED)
         for arm, found in factors.items()
@@ -112,7 +112,7 @@ def _predicted(
     factors: dict[str, dict[str, list[float]]],
     place: int,
 ) -> Table:
-    """What the exact elasticities of Ce* at 45 degrees say of a doubling, beside the doubling itself."""
+    """Table of factors predicted by the exact elasticities of Ce* at 45 degrees, and of computed factors."""
     columns = {}
     for arm, scene in arms.items():
         change = next(one for one in lines[arm, ""][place] if one.before == "stick")

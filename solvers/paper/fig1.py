@@ -1,4 +1,4 @@
-"""Fig. 1: the three collisions of the pendulum seen from above, at the paper's intervals between frames."""
+"""Fig. 1: top views of three collisions of the pendulum at the paper's intervals between frames."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _MS = 1e3
 
 
 def make(desk: Desk, folder: Path) -> Part:
-    """Collide the three, and draw them."""
+    """Compute the part: the three collisions and their figure."""
     desk.say("fig. 1: frames of the three collisions")
     scene = variant(PENDULUM, {})
     shown = {"angle": SHOT_ANGLE, "ledger": False, "trajectory": True, "engine": "taylor"}
@@ -57,7 +57,7 @@ def _said(one: Collision) -> str:
 
 
 def _moved(desk: Desk) -> Table:
-    """Outcomes, and the boundaries along the line of Fig. 1, under the variants."""
+    """Table of outcomes and boundaries along the line of Fig. 1 for the variants."""
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     desk.say("fig. 1: variants")
     traced = desk.many([Job(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
@@ -80,7 +80,7 @@ def _draw(collisions: list[Collision], file: Path) -> None:
     strips = []
     for shot, one in zip(SHOTS, collisions):
         instants = [k * shot.interval / _MS for k in range(-_BEFORE, _AFTER + 1)]
-        strips.append([replace(frame, relative=None) for frame in sampled(one, instants)])  # photographs have no arrows
+        strips.append([replace(frame, relative=None) for frame in sampled(one, instants)])  # as photographs: no arrows
     sizes = [strip_size(strip) for strip in strips]
     widest = max(across for across, _ in sizes)
     with sheet(file, 7.4) as figure:

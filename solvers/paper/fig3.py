@@ -1,4 +1,4 @@
-"""Fig. 3: regime map of the pendulum, the theory's lines between outcomes."""
+"""Fig. 3: regime map of the pendulum with the theoretical boundaries."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _REACH = 2.5  # St at the right edge
 _BESIDE = 1 + 1e-6
-_BELOW = 0.8  # of the boundary: where the search for the criterion starts
+_BELOW = 0.8  # start of the search for the criterion, relative to the boundary
 
 
 def make(desk: Desk, folder: Path) -> Part:
-    """Trace and draw the map; St* at theta0 = 0 under the variants."""
+    """Compute the part: the map, and St* at theta0 = 0 for the variants."""
     desk.say("fig. 3: tracing the pendulum's boundaries")
     scene = variant(PENDULUM, {})
     angles, lines = desk.map(scene, _REACH)
@@ -70,7 +70,7 @@ def _escapes(head_on: Line) -> float:
 
 
 def _met(scene: Scene, head_on: Line) -> float:
-    """Where a criterion is first met: nowhere above the boundary, where it decides."""
+    """Stokes number from which a criterion is met; just above the boundary at most, where the criterion decides it."""
     return criterion_met(scene, _BELOW * _escapes(head_on), _escapes(head_on) * _BESIDE)
 
 
@@ -79,14 +79,18 @@ def _along(line: Line) -> str:
 
 
 def _moved(desk: Desk) -> Table:
-    """Both readings of St* under the variants; arm and log have no part in a head-on collision."""
+    """Both readings of St* for the variants; lever arm and logarithm have no effect head-on."""
     desk.say("fig. 3: variants")
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
     rows = shared_out(_row, [(name, scene, line) for (name, scene), [line] in zip(scenes.items(), traced)])
     rows.append(["paper", PRINTED["stokes_3"].text, ""])
     head = ["variant", "St*: a criterion is met", "St*: escapes"]
-    return Table("Pendulum at θ₀ = 0: St* under the variants (head-on, arm and log have no part)", head, rows)
+    return Table(
+        "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)",
+        head,
+        rows,
+    )
 
 
 def _row(case: tuple[str, Scene, Line]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Fig. 4a: regime map of the granules, the lines of constant Ce and St, and without capillary force."""
+"""Fig. 4a: regime map of the free granules with lines of constant Ce and St; inset without capillary force."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
 _NO_BRIDGE = "without a bridge there is no centrifugal number"
-_AROUND = 1.35  # in St: nearly a factor of two in Ce
-_TAIL = 1.15  # times our St*: where the lines of constant Ce end
-_AT = math.radians(45)  # where our Ce* is read
-_FIRST = 0.5  # degrees: the lowest oblique line without a bridge
+_AROUND = 1.35  # factor in St; nearly a factor of two in Ce
+_TAIL = 1.15  # end of the lines of constant Ce, relative to our St*
+_AT = math.radians(45)  # angle at which our Ce* is read
+_FIRST = 0.5  # degrees; the lowest oblique line without a bridge
 
 
 def make(desk: Desk, folder: Path) -> Part:
-    """Trace and draw both maps; Ce* and St* under the variants."""
+    """Compute the part: both maps, and Ce* and St* for the variants."""
     desk.say("fig. 4a: tracing the granules' boundaries")
     scene, dry = variant(BRIDGED, {}), variant(DRY, {})
     angles, lines = desk.map(scene, _REACH)
@@ -37,7 +37,7 @@ def make(desk: Desk, folder: Path) -> Part:
     [dry_head_on], [head_on] = desk.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
     desk.say("fig. 4a: variants")
     critical = desk.detail.critical
-    moved = _moved(desk)  # traces the variants together
+    moved = _moved(desk)  # traces all variants together
     criticals = [centrifugal(line) for line in desk.lines(scene, critical)]
     ours = centrifugal(desk.lines(scene, (_AT,))[0])
     stokes = _sticks_to(head_on)
@@ -83,7 +83,7 @@ def per_stokes_squared(scene: Scene, angle: float) -> float:
 
 
 def near_printed(scene: Scene, angle: float) -> Job:
-    """What traces the S/SRS boundary alone: looked for around the printed Ce*."""
+    """A job for the S/SRS boundary alone, searched around the printed Ce*."""
     middle = math.sqrt(PRINTED["centrifugal"].value / per_stokes_squared(scene, angle))
     return Job(scene, (angle,), (middle / _AROUND, middle * _AROUND))
 
@@ -111,14 +111,15 @@ def _compared(
             stokes,
             described(scene),
             f"St* follows from p_gt alone: the printed number is reached with {fitted} in place of the "
-            f"printed {pressure / 1e6:.3g} MPa. Head-on, arm, log and bridge law have next to no part in it",
+            f"printed {pressure / 1e6:.3g} MPa. Head-on, the lever arm, the "
+            "tangential cut-off and the bridge law have next to no part in it",
         ),
         Comparison(
             "centrifugal",
             ours,
             described(scene),
             f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {found}. With the "
-            f"leading-order arm of the tangential force, which the paper may have used: {leading}",
+            f"leading-order lever arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(
             "dry",
@@ -176,7 +177,7 @@ def _critical_lines(axes: Axes, scene: Scene, ours: float, end: float) -> None:
 
 
 def _dry(axes: Axes, angles: list[float], lines: list[Line], stokes: float) -> None:
-    """The inset: without capillary force."""
+    """Draw the inset, without capillary force."""
     inset = axes.inset_axes((0.61, 0.135, 0.36, 0.5))
     inset.patch.set_zorder(5)
     inset.set_zorder(6)

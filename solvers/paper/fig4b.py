@@ -1,4 +1,4 @@
-"""Fig. 4b: restitution against St at six angles, and against Ce where rotation alone separates the spheres."""
+"""Fig. 4b: restitution against St at six angles; inset against Ce for stick-rotate-separate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .variants import BRIDGED, described, variant
 
 _REACH = 0.25  # St at the right edge
 _BESIDE = 1e-6  # relative distance from a boundary at which a curve ends
-_MOST_CE = 20.0  # of the inset
+_MOST_CE = 20.0  # range of the inset
 _COLOURS = (INK, SKY, GREEN, BLUE, ORANGE, PURPLE)
 _STYLES = ("-", (0, (4, 1.2)), "-", "-", "-", "-")
 
@@ -38,7 +38,7 @@ class Curve:
 
 
 def make(desk: Desk, folder: Path) -> Part:
-    """Compute the curves between the boundaries, and draw them."""
+    """Compute the part: the curves between the boundaries, and their figure."""
     desk.say("fig. 4b: tracing boundaries")
     scene = variant(BRIDGED, {})
     lines = desk.lines(scene, CURVES)
@@ -64,7 +64,7 @@ def make(desk: Desk, folder: Path) -> Part:
             f"differs by {apart:.2g} at most",
             used,
             "in e_n, where both bounce",
-            agrees=apart < 0.05,  # what cannot be told apart in a printed figure
+            agrees=apart < 0.05,  # difference that is invisible in a printed figure
         ),
         Comparison(
             "above_one",
@@ -79,7 +79,7 @@ def make(desk: Desk, folder: Path) -> Part:
         "Fig. 4b: normal restitution against St, "
         + ", ".join(degrees(angle) for angle in CURVES)
         + " (bottom to top). Dotted: jumps at the traced boundaries. Inset: against Ce, where the spheres rotate "
-        "before they separate (no criterion met)."
+        "before they separate (no rebound criterion met)."
     )
     return Part(
         "Fig. 4b: restitution",
@@ -94,7 +94,7 @@ def make(desk: Desk, folder: Path) -> Part:
 
 
 def _curves(scene: Scene, lines: list[Line], points: int) -> tuple[list[Curve], int]:
-    """All curves, in one call: between boundaries, crowded towards them."""
+    """All curves between boundaries, with points denser towards them, in one call."""
     pieces = []
     for angle, line in zip(CURVES, lines):
         edges = [change.stokes for change in line if change.stokes < _REACH]
@@ -116,7 +116,7 @@ def _curves(scene: Scene, lines: list[Line], points: int) -> tuple[list[Curve], 
 
 
 def _apart(curves: list[Curve]) -> float:
-    """Largest difference between the bounces at 15 deg and head-on."""
+    """Largest difference in restitution between the bounces at 15 deg and head-on."""
     head_on, at_15 = (next(c for c in curves if c.angle == angle and c.outcome == BOUNCE) for angle in CURVES[:2])
     start = max(head_on.stokes[0], at_15.stokes[0])
     stokes = np.linspace(start, _REACH, 400)[1:]
@@ -125,7 +125,7 @@ def _apart(curves: list[Curve]) -> float:
 
 
 def _jumps(lines: list[Line], curves: list[Curve]) -> Table:
-    """What happens to e_n at each boundary."""
+    """Table of e_n on both sides of each boundary."""
     rows = []
     for angle, line in zip(CURVES, lines):
         own = {curve.outcome: curve.restitution for curve in curves if curve.angle == angle}
@@ -146,7 +146,7 @@ def _draw(curves: list[Curve], file: Path) -> None:
 
 
 def _against_stokes(axes: Axes, curves: list[Curve]) -> None:
-    ends: dict[float, tuple[float, float]] = {}  # where the last curve of an angle ended
+    ends: dict[float, tuple[float, float]] = {}  # end of the last curve of an angle
     for curve in curves:
         place = CURVES.index(curve.angle)
         look: dict[str, Any] = {"color": _COLOURS[place], "linestyle": _STYLES[place], "zorder": 3 + place}

@@ -1,4 +1,4 @@
-"""What a part of the reproduction hands to the report: comparisons, tables, pictures and words."""
+"""Data of a part of the reproduction for the report: comparisons, tables, figures and text."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from .printed import PRINTED, Printed
 
 @dataclass(frozen=True)
 class Comparison:
-    """A printed number or finding beside ours.
+    """A printed number or finding with ours.
 
     Arguments:
-        key: of the printed entry.
-        ours: what this run computed; a number, or the finding in words.
-        used: the variants it was computed with.
-        why: why it differs, or what is to be said of it.
-        agrees: for a finding in words, whether it is the paper's.
-        beside: a second number of ours that goes with the first, in words.
+        key: key of the printed entry.
+        ours: computed number, or the finding in words.
+        used: the variants used.
+        why: reason for a difference, or a comment.
+        agrees: for a finding in words, True if it agrees with the paper.
+        beside: a second number of ours, as text.
     """
 
     key: str
@@ -35,12 +35,12 @@ class Comparison:
 
     @property
     def difference(self) -> float | None:
-        """Ours over the paper's, minus one; None for words."""
+        """Relative difference from the paper; None for words."""
         return None if isinstance(self.ours, str) else self.ours / self.printed.value - 1
 
     @property
     def verdict(self) -> str:
-        """The relative difference, and whether ours rounds to the printed digits; or, of words, whether they agree."""
+        """Text of the relative difference and rounding to the printed digits; for words, agreement."""
         if isinstance(self.ours, str) or self.difference is None:
             return "agrees" if self.agrees else "differs"
         rounded = f"{self.ours:.{self.printed.digits}f}" == self.printed.text
@@ -63,7 +63,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture of the report: file name in its folder, caption, width in cm at which it is to be read."""
+    """A figure of the report: file name in its folder, caption, intended width in cm."""
 
     file: str
     caption: str
@@ -72,7 +72,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Part:
-    """One part: a title, and what there is to show, in this order: words, pictures, formulas, tables."""
+    """One part: a title, then text, figures, formulas and tables, in this order."""
 
     title: str
     words: str = ""
@@ -84,10 +84,10 @@ class Part:
 
 
 def number(value: float | None) -> str:
-    """Four significant digits or more where they tell; a dash for None or what is no number."""
+    """A number with four or more significant digits; a dash for None or NaN."""
     return "-" if value is None or not math.isfinite(value) else f"{value:#.4g}"
 
 
 def degrees(angle: float) -> str:
-    """An angle in degrees, without trailing zeros."""
+    """An angle in rad as degrees, without trailing zeros."""
     return f"{math.degrees(angle):.4g}°"

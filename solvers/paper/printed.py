@@ -1,4 +1,4 @@
-"""What the paper prints, each number once, with the words it stands in. Nothing here is computed.
+"""Numbers and findings printed in the paper, with quotes. Nothing here is computed.
 
 Donahue, Davis, Kantak and Hrenya, Phys. Rev. E 86, 021303 (2012), DOI 10.1103/PhysRevE.86.021303.
 """
@@ -16,11 +16,11 @@ class Printed:
     """A number or a finding of the paper.
 
     Arguments:
-        key: its name in this package.
-        what: what it is, in words.
-        text: as it is printed, or said for short.
-        place: where in the paper.
-        quote: the words it stands in.
+        key: name in this package.
+        what: description.
+        text: the printed number, or a short form of the finding.
+        place: place in the paper.
+        quote: the quoted sentence.
     """
 
     key: str
@@ -36,7 +36,7 @@ class Printed:
 
     @property
     def digits(self) -> int:
-        """Digits printed after the decimal point."""
+        """Number of digits printed after the decimal point."""
         return len(self.text.partition(".")[2])
 
 

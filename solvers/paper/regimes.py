@@ -1,4 +1,4 @@
-"""A regime map: the regions of the outcomes between traced boundaries, St along, impact angle up."""
+"""Regime map: regions of the outcomes between traced boundaries; x axis St, y axis impact angle."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Strip = tuple[str, float, float]  # outcome, from St, to St
 
 
 def draw(axes: Axes, angles: Sequence[float], lines: Sequence[Line], reach: float, linewidth: float = 1.2) -> None:
-    """Fill the regions up to St = `reach`, and draw the boundaries between them; angles in rad, drawn in degrees."""
+    """Draw the regions up to St = `reach` and the boundaries; angles are given in rad and drawn in degrees."""
     degrees = [math.degrees(angle) for angle in angles]
     _fill(axes, degrees[-1], _RIGHT_ANGLE, lines[-1], lines[-1], reach)
     for (low, here), (high, there) in pairwise(zip(degrees, lines)):
@@ -25,7 +25,7 @@ def draw(axes: Axes, angles: Sequence[float], lines: Sequence[Line], reach: floa
             _fill(axes, low, high, here, there, reach)
             for one, other in zip(here, there):
                 axes.plot([one.stokes, other.stokes], [low, high], color=INK, linewidth=linewidth, zorder=3)
-        else:  # a region begins between two lines that are close
+        else:  # a region begins between two close lines
             middle = (low + high) / 2
             _fill(axes, low, middle, here, here, reach)
             _fill(axes, middle, high, there, there, reach)
@@ -45,7 +45,7 @@ def _strips(line: Line, reach: float) -> list[Strip]:
 
 
 def _join(axes: Axes, low: float, high: float, here: Line, there: Line, linewidth: float) -> None:
-    """Close the boundaries across the two lines between which a region begins: each to the nearest of the other."""
+    """Connect the boundaries of the two lines between which a region begins, each to the nearest one."""
     fewer, more, at, to = (here, there, low, high) if len(here) <= len(there) else (there, here, high, low)
     for change in more:
         if fewer:

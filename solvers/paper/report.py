@@ -1,4 +1,4 @@
-"""The report: every printed number beside ours, then each part with its pictures, equations and variants."""
+"""The report: printed numbers compared with ours, then each part with figures, equations and variants."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _HEAD = (
     "paper",
     "ours",
     "difference",
-    "with arm, log, glass; bridge or strings",
+    "with lever arm, tangential cut-off, glass criterion; bridge or strings",
     "why, and what goes with it",
 )
-_PER_CM = 60  # pixels on the page
+_PER_CM = 60  # width on the page, pixels
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #202020; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.6rem; } h2 { margin-top: 2.5rem; border-bottom: 1px solid #ccc; }
@@ -35,7 +35,7 @@ code { font-size: 0.86em; } img { max-width: 100%; height: auto; } .table { over
 
 
 def write(parts: Sequence[Part], folder: Path, how: str) -> list[Path]:
-    """Write report.md and report.html into `folder`; `how` says how it was computed."""
+    """Write report.md and report.html into `folder`; `how` describes the computation."""
     both = [(folder / "report.md", markdown(parts, how)), (folder / "report.html", page(parts, how))]
     for file, text in both:
         files.write(file, text)
@@ -43,7 +43,7 @@ def write(parts: Sequence[Part], folder: Path, how: str) -> list[Path]:
 
 
 def compared(parts: Iterable[Part]) -> Table:
-    """All printed numbers of the parts, in the paper's order."""
+    """Table of all compared numbers, in the paper's order."""
     found: list[Comparison] = [one for part in parts for one in part.comparisons]
     order = list(PRINTED)
     rows = []
@@ -54,14 +54,14 @@ def compared(parts: Iterable[Part]) -> Table:
 
 
 def sources(parts: Iterable[Part]) -> Table:
-    """Where in the paper each compared number stands."""
+    """Table of the places of the compared numbers in the paper."""
     keys = {one.key for part in parts for one in part.comparisons}
     rows = [(entry.what, entry.place, f"“{entry.quote}”") for entry in PRINTED.values() if entry.key in keys]
     return Table("Where the paper prints it", ("quantity", "place", "words"), rows)
 
 
 def inputs(parts: Iterable[Part]) -> Table:
-    """The entries of the presets used, and which of them are guesses."""
+    """Table of the entries of the presets used, with assumed values marked."""
     presets = dict.fromkeys(name for part in parts for name in part.scenes)
     scenes = [Scene.load(name) for name in presets]
     guesses = {(scene.name, name) for scene in scenes for name, _ in scene.guesses}
@@ -131,7 +131,7 @@ def _plain(caption: str) -> str:
 
 
 def page(parts: Sequence[Part], how: str) -> str:
-    """The report as one HTML page; pictures are linked, formulas are in a picture and as LaTeX."""
+    """The report as one HTML page; figures are linked, formulas are shown as a figure and as LaTeX."""
     body = [f"<h1>{html.escape(_TITLE)}</h1>", *(f"<p>{html.escape(text)}</p>" for text in _lead(parts, how))]
     if any(part.comparisons for part in parts):
         body += ["<h2>The numbers</h2>", _html_table(compared(parts)), _html_table(_not_compared())]

@@ -1,4 +1,4 @@
-"""How the figures look: one column of print, colours that the colour-blind can tell apart, symbols of the paper."""
+"""Style of the figures: width of one printed column, colour-blind safe colours, symbols of the paper."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FILLS = dict(zip(OUTCOMES, ("#BFDDF0", "#FBE3A6", "#F4F4F4"), strict=True))
 LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
 
-_RC: Any = {  # matplotlib types its keys one by one
+_RC: Any = {  # matplotlib's stubs type each key separately
     "font.size": 8,
     "axes.labelsize": 8.5,
     "axes.linewidth": 0.7,
@@ -43,7 +43,7 @@ _RC: Any = {  # matplotlib types its keys one by one
 
 @contextmanager
 def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
-    """A figure of so many cm that is saved to `file` at the end."""
+    """Context of a figure of the given size in cm, saved to `file` at the end."""
     with rc_context(_RC):
         figure = Figure(figsize=(width / _INCH, height / _INCH), layout="constrained")
         yield figure
@@ -51,5 +51,5 @@ def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
 
 
 def panel(figure: Figure) -> Axes:
-    """The figure's axes."""
+    """Return the axes of the figure."""
     return figure.add_subplot()

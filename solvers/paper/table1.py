@@ -1,4 +1,4 @@
-"""Table 1: the theory as typeset equations, out of the derivation."""
+"""Table 1: the theory as typeset equations, from the derivation."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from .variants import BRIDGED, PENDULUM, described
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation
 
-_WIDTH = 17.5  # cm: the table spans both columns
-_TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm: lines with and without a fraction, headings
-_WRAP = 37  # letters of a note in a line beside no formula
+_WIDTH = 17.5  # cm; the table spans both columns
+_TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm; lines with and without a fraction, headings
+_WRAP = 37  # characters of a note on a line without a formula
 
 
 def make(desk: Desk, folder: Path) -> Part:
-    """Typeset the equations of the presets' laws into `folder`."""
+    """Compute the part: the equations of the presets' laws, typeset into `folder`."""
     desk.say("table 1: deriving")
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
@@ -64,7 +64,7 @@ def document(lines: tuple[Equation, ...]) -> str:
 
 
 def _draw(lines: tuple[Equation, ...], file: Path) -> None:
-    """Two columns of groups, broken where they are nearest to equal height."""
+    """Draw the groups in two columns of nearly equal height."""
     groups = [list(members) for _, members in groupby(lines, key=lambda line: line.group)]
     sizes = [_HEAD + sum(map(_height, members)) for members in groups]
     split = min(range(1, len(groups)), key=lambda k: max(sum(sizes[:k]), sum(sizes[k:])))

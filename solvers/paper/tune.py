@@ -1,4 +1,4 @@
-"""What glass-transition pressure would give a printed St* at theta0 = 0."""
+"""The glass-transition pressure that gives a printed St* at theta0 = 0."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..scene.scene import Scene
 from .desk import Desk, change_at
 
 _ENTRY = "liquid.glass_transition_pressure"
-_CLOSE = 1e-6  # relative, in St
+_CLOSE = 1e-6  # relative tolerance in St
 
 
 def printed_pressure(scene: Scene) -> float:
@@ -18,7 +18,7 @@ def printed_pressure(scene: Scene) -> float:
 
 
 def pressure_for(desk: Desk, scene: Scene, stokes: float) -> str:
-    """p_gt at which a head-on collision first bounces at `stokes`, in words; why not, if that fails."""
+    """Text of the p_gt at which head-on collisions bounce from `stokes` on, or of the reason of failure."""
     try:
         return f"{_pressure(desk, scene, stokes) / 1e6:.3g} MPa"
     except ComputationError:
@@ -26,7 +26,7 @@ def pressure_for(desk: Desk, scene: Scene, stokes: float) -> str:
 
 
 def _pressure(desk: Desk, scene: Scene, stokes: float) -> float:
-    """In Pa, by the secant method in the logarithms."""
+    """p_gt in Pa, by the secant method in logarithms."""
 
     def reached(pressure: float) -> float:
         [line] = desk.lines(scene.with_entries({_ENTRY: pressure}), (0.0,))

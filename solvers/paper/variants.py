@@ -1,4 +1,4 @@
-"""The scenes of the paper and their variants: what the paper leaves open, each changed alone."""
+"""The paper's scenes and their variants: choices that the paper leaves open, each changed alone."""
 
 from __future__ import annotations
 
@@ -36,9 +36,16 @@ def variant(preset: str, changes: Mapping[str, Any]) -> Scene:
     return Scene.load(preset).with_entries(changes)
 
 
+_ARM = {"midgap": "lever arm at mid-gap", "surface": "lever arm of one radius"}
+_TANGENTIAL = {"immersed": "cut off at the particle radius", "film": "cut off at the film's edge"}
+_GLASS = {"literal": "", "film-corrected": " above that at the rim"}
+
+
 def described(scene: Scene) -> str:
-    """The choices a scene makes where the paper leaves them open: arm, log and glass; bridge law or strings."""
-    said = ", ".join((scene.model.arm, scene.model.tangential, scene.model.glass))
+    """The choices that the paper leaves open: lever arm, lubrication, glass criterion; bridge law or strings."""
+    model = scene.model
+    said = f"{_ARM[model.arm]}, tangential lubrication {_TANGENTIAL[model.tangential]}, glass transition where the "
+    said += f"film pressure on the axis{_GLASS[model.glass]} reaches p_gt"
     if scene.bridge is not None:
         said += f"; {scene.bridge.law}"
     if scene.pendulum is not None:

@@ -1,1 +1,1 @@
-"""What collides: entries, units, consistency and derived quantities of a scene."""
+"""Scenes: entries, units, consistency and derived quantities."""

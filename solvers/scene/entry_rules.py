@@ -1,4 +1,4 @@
-"""What entries must satisfy together: nothing unknown, nothing twice, nothing missing, lengths in order."""
+"""Rules for the entries of a scene together: none unknown, duplicate or missing; lengths in order."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from .user_model import Package
 
 
-_LONGEST_NAME = 1000  # characters: a name is a title of pictures, and an attribute of files
+_LONGEST_NAME = 1000  # characters; the name is the title of figures and an attribute of files
 
 
 def check_name(name: object) -> None:
-    """InputError unless the name is text that a file can hold."""
+    """Raise InputError unless the name is text that a file can hold."""
     if not isinstance(name, str):
         raise InputError("name", name, "text", "is not text")
     try:
@@ -34,7 +34,7 @@ def check_name(name: object) -> None:
 
 
 def check_pairs(pairs: object, label: str) -> None:
-    """InputError unless these are pairs of a dotted name and what is said of it."""
+    """Raise InputError unless these are pairs of a dotted name and a value."""
     accepted = "pairs of a dotted name and a value, such as (('liquid.viscosity', '2 Pa s'), ...)"
     if not isinstance(pairs, (tuple, list)):
         raise InputError(label, pairs, accepted, "is no list of pairs")
@@ -44,19 +44,19 @@ def check_pairs(pairs: object, label: str) -> None:
 
 
 def check_package(package: object) -> None:
-    """InputError unless this is a model that has been opened, or None."""
+    """Raise InputError unless this is an opened `Package` or None."""
     if package is not None and not isinstance(package, custom.Package):
         raise InputError("package", package, "a Package, or None: models are opened by Scene.load(..., model=DIR)")
 
 
 def grouped(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries with each table's together, otherwise in their order."""
+    """Return the entries grouped by table, otherwise in their order."""
     tables = dict.fromkeys(name.partition(".")[0] for name in entries)
     return {name: entries[name] for table in tables for name in entries if name.partition(".")[0] == table}
 
 
 def check_entries(entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False) -> None:
-    """InputError for an entry that is unknown, wrong by itself, or says again what another has said."""
+    """Raise InputError for an entry that is unknown, wrong by itself, or an alternative to another given one."""
     known = custom.fields(package)
     for name, raw in entries.items():
         if name not in known:
@@ -71,7 +71,7 @@ def check_entries(entries: Mapping[str, Any], package: Package | None = None, *,
 
 
 def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
-    """InputError for a change that says in another way what the scene says already, with what to do instead."""
+    """Raise InputError, with the remedy, for a change to an alternative of an entry that the scene has."""
     for ways in ALTERNATIVES:
         for name in (way for way in ways if way in changes):
             for other in (way for way in ways if way in given and way not in changes):
@@ -82,7 +82,7 @@ def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None
 
 
 def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None = None) -> None:
-    """InputError for an entry that is missing from a table that is there, or must be."""
+    """Raise InputError for an entry that is missing from a table that is present or required."""
     present = {name.partition(".")[0] for name in entries} | set(tables or ()) | set(REQUIRED_TABLES)
     for table in TABLES:
         if table not in present:
@@ -125,12 +125,12 @@ def check_ways(given: Mapping[str, Any], values: Mapping[str, Any]) -> None:
 
 
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries of `Particles`: a = R/2 and m = M/2 from whichever was given."""
+    """Return the entries of `Particles`: a = R/2 and m = M/2 from radius, mass or density."""
     return table_of(Particles, values) | sphere(values)
 
 
 def partner(values: Mapping[str, Any]) -> Partner | None:
-    """Return the partner, its mass from whatever was given; None if the spheres are equal."""
+    """Return the partner, its mass from mass or density; None if the spheres are equal."""
     of = {"radius": partner_radius(values), "mass": partner_mass(values), "wall": values.get("partner.wall")}
     return None if of["radius"] is None and of["wall"] is None else Partner(**of)
 
@@ -142,7 +142,7 @@ def table_of(kind: type[Table], values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def table(kind: type[Table], values: Mapping[str, Any], ways: Ways) -> Table | None:
-    """Return a table of its entries; None for a table that means something by its absence."""
+    """Return the table with its entries; None for an absent table that is optional."""
     own = table_of(kind, values)
     if kind is Liquid:
         own["film_thickness"] = film(values)
@@ -163,7 +163,7 @@ def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
 
 
 def check_together(scene: System) -> None:
-    """InputError where the entries are right one by one but not together."""
+    """Raise InputError where entries are valid one by one but not together."""
     given = dict(scene.given)
     _check_partner(scene)
     _check_laws(scene)
@@ -177,7 +177,7 @@ def check_together(scene: System) -> None:
     if scene.bridge is not None and not x0 < ruptured < math.inf:
         radius = 2 * scene.reduced_radius
         ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
-        least = ratio * ratio * ratio  # ** would raise instead of becoming inf
+        least = ratio * ratio * ratio  # ** would raise OverflowError; this becomes inf
         if math.isinf(least):
             name = _given_way("particles.reduced_radius", given)
             accepted = f"a radius that is not so small beside {said}"
@@ -185,7 +185,7 @@ def check_together(scene: System) -> None:
         problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {x0:.4g} m"
         raise InputError("bridge.volume", given["bridge.volume"], _larger(scene, least, radius), problem)
     if scene.pendulum is not None:
-        # the strings lean most at beta = pi, where each pivot is d = (r + 4a)/2 from its sphere
+        # the strings are most inclined at beta = pi, where each pivot is d = (r + 4a)/2 from its sphere
         least = 4 * scene.reduced_radius + ruptured / 2
         if scene.pendulum.length <= least:
             problem = "is too short for two spheres to swing around each other"
@@ -218,7 +218,7 @@ def _larger(scene: System, least: float, radius: float) -> str:
 
 
 def _check_partner(scene: System) -> None:
-    """InputError for a partner that cannot be: strings hold equal spheres, and ratios must stay numbers."""
+    """Raise InputError for an invalid partner: strings need equal spheres, and ratios must be finite."""
     if scene.partner is None:
         return
     given = dict(scene.given)
@@ -232,11 +232,11 @@ def _check_partner(scene: System) -> None:
             raise InputError(known, given[known], accepted, "is too far from the sphere's")
 
 
-FARTHEST = 1e4  # ratio of radii or masses: beyond, the equations of a pair lose digits; a wall is their limit
+FARTHEST = 1e4  # largest ratio of radii or masses; beyond it the equations lose digits (use the limit, a wall)
 
 
 def _check_laws(scene: System) -> None:
-    """InputError for laws that do not go together, or with what the scene has."""
+    """Raise InputError for laws that contradict each other or the scene's tables."""
     model, bridge, given = scene.model, scene.bridge, dict(scene.given)
     if model.film == "constant-volume":
         if bridge is None:
@@ -269,7 +269,7 @@ OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lam
 
 
 def _check_speed(scene: System) -> None:
-    """InputError if the numbers are so far apart that a Stokes number or speed leaves the range of a double."""
+    """Raise InputError if the Stokes number or the speed leaves the range of a double."""
     given, a = dict(scene.given), scene.reduced_radius
     drag = 6 * math.pi * scene.liquid.viscosity * a * a
     if not 0 < drag < math.inf or not 0 < scene.stokes_per_speed < math.inf:

@@ -1,4 +1,4 @@
-"""The quantities and dimensionless groups that a scene's entries make, by the emitted formulas."""
+"""Quantities and dimensionless groups of a scene, by the emitted formulas."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "gene
 
 
 def formulas(scene: System) -> dict[str, Formula]:
-    """Group or scale -> its emitted formula and the names of what that takes, for the scene's partner and laws.
+    """Emitted formulas by group or scale, each with the names of its arguments, for the scene's partner and laws.
 
     A formula takes floats or CasADi expressions.
     """
@@ -45,19 +45,19 @@ def formulas(scene: System) -> dict[str, Formula]:
 
 
 def _nothing(surface_tension: Any) -> Any:
-    """Ce beside a wall: nothing turns."""
+    """Ce with a wall: 0, as there is no line of centres that rotates."""
     return 0 * surface_tension
 
 
 def law_module(scene: System, slot: str, name: str) -> Any:
-    """The emitted module of a law, the library's or the scene's own."""
+    """The emitted module of a law, from the library or the user's model."""
     if scene.package is not None and name in scene.package.laws(slot):
         return scene.package.law(slot, name)
     return emitted.law(slot, name)
 
 
 def si_values(scene: System, speed: float | None, angle: float | None) -> dict[str, float]:
-    """The scene's quantities under the vocabulary's names, SI; those of the impact as far as they are given."""
+    """The scene's quantities by vocabulary name, SI; speed and angle only if given."""
     impact = {"speed": speed, "angle": angle}
     return _without_impact(scene) | {name: value for name, value in impact.items() if value is not None}
 

@@ -1,7 +1,7 @@
-"""From entries to the quantities of the vocabulary that groups are made of: numbers, arrays or CasADi expressions.
+"""Quantities of the vocabulary from scene entries, as numbers, arrays or CasADi expressions.
 
-An entry that is a quantity by itself says so in the schema (`Field.quantity`). What several entries make together is
-here: masses from densities, the reduced quantities of a pair, films from coatings, volumes, the normal speed.
+The schema states which entries are quantities themselves (`Field.quantity`). Quantities that depend on several entries
+are computed here: masses from densities, reduced quantities of a pair, films from coatings, volumes, the normal speed.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ NO_GLASS = 1e60  # Pa: of a liquid that never turns solid; no film has such a pr
 
 @dataclass(frozen=True)
 class Ways:
-    """What the numbers of entries do not say themselves.
+    """How the numbers of entries are meant where their names do not say it.
 
     Arguments:
         wall: the partner is a wall.
@@ -44,10 +44,10 @@ class Ways:
 
 
 def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
-    """Quantities by their names in the vocabulary, SI.
+    """Quantities by vocabulary name, SI.
 
     Arguments:
-        entries: by dotted name, SI; choices, flags and words are passed over.
+        entries: by dotted name, SI; choices, flags and words are ignored.
     """
     present = {name.partition(".")[0] for name in entries}
     entries = {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in present} | dict(entries)
@@ -80,7 +80,7 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
 
 
 def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Half the radius and half the mass of the first sphere, from whichever entries say them."""
+    """Half the radius (m) and half the mass (kg) of the first sphere, from radius, mass or density."""
     found = {
         FIELDS[name].quantity: FIELDS[name].factor * value
         for name, value in entries.items()
@@ -122,7 +122,7 @@ def normal_speed(relative: Any, angle: Any) -> Any:
 
 
 def shared(ratio: Any) -> Any:
-    """A reduced quantity of a pair over that of two equal spheres: exactly 1 for a ratio of 1, 2 for None, a wall."""
+    """A reduced quantity of a pair relative to two equal spheres: exactly 1 for ratio 1; 2 for a wall (ratio None)."""
     return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
 
 
@@ -167,7 +167,7 @@ def _ratios(found: Mapping[str, Any], entries: Mapping[str, Any], wall: bool) ->
 
 
 def _mass(radius: Any, density: Any) -> Any:
-    return 4 / 3 * math.pi * radius * radius * radius * density  # inf rather than OverflowError
+    return 4 / 3 * math.pi * radius * radius * radius * density  # yields inf instead of OverflowError
 
 
 def _cube(length: Any) -> Any:

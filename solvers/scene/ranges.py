@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from ..errors import InputError
 
 Ends = Callable[[str, str], tuple[float, float]]
-MOST = 10_000_000  # values, or collisions of a map, which takes 130 bytes for each: more is a slip of the hand
+MOST = 10_000_000  # values, or collisions of a map at 130 bytes each; a larger count is probably a typing error
 
 
 def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int = MOST) -> list[float]:
@@ -18,12 +18,12 @@ def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int 
     Arguments:
         text: `LO:HI:N` or `log:LO:HI:N`, N = 1 only with LO = HI; or a single value.
         label: option that the range belongs to, for the error.
-        read: turns both ends into SI numbers, or raises InputError.
-        unit: said of LO and HI in the error (`in degrees`).
-        most: values there may be.
+        read: converts both ends to SI numbers, or raises InputError.
+        unit: unit of LO and HI for the error (`in degrees`).
+        most: largest number of values.
 
     Raises:
-        InputError: not a range, LO above HI, a count that is no whole number, too large or does not fit.
+        InputError: not a range, LO above HI, or an invalid count.
     """
     accepted = (
         f"LO:HI:N or log:LO:HI:N{' ' + unit if unit else ''}, LO < HI and N >= 2 (or LO = HI and N = 1), or one value"
@@ -52,14 +52,14 @@ def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int 
         inner = [math.exp(log_low + s * (log_high - log_low)) for s in steps]
     else:
         inner = [low + s * (high - low) for s in steps]
-    return [low, *inner, high]  # the ends exactly as they were given
+    return [low, *inner, high]  # the ends exactly as given, without rounding
 
 
 def check_cells(ranges: Mapping[str, str | None]) -> None:
-    """InputError if ranges have more values together than a map can hold, before any of them is written out.
+    """Raise InputError if the product of the ranges' counts exceeds what a map can hold, before allocating any.
 
     Arguments:
-        ranges: option -> its range; what is wrong with one by itself is for `parse_range` to say.
+        ranges: option -> its range; malformed ranges are ignored here and reported by `parse_range`.
     """
     cells, sizes = 1, []
     for label, text in ranges.items():

@@ -1,4 +1,4 @@
-"""A scene: two spheres, their film, and what holds them; immutable, and right as soon as it exists."""
+"""A scene: two particles, their liquid film and the forces that act on them; immutable and validated."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from .user_model_source import open_package
 
 @dataclass(frozen=True)
 class Scene:
-    """What collides, in SI units and radians.
+    """A colliding pair and its impact, in SI units and radians.
 
-    A scene *is* its entries, as the file or the caller gave them; the tables are read from those, so that
-    one never contradicts the other. Two scenes are equal if their names and SI entries are.
+    A scene stores its entries as the file or the caller gave them; the tables are derived from those, so the two cannot
+    disagree. Two scenes are equal if their names and SI entries are.
 
     Arguments:
         name: any text, may be empty.
         given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
-        comments: (dotted name, comment) as the file has them; `assumed ...` stands behind a guess.
+        comments: (dotted name, comment) of the file; `assumed ...` marks an assumed value.
         package: a user's model, whose quantities and laws the entries may name.
 
     Raises:
-        InputError: names the first entry that is wrong, its value, and what is accepted.
+        InputError: names the first wrong entry, its value, and what is accepted.
 
     >>> scene = Scene.load("granulation").with_entries({"liquid.viscosity": "3 Pa s"})
     >>> scene.liquid.viscosity
@@ -59,7 +59,7 @@ class Scene:
     ways: Ways = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Read the tables and hold them against the rules."""
+        """Read the tables and check the rules."""
         rules.check_name(self.name)
         rules.check_pairs(self.given, "given")
         rules.check_pairs(self.comments, "comments")
@@ -90,11 +90,11 @@ class Scene:
             object.__setattr__(self, name, value)
         rules.check_together(self)
 
-    # ---- where scenes come from and go to
+    # ---- reading and writing
 
     @classmethod
     def load(cls, source: str | Path | Scene, model: str | Path | Package | None = None) -> Scene:
-        """Return the scene of a file, of a preset's name, or the scene that it is already.
+        """Return the scene of a file or preset; a Scene is returned as it is.
 
         Arguments:
             model: folder of a user's model (`wetdoublet generate MODEL.py --out DIR`), or the model file.
@@ -141,16 +141,16 @@ class Scene:
         return cls(tables.get("name", ""), tuple(entries.items()), tuple((comments or {}).items()), package)
 
     def to_toml(self) -> str:
-        """Return the scene file: units as they were given, and the comments on what is assumed."""
+        """Return the scene as a TOML file, with units as given and comments on assumed values."""
         return self._written
 
     @cached_property
     def _written(self) -> str:
-        """The scene file, for all results that carry it; equal scenes may have been given in other units."""
+        """The scene file, cached because every result carries it; equal scenes may differ in units."""
         return scenefile.write(self.name, dict(self.given), dict(self.comments))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the nested tables as a scene file has them (text carries units)."""
+        """Return the nested tables as in a scene file (text carries units)."""
         tables: dict[str, Any] = {"name": self.name} if self.name else {}
         for entry, value in self.given:
             table, _, key = entry.partition(".")
@@ -159,7 +159,7 @@ class Scene:
 
     @property
     def fields(self) -> Mapping[str, Field]:
-        """What this scene may say: dotted name -> entry, with the unit in which `si` has it."""
+        """The entries that this scene may have: dotted name -> `Field`, with the unit of the value in `si`."""
         known = fields(self.package)
         if self.ways.volume != "absolute":
             return known
@@ -167,18 +167,18 @@ class Scene:
 
     @property
     def custom(self) -> Mapping[str, Raw]:
-        """What a user's model declares: name -> value with its unit, as it was given or by default."""
+        """Quantities declared by a user's model: name -> value with its unit, given or default."""
         return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
 
     def _kept(self, entry: Field, raw: object) -> Raw:
-        """A value in the form a scene keeps it; of a model's own quantity with its unit."""
+        """A value as a scene stores it; a quantity of a user's model with its unit."""
         kept = entry.kept(raw)
         own = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
         return f"{kept!r} {entry.unit}" if own else kept
 
     @property
     def entries(self) -> Mapping[str, float | str]:
-        """Dotted name -> SI number or choice, of what was given only, in the order of the file."""
+        """The given entries: dotted name -> SI number or choice, in the order of the file."""
         return dict(self.si)
 
     @property
@@ -188,7 +188,7 @@ class Scene:
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What in this scene is a guess, one line each."""
+        """One line for each assumed value of this scene."""
         given = dict(self.given)
         said = [f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.guesses]
         return (*said, *self._flowing())
@@ -207,15 +207,15 @@ class Scene:
             told = f"{parts} of the coatings, {SHADOW}"
         return (f"bridge.volume = {self.bridge.volume:.4g} (assumed: {told})",)
 
-    # ---- the same scene, but
+    # ---- changed copies
 
     def with_model(self, model: str | Path | Package) -> Self:
-        """Return the scene with a user's model: its laws take their slots, its quantities their defaults.
+        """Return the scene with a user's model: its laws fill their slots, its quantities take their defaults.
 
-        What is changed afterwards (`with_entries({"bridge.law": "willett"})`) stands.
+        Later changes (`with_entries({"bridge.law": "willett"})`) override these choices.
 
         Raises:
-            InputError: no such model, a stale one, or a scene that lacks what a law acts in.
+            InputError: no such model, a stale one, or a scene without the table that a law needs.
         """
         package = open_package(model, "model")
         given = {
@@ -250,7 +250,7 @@ class Scene:
         angle: float | str | None = None,
         relative_speed: float | str | None = None,
     ) -> Self:
-        """Return the scene with another impact; `stokes`, `speed` or `relative_speed` replaces whichever it had.
+        """Return the scene with another impact; `stokes`, `speed` or `relative_speed` replaces any of the three.
 
         Plain numbers are SI and radians. InputError if two of the three are given.
         """
@@ -270,11 +270,11 @@ class Scene:
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
         return type(self)(self.name, tuple(entries), comments, self.package)
 
-    # ---- the pair
+    # ---- quantities of the pair
 
     @property
     def wall(self) -> bool:
-        """Whether the partner is a wall."""
+        """True if the partner is a wall."""
         return self.ways.wall
 
     @property
@@ -293,32 +293,32 @@ class Scene:
 
     @property
     def reduced_radius(self) -> float:
-        """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 beside a wall."""
+        """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 with a wall."""
         return float(self.particles.reduced_radius * shared(self.radius_ratio))
 
     @property
     def reduced_mass(self) -> float:
-        """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 beside a wall."""
+        """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 with a wall."""
         return float(self.particles.reduced_mass * shared(self.mass_ratio))
 
-    # ---- lengths, and the impact both ways
+    # ---- lengths, and the impact as Stokes number and as speed
 
     @property
     def rupture_gap(self) -> float:
-        """x_f in m: of the bridge, or without one of the film."""
+        """x_f in m: rupture gap of the bridge, or without one the film thickness."""
         if self.bridge is None:
             return self.liquid.film_thickness
         return scaled("rupture_gap", self) * self.liquid.film_thickness
 
     def elastic_length(self, speed: float) -> float | None:
-        """Return x_r in m, the gap at which the spheres' own elasticity stops `speed` (m/s); None without it."""
+        """Return x_r in m, the gap at which elastic deformation stops `speed` (m/s); None without Young's modulus."""
         if self.particles.youngs_modulus is None:
             return None
         return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
 
     @property
     def stokes_per_speed(self) -> float:
-        """m/(6 pi mu a^2) in s/m: a Stokes number over its normal speed."""
+        """m/(6 pi mu a^2) in s/m: ratio of the Stokes number to the normal speed."""
         return scaled("stokes", self, speed=1.0)
 
     def stokes_of(self, speed: float) -> float:
@@ -351,7 +351,7 @@ class Scene:
         return self.impact.angle
 
     def need_impact(self) -> tuple[float, float]:
-        """Return (normal speed in m/s, angle in rad); InputError if the scene leaves them open."""
+        """Return (normal speed in m/s, angle in rad); InputError if the scene does not give both."""
         if self.speed is None and self.impact.relative_speed is None:
             accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed, --relative-speed'
             raise InputError("impact.stokes", None, accepted)
@@ -363,7 +363,7 @@ class Scene:
 
 @lru_cache(maxsize=32)
 def _read(text: str, origin: str) -> Scene:
-    """The scene of a text: read once, since scenes do not change."""
+    """The scene of a TOML text, cached because scenes are immutable."""
     return Scene.from_toml(text, origin)
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 OF_THE_PAPER = ("granulation", "pendulum", "granulation-dry-bridge")
 PRESETS = (*OF_THE_PAPER, "glass-beads-water", "lactose-pvp", "pellet-coating")
 _FOLDER = Path(__file__).with_name("presets")
-_LARGEST = 200_000  # bytes: no scene is longer, and /dev/zero has no end
+_LARGEST = 200_000  # bytes; bounded because a file such as /dev/zero has no end
 _HEADER = re.compile(r"\s*\[\s*([A-Za-z_]+)\s*\]")
 _REMARK = re.compile(r"\s*([A-Za-z_]+)\s*=\s*(?:\"(?:[^\"\\\\]|\\\\.)*+\"|'[^']*+'|[^\"'#]*+)\s*#\s*(.*\S)")
 
@@ -32,7 +32,7 @@ def read_text(source: str | Path) -> tuple[str, str]:
     accepted = "a scene file (TOML) or a preset: " + ", ".join(PRESETS)
     if not isinstance(source, (str, os.PathLike)):
         raise InputError("scene", source, f"a Scene, {accepted}", "is not the name of a file")
-    if isinstance(source, str) and not source.strip():  # Path("") would be the folder we are in
+    if isinstance(source, str) and not source.strip():  # Path("") would be the current folder
         raise InputError("scene", source, accepted, "is an empty name")
     try:
         content = bounded.read(Path(source), _LARGEST)
@@ -56,7 +56,7 @@ def template(name: str) -> str:
 
 
 def description(preset: str) -> str:
-    """Return what a preset is, in a line: the comment that its file begins with."""
+    """Return the description of a preset: the first comment of its file."""
     return read_text(preset)[0].partition("\n")[0].removeprefix("#").strip()
 
 
@@ -72,7 +72,7 @@ def parse(text: str, origin: str) -> dict[str, Any]:
         raise InputError(origin, None, "a scene in TOML: [TABLE] and KEY = VALUE", "is nested too deeply")
     try:
         return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # ValueError: TOMLDecodeError, and integers of 5000 digits
+    except (ValueError, RecursionError) as error:  # TOMLDecodeError, integers of 5000 digits
         said = str(error)
         at = re.search(r"\s*\(at (?:line (\d+), column \d+|end of document)\)", said)
         lines = text.splitlines() or [""]
@@ -95,7 +95,7 @@ def remarks(text: str) -> dict[str, str]:
 
 
 def flatten(tables: Mapping[str, Any], package: Package | None = None) -> dict[str, Any]:
-    """Return entries by dotted name, tables kept together, `name` left out; InputError for what is no table."""
+    """Return entries by dotted name, in the order of their tables, without `name`; InputError for a non-table."""
     entries: dict[str, Any] = {}
     for table, content in tables.items():
         if table == "name":
@@ -116,7 +116,7 @@ def flatten(tables: Mapping[str, Any], package: Package | None = None) -> dict[s
 
 
 def write(name: str, entries: Mapping[str, Raw], comments: Mapping[str, str]) -> str:
-    """Return a scene as TOML: units as they were given, SI where a plain number was."""
+    """Return a scene as TOML: units as given; SI units for plain numbers."""
     lines = [f"name = {_text(name)}"] if name else []
     table = ""
     for entry, value in entries.items():
@@ -129,8 +129,8 @@ def write(name: str, entries: Mapping[str, Raw], comments: Mapping[str, str]) ->
 
 
 def written(entry: str, value: Raw) -> Raw:
-    """Return a kept value as a scene file has it: text with its unit, or a plain number."""
-    unit = FIELDS[entry].unit if entry in FIELDS else None  # a model's own carry theirs
+    """Return a stored value as in a scene file: text with its unit, or a plain number."""
+    unit = FIELDS[entry].unit if entry in FIELDS else None  # quantities of a user's model are stored with their units
     return f"{value!r} {unit}" if unit and not isinstance(value, str) else value
 
 

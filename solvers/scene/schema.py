@@ -1,4 +1,4 @@
-"""Every entry a scene file may have: its meaning, unit, range and whether it must be there."""
+"""All entries of a scene file: meaning, unit, range, and whether they are required."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 @dataclass(frozen=True)
 class Range:
-    """The numbers an entry may take, in words (for people) and as a test (SI)."""
+    """The interval of accepted numbers, in words (for messages) and as a test (SI)."""
 
     text: str
     holds: Callable[[float], bool]
@@ -49,11 +49,11 @@ WETTING_ANGLE = Range("from 0 deg to 90 deg", lambda v: 0 <= v <= math.pi / 2)
 class Field:
     """One entry: a quantity (with `unit`), a plain number (without), a choice (with `choices`) or a `flag`.
 
-    A flag is there, as true, or left out.
+    A flag is either true or absent.
 
     Arguments:
-        gives: the quantity of the vocabulary that the entry times `factor` is, if it has another name; empty if it
-            takes other entries as well to make one (`quantities`).
+        gives: vocabulary name of the quantity that equals the entry times `factor`, if it differs from the entry's;
+            empty if the quantity depends on other entries too (`quantities`).
         default: its number, SI, where its table is there without it.
         or_unit: the unit of what a plain number may be given as instead.
         words: what may stand in place of a number.
@@ -80,14 +80,14 @@ class Field:
 
     @cached_property
     def quantity(self) -> str:
-        """Name in the vocabulary of what the entry is; empty if it is no quantity by itself."""
+        """Vocabulary name of the entry's quantity; empty if the entry alone does not determine one."""
         if self.choices or self.flag:
             return ""
         return self.name.partition(".")[2] if self.gives is None else self.gives
 
     @property
     def accepts(self) -> str:
-        """What is accepted, in words."""
+        """The accepted values, in words."""
         if self.flag:
             return f"true, for {self.what}, or no such entry"
         if self.choices:
@@ -99,15 +99,15 @@ class Field:
         return said + "".join(f', or "{word}"' for word in self.words)
 
     def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
-        """Return the SI number, or the choice, that `raw` stands for.
+        """Return the SI number or the choice given by `raw`.
 
         Arguments:
             raw: text with a unit, a number (SI), or a choice.
             label: name in the error, when it is not the field's own (an option).
-            from_file: TOML tells numbers from text and has no default unit: a quantity must be text, a number not.
+            from_file: a quantity must be text with a unit, and a plain number must not be text.
 
         Raises:
-            InputError: anything else, and a number outside the range.
+            InputError: an invalid value, or a number outside the range.
         """
         label = label or self.name
         if self.flag:
@@ -133,7 +133,7 @@ class Field:
         return value
 
     def number(self, raw: object, *, label: str | None = None) -> float:
-        """Return what `read` does, for a field that is no choice."""
+        """Return the SI number as `read` does, for a field that is no choice."""
         value = self.read(raw, label=label)
         if not isinstance(value, float):
             raise InputError(label or self.name, raw, self.accepts, "is not a number")
@@ -171,7 +171,7 @@ class Field:
             return math.inf
 
     def kept(self, raw: object) -> Raw:
-        """Return a value that `read` took, in the form a scene keeps it: text as it was given, numbers plain."""
+        """Return a value accepted by `read` as a scene stores it: text as given, numbers as plain floats."""
         if self.flag:
             return True
         if isinstance(raw, str) and (self.unit or self.choices or raw.strip() in self.words):
@@ -256,7 +256,7 @@ DEFAULTS: dict[str, float] = {name: field.default for name, field in FIELDS.item
 
 
 def unknown_entry(name: str, value: object) -> InputError:
-    """Return the error for an entry that no scene has, with the nearest that it may have."""
+    """Return the error for an unknown entry, with the nearest known one."""
     table, _, key = name.partition(".")
     here = TABLES.get(table, ())
     if here and not key:

@@ -1,4 +1,4 @@
-"""What collides, as far as rules and formulas look at it: entries in SI, by table, and what pairs have in common."""
+"""The interface of a scene that entry rules and formulas use: SI entries, tables and quantities of the pair."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .user_model import Package
 
 
 class System(Hashable, Protocol):
-    """A scene, seen from the rules that it is held against and the formulas of its groups."""
+    """Protocol of `Scene` for entry rules and the formulas of groups, which lie below it in the import order."""
 
     @property
     def given(self) -> tuple[tuple[str, Raw], ...]: ...

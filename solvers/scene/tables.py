@@ -1,4 +1,4 @@
-"""The tables of a scene, in SI: immutable, and each judges its own entries."""
+"""The tables of a scene, in SI; immutable, and each validates its own entries."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from .schema import FIELDS
 
 @dataclass(frozen=True)
 class Table:
-    """Base of the tables: every entry is read as the schema says."""
+    """Base of the tables; every entry is read by its `Field` of the schema."""
 
     name: ClassVar[str]
 
     def __post_init__(self) -> None:
-        """Read every entry as the schema says; InputError names the first that is wrong."""
+        """Read every entry by its `Field`; InputError names the first wrong one."""
         for key in (field.name for field in dataclasses.fields(self)):
             value = getattr(self, key)
             if value is not None:
@@ -25,7 +25,7 @@ class Table:
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Self:
-        """Return the table of entries that have been read already (a model may name laws of its own)."""
+        """Return the table of entries already read, without reading them again (a user's model may add laws)."""
         made = object.__new__(cls)
         for field in dataclasses.fields(cls):
             object.__setattr__(made, field.name, values.get(field.name, field.default))
@@ -34,7 +34,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Particles(Table):
-    """The spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic criterion).
+    """The spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic rebound criterion).
 
     a = R/2 and m = M/2 of either sphere; with a `Partner`, of the first. `Scene.reduced_radius` is that of the pair.
     """
@@ -61,7 +61,7 @@ class Liquid(Table):
 
 @dataclass(frozen=True)
 class Bridge(Table):
-    """The capillary bridge: sigma (N/m), V/R^3 with R = 2a, phi (rad), the law of its force and where it ruptures."""
+    """The capillary bridge: sigma (N/m), V/R^3 with R = 2a, phi (rad), the force law and the rupture law."""
 
     name: ClassVar[str] = "bridge"
     surface_tension: float
@@ -81,7 +81,7 @@ class Attraction(Table):
 
 @dataclass(frozen=True)
 class Partner(Table):
-    """What the sphere of `Particles` meets: another sphere, R (m) and M (kg), or a wall (`wall` is "true")."""
+    """The collision partner: another sphere, R (m) and M (kg), or a wall (`wall` is "true")."""
 
     name: ClassVar[str] = "partner"
     radius: float | None = None
@@ -91,7 +91,7 @@ class Partner(Table):
 
 @dataclass(frozen=True)
 class Pendulum(Table):
-    """The strings: l (m), g (m/s^2), exact or for small angles."""
+    """The pendulum strings: l (m), g (m/s^2), exact or for small angles."""
 
     name: ClassVar[str] = "pendulum"
     length: float
@@ -101,7 +101,7 @@ class Pendulum(Table):
 
 @dataclass(frozen=True)
 class Model(Table):
-    """Which of the selectable variants of the equations."""
+    """The selected variants of the equations."""
 
     name: ClassVar[str] = "model"
     arm: str = "midgap"
@@ -112,7 +112,7 @@ class Model(Table):
 
 @dataclass(frozen=True)
 class Impact(Table):
-    """Initial contact: Stokes number, normal or relative speed (m/s), and angle (rad), as far as they are given."""
+    """Initial contact: Stokes number, normal or relative speed (m/s), and angle (rad); all may be given later."""
 
     name: ClassVar[str] = "impact"
     stokes: float | None = None

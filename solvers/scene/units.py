@@ -1,8 +1,8 @@
-"""A number with its unit, read as an SI float of the dimension that is demanded.
+"""Numbers with units, converted to SI floats of a required dimension.
 
-The commonest spellings stand in a table of exact decimal factors, so that a preset never waits for pint
-(0.4 s) and its numbers are correctly rounded. Everything else goes to pint, which also judges the dimension; what it
-has said of a unit is kept in our cache. Pint's own cache, a pickle in a folder that nobody checks, is not used.
+Common spellings are in a table of exact decimal factors, so that a preset does not import pint (0.4 s) and its numbers
+are correctly rounded. Other units are converted by pint, which also checks the dimension; the results are cached.
+Pint's own cache is not used, because it unpickles files from an unchecked folder.
 """
 
 from __future__ import annotations
@@ -87,16 +87,16 @@ COMMON: dict[str, tuple[str, Decimal]] = {
 _LETTERS = (("µ", "u"), ("μ", "u"), ("°", "deg"), ("⁻", "-"), ("¹", "^1"), ("²", "^2"), ("³", "^3"), ("**", "^"),
             ("-^", "^-"))  # fmt: skip
 _JOINED = {"mPas": "mPa s", "Pas": "Pa s", "Ns/m^2": "N s/m^2", "mNs/m^2": "mN s/m^2"}
-_LONGEST = 200  # characters: enough for any number, and for any unit
-_EXACT = Context(prec=_LONGEST + 100)  # a product of table and text is then not rounded before it becomes a double
+_LONGEST = 200  # most characters of a number and of a unit
+_EXACT = Context(prec=_LONGEST + 100)  # the product of factor and text is then rounded only once, to a double
 _NUMBER = r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|nan|inf(?:inity)?)"
 _QUANTITY = re.compile(rf"({_NUMBER})(.*)", re.IGNORECASE | re.DOTALL)
-# What pint is given to parse: names, products, quotients and small integer powers. No numbers to compute with:
-# m^9^9^9 would keep it busy for ever.
-# Nothing is tried in a second way (++): a long word would take for ever.
+# The syntax passed to pint: names, products, quotients and small integer powers. No other numbers, because
+# m^9^9^9 would take unbounded time.
+# Possessive quantifiers (++) prevent backtracking, which is exponential for a long word.
 _UNIT = re.compile(r"(?:[^\W\d_]\w*+(?:\^-?[0-9]{1,2})?+|\)(?:\^-?[0-9]{1,2})?+|[\s*/(]|1(?=\s*/))++")
 
-# Undefined names, bad syntax, offset and logarithmic units: pint has many ways, and all mean an unknown unit here.
+# Pint's exceptions for undefined names, bad syntax, offset and logarithmic units; all mean an unknown unit here.
 _PINT_SAYS_NO = (
     ArithmeticError,
     AssertionError,
@@ -110,7 +110,7 @@ _PINT_SAYS_NO = (
 
 
 def number(text: str, field: str, accepted: str) -> float:
-    """Return the plain number written in `text`; InputError naming `field` if it is none (nan and inf pass)."""
+    """Return the plain number in `text`; InputError naming `field` if it is none (nan and inf pass)."""
     if not is_number(text):
         raise InputError(field, text, accepted, "is not a number")
     return float(text)
@@ -134,13 +134,13 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
         text: such as `"50 um"`; the space may be left out.
         si: the unit of the result, coherent SI.
         field: name of the entry or option, for the error.
-        accepted: what is accepted there, for the error.
+        accepted: description of accepted values, for the error.
 
     Returns:
         the value in `si`, finite; correctly rounded for the units of `COMMON`.
 
     Raises:
-        InputError: no number, not finite, unit missing, unknown or of another dimension.
+        InputError: no number, not finite, or a unit that is missing, unknown or of another dimension.
     """
     match = _QUANTITY.fullmatch(text.strip()) if len(text) <= _LONGEST else None
     if match is None:
@@ -164,15 +164,15 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
 
 
 def factor(unit: str, si: str | None, field: str, accepted: str, value: object) -> float:
-    """Return how many `si` one `unit` is, the unit of a value that another library holds.
+    """Return the factor from `unit`, the unit of another library's value, to `si`.
 
     Arguments:
-        unit: as the library writes it.
-        si: the unit of the result; None: a plain number is wanted.
-        value: what carries it, for the error.
+        unit: spelling of the other library.
+        si: the unit of the result; None for a dimensionless number.
+        value: the value with this unit, for the error.
 
     Raises:
-        InputError: a unit that is unknown, or of another dimension. A plain number is an angle in radians.
+        InputError: a unit that is unknown, or of another dimension. Dimensionless units are accepted as radians.
     """
     unit = spelling(unit)
     plain = unit in ("", "1", "dimensionless")
@@ -184,7 +184,7 @@ def factor(unit: str, si: str | None, field: str, accepted: str, value: object) 
 
 
 def spelling(unit: str) -> str:
-    """Return the one spelling under which a unit is looked up (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
+    """Return the canonical spelling of a unit (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
     for given, ours in _LETTERS:
         unit = unit.replace(given, ours)
     unit = re.sub(r"\s*([/^])\s*", r"\1", unit)
@@ -195,7 +195,7 @@ def spelling(unit: str) -> str:
 
 
 def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:
-    """Return how many `si` one `unit` is, by pint; InputError if it is unknown or something else."""
+    """Return the factor from `unit` to `si` by pint; InputError for an unknown unit or another dimension."""
     try:
         if not _UNIT.fullmatch(unit):
             raise ValueError(unit)
@@ -205,21 +205,21 @@ def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -
         known = [name for name, (kind, _) in COMMON.items() if kind == si]
         hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
         raise InputError(field, value, accepted, f'has the unknown unit "{unit}"{hint}') from None
-    # Root units rather than dimensionality: to pint an angle is as dimensionless as a percentage.
+    # Compare root units, not dimensionality: for pint both an angle and a percentage are dimensionless.
     if root != ours:
         raise InputError(field, value, accepted, f"is {_in_words(root)}, not {_demanded(si)}")
-    if zero:  # degrees Celsius, decibels
+    if zero:  # units with an offset, such as degrees Celsius or decibels
         raise InputError(field, value, accepted, f'has the unit "{unit}", whose zero is not zero')
     return float(size / our_size)
 
 
 def _demanded(si: str) -> str:
-    """Return in words what is measured in a coherent SI unit, of the table or a model's own."""
+    """Return in words the quantity measured in a coherent SI unit, of the table or a user's model."""
     return DIMENSIONS[si] if si in DIMENSIONS else _in_words(_judged(si)[1])
 
 
 def _in_words(powers: Powers) -> str:
-    """Return what a product of pint's root units measures: `a force`, or a power product of SI units."""
+    """Return in words the quantity of a product of pint's root units: `a force`, or a power product of SI units."""
     named = next((words for si, words in _WORDS.items() if _judged(si)[1] == powers), None)
     if named:
         return named
@@ -230,9 +230,9 @@ def _in_words(powers: Powers) -> str:
 
 @cache
 def _judged(unit: str) -> tuple[float, Powers, float]:
-    """Return how many of pint's root units a unit is, their powers, and what its zero is in them.
+    """Return a unit's factor to pint's root units, their powers, and the value of its zero in them.
 
-    Any of _PINT_SAYS_NO if it is unknown. Pint's root of mass is the gram, and the radian is one.
+    Raises one of _PINT_SAYS_NO if it is unknown. Pint's root unit of mass is the gram; the radian is a root unit.
     """
     import hashlib
     from importlib.metadata import version

@@ -1,7 +1,7 @@
-"""A user's model beside a scene: what `wetdoublet generate MODEL.py --out DIR` has emitted, verified before it is used.
+"""A user's model: the output of `wetdoublet generate MODEL.py --out DIR`, verified before use.
 
-A `Package` is its manifest: the laws that fill slots, the quantities that scenes fill in `[custom]`. Code is read from
-its folder when a collision needs it, and only if every file has the digest that the manifest gives.
+A `Package` is identified by its manifest: the laws for slots and the quantities that scenes give in `[custom]`. Code is
+read from its folder when a collision needs it, and only if the file has the digest given in the manifest.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ ENTRIES = {
 
 @dataclass(frozen=True)
 class Package:
-    """A user's model as scenes know it.
+    """A user's model as part of a scene.
 
     Arguments:
-        text: its manifest.
-        folder: where its files are, or the model file that they were derived from.
-        files: their texts by path, where they are in no folder.
+        text: the manifest, JSON.
+        folder: the folder of the files, or the model file that they were derived from.
+        files: texts by path, if the files are not in a folder.
 
-    A model that is only described (a map read back from a file) has neither.
+    A model that is only described (from a map file) has neither.
     """
 
     text: str = field(repr=False)
@@ -53,7 +53,7 @@ class Package:
     files: Mapping[str, str] | None = field(default=None, compare=False, repr=False)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what it is, not what has been loaded: a worker verifies the files again."""
+        """Pickle the arguments, not the loaded modules; a worker verifies the files again."""
         return Package, (self.text, self.folder, self.files)
 
     @cached_property
@@ -69,11 +69,11 @@ class Package:
     def digest(self) -> str:
         return hashlib.sha256(self.text.encode()).hexdigest()
 
-    # ---- what scenes may say
+    # ---- entries of scenes
 
     @cached_property
     def fields(self) -> dict[str, Field]:
-        """Entries of a scene with this model: the library's with more laws to choose from, and `[custom]`."""
+        """Entries of a scene with this model: the library's, with the model's laws added, and `[custom]`."""
         found = dict(FIELDS)
         for slot, entry in ENTRIES.items():
             own = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
@@ -90,22 +90,22 @@ class Package:
 
     @property
     def defaults(self) -> dict[str, Raw]:
-        """Entries of `[custom]` that a scene need not give."""
+        """Entries of `[custom]` that have defaults."""
         given = {f"{TABLE}.{one['name']}": one["default"] for one in self.manifest["quantities"]}
         return {name: value for name, value in given.items() if value is not None}
 
     def completed(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Entries with the defaults of what is not given."""
+        """The given entries, completed with defaults."""
         return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
-        """InputError for a quantity that has no default and is not among the entries."""
+        """Raise InputError for a quantity that has no default and is not among the entries."""
         for name in self.quantities:
             if f"{TABLE}.{name}" not in entries:
                 raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
 
     def chosen(self, given: Mapping[str, Any]) -> dict[str, str]:
-        """Entries by which the model's laws take their slots; InputError if the scene lacks what one acts in."""
+        """Entries that select the model's laws; InputError if the scene lacks the table that a law needs."""
         present = {name.partition(".")[0] for name in given} | {"model"}
         found = {}
         for slot in dict.fromkeys(law["slot"] for law in self.manifest["laws"]):
@@ -119,45 +119,45 @@ class Package:
 
     @property
     def unnamed(self) -> tuple[str, ...]:
-        """Slots that its laws fill and that no entry of a scene names."""
+        """Slots of the model's laws that no entry of a scene selects."""
         slots = dict.fromkeys(law["slot"] for law in self.manifest["laws"])
         return tuple(slot for slot in slots if ENTRIES.get(slot) not in FIELDS)
 
-    # ---- its code
+    # ---- emitted code
 
     def laws(self, slot: str) -> tuple[str, ...]:
-        """Names of its laws for a slot; the first is the default."""
+        """Names of the model's laws for a slot; the first is the default."""
         return tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
 
     def extra(self, slot: str, function: str) -> tuple[str, ...]:
-        """States and groups that a slot's function takes beside its own arguments."""
+        """States and groups that a slot's function takes in addition to the slot's arguments."""
         return tuple(self.manifest["extra"].get(f"{slot}.{function}", ()))
 
     def changes(self, slots: tuple[str, ...]) -> bool:
-        """Whether a structure with these slots is another one with this model."""
+        """True if this model changes the structure with these slots."""
         return bool({key.partition(".")[0] for key in self.manifest["extra"]} & set(slots))
 
     def law(self, slot: str, name: str) -> ModuleType:
-        """The module of one of its laws."""
+        """The module of one of the model's laws."""
         return _module(self, self.law_file(slot, name))
 
     def law_file(self, slot: str, name: str) -> str:
-        """The file of one of its laws, in its folder."""
+        """Path of one of the model's laws, relative to the folder."""
         return next(str(law["file"]) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
 
     def text_of(self, path: str) -> str:
-        """Text of one of its files, verified and never run."""
+        """Text of one of the files, verified but not executed."""
         return self._verified(path).decode()
 
     def structure(self, name: str) -> ModuleType:
-        """The module of a structure that it changes; derived on first use if it was not emitted."""
+        """The module of a structure that the model changes; derived on first use if not emitted."""
         if name in self.manifest["structures"]:
             return _module(self, f"{name}.py")
         text = self.structure_text(name).encode()
         return executed(f"wetdoublet_model_{self.digest[:12]}.{name}", text)
 
     def structure_text(self, name: str) -> str:
-        """Text of the module of a structure that it changes."""
+        """Text of the module of a structure that the model changes."""
         if name in self.manifest["structures"]:
             return self.text_of(f"{name}.py")
         source = self.source
@@ -170,7 +170,7 @@ class Package:
         return derived_once(f"{self.digest[:16]}-{name}.py", derived)
 
     def structure_header(self, name: str, tangent: bool = False) -> str:
-        """C header of a structure that it changes, or of its tangent, for the kernel; derived on first use."""
+        """C header of a structure that the model changes, or of its tangent, for the kernel; derived on first use."""
         source = self.source
 
         def derived() -> str:
@@ -182,7 +182,7 @@ class Package:
         return derived_once(f"{self.digest[:16]}-{kind}{name}.h", derived)
 
     def law_header(self, slot: str, name: str, slopes: bool = False) -> str:
-        """C header of a law as its structures call it, or of its slopes; derived on first use."""
+        """C header of a law as called by its structures, or of its derivatives; derived on first use."""
         source = self.source
 
         def derived() -> str:
@@ -195,7 +195,7 @@ class Package:
 
     @cached_property
     def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
-        """Its groups: name -> the quantities that it takes, in order, and the function."""
+        """Groups of the model: name -> its quantities, in order, and the function."""
         if not self.manifest["scaling"]:
             return {}
         scaling = _module(self, "scaling.py")
@@ -203,16 +203,16 @@ class Package:
 
     @property
     def plain(self) -> tuple[str, ...]:
-        """Its quantities that are groups as they are."""
+        """Quantities of the model that are groups without scaling."""
         return tuple(one["name"] for one in self.manifest["quantities"] if one["group"] == one["name"])
 
     @property
     def source(self) -> str:
-        """Text of the model file that it was emitted from."""
+        """Text of the model file that the package was emitted from."""
         return self.text_of("model.py")
 
     def _verified(self, path: str) -> bytes:
-        """Content of one of its files; InputError if it is not the one that was emitted."""
+        """Content of one of the files; InputError if its digest is not that of the manifest."""
         if self.folder is None:
             raise InputError("--model", self.name, ACCEPTED, "is only described here, its files are not at hand")
         file = self.folder / path
@@ -229,12 +229,12 @@ class Package:
 
     @property
     def remedy(self) -> str:
-        """What to run to have it emitted again."""
+        """The command that emits the model again."""
         return f"run `wetdoublet generate {self.original or 'MODEL.py'} --out {self.folder}`"
 
     @property
     def original(self) -> Path | None:
-        """The model file that it was emitted from, wherever it may be by now."""
+        """Path of the model file that the package was emitted from, which may no longer exist."""
         origin = self.manifest["origin"]
         return Path(os.path.normpath(self.folder / origin)) if origin and self.folder is not None else None
 
@@ -270,19 +270,19 @@ def _field(one: Mapping[str, Any]) -> Field:
 
 
 def fields(package: Package | None) -> Mapping[str, Field]:
-    """Every entry that a scene with this model may have."""
+    """All entries that a scene with this model may have."""
     return FIELDS if package is None else package.fields
 
 
 def tables(package: Package | None) -> dict[str, tuple[str, ...]]:
-    """Every table that a scene with this model may have, with the dotted names of its entries."""
+    """All tables that a scene with this model may have, with the dotted names of their entries."""
     if package is None:
         return TABLES
     return TABLES | {TABLE: tuple(f"{TABLE}.{name}" for name in package.quantities)}
 
 
 def unknown(name: str, value: object, package: Package | None) -> InputError | None:
-    """The error for an entry of `[custom]` that there is not; None for an entry of another table."""
+    """The error for an unknown entry of `[custom]`; None for an entry of another table."""
     if name.partition(".")[0] != TABLE:
         return None
     if package is None:

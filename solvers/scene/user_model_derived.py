@@ -1,4 +1,4 @@
-"""A model file derived, checked and put into files, with what there is to say of it."""
+"""Derivation of a user's model file: checks, emitted files and a report."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .user_model import Package
 
 @dataclass(frozen=True)
 class Derived:
-    """A model file, derived: the report in words, its files (none if a check fails), and the checks that failed."""
+    """A derived model file: the report as text, its files (none if a check fails), and the failed checks."""
 
     report: str
     files: Mapping[str, str]
@@ -22,10 +22,10 @@ class Derived:
 
 
 def derived_package(path: Path, folder: Path | None) -> Derived:
-    """Derive, check and emit a model file (imports sympy), for `folder` if it is to stay there.
+    """Derive, check and emit a model file (imports sympy); `folder` is the destination of its files, if any.
 
     Raises:
-        InputError: it is not a model file; names the line, and what is accepted.
+        InputError: not a valid model file; names the line, and what is accepted.
     """
     from ...derive.checks.user import model_checks
     from ...derive.emit.user import package
@@ -52,7 +52,7 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
 
 
 def _origin(path: Path, folder: Path | None) -> str:
-    """The model file as seen from the folder."""
+    """Path of the model file relative to the folder."""
     if folder is None:
         return ""
     try:

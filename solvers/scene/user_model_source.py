@@ -1,4 +1,4 @@
-"""Where a user's model comes from: an emitted folder, or a model file, derived on first use; refused if stale."""
+"""Opening of a user's model: an emitted folder, or a model file, derived on first use. A stale one is refused."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .user_model import ACCEPTED, Package
 
 
 def open_package(source: str | Path | Package, label: str = "--model") -> Package:
-    """The model of a folder that `generate` made, or of a model file (derived on first use, then cached).
+    """The model of a folder written by `generate`, or of a model file (derived on first use, then cached).
 
     Raises:
-        InputError: no such model, or one that is stale: says what to run.
+        InputError: no such model, or a stale one; names the command to run.
     """
     if isinstance(source, Package):
         return source
@@ -32,7 +32,7 @@ def open_package(source: str | Path | Package, label: str = "--model") -> Packag
 
 
 def _is_whole(package: Package) -> bool:
-    """Whether a manifest answers what is asked of it later; KeyError and the like if it has no answer at all."""
+    """True if a manifest's parts have the expected types; KeyError or similar if parts are missing."""
     listed = package.manifest
     texts = [package.name, listed["library"], listed["files"]["model.py"], *listed["files"].values()]
     texts += [package.law_file(law["slot"], law["name"]) for law in listed["laws"]]
@@ -50,7 +50,7 @@ def _digest(path: Path, label: str) -> str:
 
 
 def _read(path: Path, label: str) -> bytes:
-    """Content of a file of a model; InputError if it cannot be read, or is larger than any."""
+    """Content of a model's file; InputError if it cannot be read or exceeds `bounded.LARGEST`."""
     try:
         return bounded.read(path, bounded.LARGEST)
     except FileNotFoundError:
@@ -91,7 +91,7 @@ def _of_file(path: Path, label: str) -> Package:
     key = hashlib.sha256(b"\0".join([content, derivation().encode(), library_digest().encode()])).hexdigest()
 
     def derived() -> bytes:
-        from .user_model_derived import derived_package  # imports sympy when it is called
+        from .user_model_derived import derived_package  # a late import, as it imports sympy
 
         with DERIVING:
             made = derived_package(path, None)

@@ -1,6 +1,6 @@
-"""Numbers as other libraries hold them: arrays with masks, quantities with units, brought to plain SI numbers.
+"""Conversion of other libraries' numbers (masked arrays, quantities with units) to plain SI numbers.
 
-What numpy would turn into numbers without a word is refused: masked values, truth values, dates, complex numbers, text.
+Values that numpy would convert silently are refused: masked values, truth values, dates, complex numbers, text.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .units import factor, is_number
 
 
 class Entry(Protocol):
-    """What numbers are read for: a unit, what is accepted in words, and single values read."""
+    """The entry that numbers are given for: its unit, accepted values in words, and conversion of single values."""
 
     @property
     def unit(self) -> str | None: ...
@@ -27,12 +27,12 @@ class Entry(Protocol):
     def number(self, raw: object, *, label: str | None = None) -> float: ...
 
 
-_DEEPEST = 8  # lists within lists
-_EXPONENT = re.compile(r"(?<=[A-Za-z])(-?[0-9]+)\b")  # as CF has them: m s-1
+_DEEPEST = 8  # most levels of nested lists
+_EXPONENT = re.compile(r"(?<=[A-Za-z])(-?[0-9]+)\b")  # exponents in CF notation: m s-1
 
 
 def scalar(value: Any, entry: Entry, label: str) -> object:
-    """Return a single number that an array or a quantity with its unit is, as a plain one in SI; others as they are."""
+    """Return a 0-D array or a quantity with its unit as a plain SI number; other values unchanged."""
     if isinstance(value, (str, Real)) or not _is_array(value):
         return value
     found = array(value, entry, label)
@@ -42,14 +42,14 @@ def scalar(value: Any, entry: Entry, label: str) -> object:
 
 
 def array(values: Any, entry: Entry, label: str) -> np.ndarray:
-    """Return numbers, however they are given, as an array of doubles in SI; those alone are not held to a range.
+    """Return numbers of any supported kind as an array of doubles in SI. Numbers of arrays are not checked for range.
 
     Arguments:
         values: a number, text with its unit, a sequence of these, an array, a pint quantity (or one of astropy or
-            unyt), or a DataArray, whose attribute `units` is heeded.
+            unyt), or a DataArray, whose attribute `units` is used.
 
     Raises:
-        InputError: masked values, a unit of something else, or what are no real numbers.
+        InputError: masked values, a unit of another dimension, or values that are not real numbers.
     """
     if isinstance(values, (list, tuple)):
         return _listed(values, entry, label, 1)
@@ -71,17 +71,17 @@ def array(values: Any, entry: Entry, label: str) -> np.ndarray:
     if found.dtype.kind not in "fiu":
         said = f"is of type {found.dtype}, not of real numbers" if _is_array(bare) else "is not a list of numbers"
         raise InputError(label, values, "numbers (SI), or quantities with their units", said)
-    with np.errstate(over="ignore"):  # what is beyond a double becomes inf, and is refused as such
+    with np.errstate(over="ignore"):  # values beyond a double's range become inf, which the caller refuses
         doubles = found.astype(float)
     return doubles if unit is None else doubles * factor(unit, entry.unit, label, entry.accepts, values)
 
 
 def _listed(values: list[Any] | tuple[Any, ...], entry: Entry, label: str, level: int) -> np.ndarray:
-    """An array of a sequence, its members judged one by one unless they are plain numbers all."""
+    """An array of a sequence; members are converted one by one unless all are plain numbers."""
     if {*map(type, values)} <= {float, int}:
         try:
             return np.array(values, dtype=float)
-        except OverflowError:  # of an integer: its turn comes below
+        except OverflowError:  # a huge integer; reported below, member by member
             pass
     if level > _DEEPEST:
         raise InputError(label, values, "numbers (SI)", "is nested too deeply")
@@ -100,7 +100,7 @@ def _listed(values: list[Any] | tuple[Any, ...], entry: Entry, label: str, level
 
 
 def _is_array(value: Any) -> bool:
-    """Whether something is an array, or carries a unit; a class is neither."""
+    """True if a value is an array or has a unit; a class is neither."""
     return not isinstance(value, type) and (hasattr(value, "__array__") or _unit(value)[0] is not None)
 
 
@@ -117,16 +117,16 @@ def carries_unit(values: Any) -> bool:
 
 
 def _unit(value: Any) -> tuple[str | None, Any]:
-    """The unit that a value carries, as text, and the value without it; None if it carries none."""
+    """The unit of a value as text (None without one), and the value without it."""
     if isinstance(value, (np.ndarray, np.generic)) and type(value).__module__.partition(".")[0] == "numpy":
         return None, value
-    if hasattr(value, "data") and hasattr(value, "attrs"):  # xarray's
+    if hasattr(value, "data") and hasattr(value, "attrs"):  # xarray
         unit, bare = _unit(value.data)
         given = value.attrs.get("units") if unit is None else unit
         return (_EXPONENT.sub(r"^\1", given), bare) if isinstance(given, str) else (None, bare)
-    if hasattr(value, "units") and hasattr(value, "magnitude"):  # pint's
+    if hasattr(value, "units") and hasattr(value, "magnitude"):  # pint
         return f"{value.units:D}", value.magnitude
-    for name in ("units", "unit"):  # unyt's, astropy's
+    for name in ("units", "unit"):  # unyt, astropy
         if hasattr(value, name) and hasattr(value, "value") and hasattr(value, "__array__"):
             return str(getattr(value, name)), value.value
     return None, value

@@ -1,1 +1,1 @@
-"""Exact derivatives of a collision's results through its events, of its boundaries, and what is drawn from them."""
+"""Exact derivatives of a collision's results and of boundaries; uncertainty and global sensitivity based on them."""

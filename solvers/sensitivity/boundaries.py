@@ -1,4 +1,4 @@
-"""`boundary_sensitivities()`: how every change of outcome moves with the scene's parameters."""
+"""`boundary_sensitivities()`: derivatives of every change of outcome in the scene's parameters."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
 from .result import Row
 
-_SHARPEST = 1e-11  # of the trajectories that are differentiated, which pass the saddle
+_SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
 
 @dataclass(frozen=True)
 class Moving:
-    """A change of outcome and how it moves; St* is that of the change, Ce* is None without a bridge.
+    """A change of outcome and its derivatives; St* is that of the change, Ce* is None without a bridge.
 
     Attributes:
         gradient: "stokes", "centrifugal" -> parameter -> dSt*/dp, dCe*/dp, SI.
         elasticity: the same as d ln/d ln p; None where either is zero.
-        reason: why there are none; then both are empty.
+        reason: the reason if there are no derivatives; then both are empty.
     """
 
     change: Change
@@ -40,7 +40,7 @@ class Moving:
     reason: str = ""
 
     def to_dict(self) -> dict[str, Any]:
-        """The change as `boundary --json` has it, and its "sensitivities", null if there are none."""
+        """The change as in `boundary --json`, with its "sensitivities", null if there are none."""
         both = {name: {"gradient": dict(self.gradient[name]), "elasticity": dict(self.elasticity[name])}
                 for name in self.gradient}  # fmt: skip
         return self.change.to_dict() | {"sensitivities": both or None}
@@ -48,7 +48,7 @@ class Moving:
 
 @dataclass(frozen=True)
 class BoundarySensitivities:
-    """The changes of outcome at each angle (rad), ascending in St, and how they move."""
+    """The changes of outcome at each angle (rad), ascending in St, with their derivatives."""
 
     boundaries: Boundaries
     changes: tuple[tuple[Moving, ...], ...]
@@ -95,26 +95,26 @@ def boundary_sensitivities(
     traced: Boundaries | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> BoundarySensitivities:
-    """How the Stokes and centrifugal numbers of every change of outcome move with the scene's parameters.
+    """Derivatives of the Stokes and centrifugal numbers of every change of outcome in the scene's parameters.
 
-    Exact: by the implicit function theorem on functions that are smooth through the change, at the change itself.
-    Each parameter varies alone; the speed follows the boundary.
+    They are exact, by the implicit function theorem for functions that are smooth through the change. Each parameter
+    varies alone; the speed follows the boundary.
 
     Arguments:
         scene: a Scene, a path or a preset's name.
         angle: impact angles in rad, a number or 1-D; default the scene's.
-        stokes: lowest and highest Stokes number to look between.
-        wrt: parameters by dotted name; None: every number of the scene, and the impact's angle.
+        stokes: lowest and highest Stokes number of the search.
+        wrt: parameters by dotted name; None for every numeric entry of the scene, and the impact's angle.
         rtol: relative tolerance of the tracing.
-        traced: the boundaries, if they are known already.
+        traced: the boundaries, if already computed.
         progress: called with the number of angles done, once they are traced.
 
     Returns:
         BoundarySensitivities: gradients (SI) and elasticities, change by change.
 
     Raises:
-        InputError: an angle, Stokes number or name that cannot be. A change that has no smooth function of its own, or
-            cannot be followed, is no error: it says so in `reason`.
+        InputError: an invalid angle, Stokes number or name. A change without a smooth function, or that cannot be
+            followed, raises nothing; see its `reason`.
 
     Example:
         >>> from wetdoublet.solvers import boundary_sensitivities
@@ -138,7 +138,7 @@ def boundary_sensitivities(
 
 
 def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
-    """The parameters asked for; InputError for one that the scene has not, and for what the boundary itself is."""
+    """The requested parameters; InputError for one that the scene does not have, and for speed and Stokes number."""
     names = check_wrt(scene, wrt, label)
     for name in names:
         if wrt is not None and name in SPEEDS:
@@ -148,7 +148,7 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
 
 
 def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float = RTOL) -> Moving:
-    """How one change at an angle (rad) moves with the parameters named."""
+    """Derivatives of one change at an angle (rad) in the named parameters."""
     try:
         found = slope(scene, angle, change, min(rtol, _SHARPEST))
     except ComputationError as error:

@@ -1,9 +1,8 @@
-"""How near a trajectory is to a boundary, where derivatives jump or diverge.
+"""Distance of a collision from the nearest boundary, where derivatives jump or diverge.
 
-First what the trajectory itself shows, at little cost: how flat it meets its events, how nearly it meets a criterion
-    that
-it misses, how slowly it passes the barrier. Where that looks near, the distance in the Stokes number is measured, by
-the functions that are smooth through the boundary (`boundaries.line`).
+Estimates from the trajectory come first, at little cost: the slope at which it meets its events, the margin by which it
+misses a criterion, the speed at which it passes the barrier. Where an estimate is small, the distance in the Stokes
+number is computed with the functions that are smooth through the boundary (`boundaries.line`).
 """
 
 from __future__ import annotations
@@ -29,11 +28,11 @@ from ..scene.scene import Scene
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
-LOOK = 30.0  # times the limit: nearer than this by the trajectory's own measure, the distance is measured
-_WORTH_SAYING = 0.5  # as a logarithm: what is further away is not mentioned
-_HINT = "v0 squared"  # a suspicion, not a distance: measured or dropped
+LOOK = 30.0  # multiple of the limit; at smaller estimates the distance is computed
+_WORTH_SAYING = 0.5  # largest logarithmic distance that is reported
+_HINT = "v0 squared"  # marks an estimate that is no distance; it is computed or dropped
 _COARSE, _FINE = 1e-6, 1e-11
-_ASIDE, _SECANTS, _FAR = 1e-4, 4, 0.1  # first relative step in the Stokes number of a secant; how many; how far
+_ASIDE, _SECANTS, _FAR = 1e-4, 4, 0.1  # secants in St: first relative step, number, reach
 _GRID = (*(float(t) for t in np.unique(np.concatenate([np.geomspace(1e-3, 1, 40), np.linspace(0, 1, 41)[1:]]))),)
 
 GLASS = "graze of the glass criterion"
@@ -45,8 +44,8 @@ RIM = "separatrix (rim: it just reaches the rupture gap)"
 def limit(rtol: float) -> float:
     """Relative distance to a boundary within which no derivative is given.
 
-    Errors of the trajectory are amplified by one over the distance: here they may reach rtol/limit = 1e-4 of a
-        derivative.
+    Errors of the trajectory are amplified by one over the distance; at the limit they reach rtol/limit = 1e-4 of a
+    derivative.
     """
     return min(max(LIMIT, PER_RTOL * rtol), WIDEST)
 
@@ -54,7 +53,7 @@ def limit(rtol: float) -> float:
 def checked(
     scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, rtol: float
 ) -> Near | None:
-    """The nearest boundary that a trajectory shows; a one-line ComputationError if it is too near for derivatives."""
+    """The nearest boundary found from a trajectory; ComputationError if it is too near for derivatives."""
     least = limit(rtol)
     if not path.separated:
         near = _stick(scene, n, finder, path, least)
@@ -69,14 +68,14 @@ def checked(
 
 
 def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rtol: float) -> ComputationError:
-    """What to say of a trajectory that could not be followed: the boundary that it lies at, if it does."""
+    """The error for a trajectory that could not be differentiated: names the boundary if it is close to one."""
     looked = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
     near = min(looked, key=lambda one: one.distance)
     return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
 
 
 def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: float) -> Near | None:
-    """The nearest of the suspects; measured where they look near, and only then if they are no more than a hint."""
+    """The nearest of the estimated boundaries; distances of near ones are computed, other hints dropped."""
     found = []
     for boundary in dict.fromkeys(one.boundary for one in suspects):
         near = min((one for one in suspects if one.boundary == boundary), key=lambda one: one.distance)
@@ -89,23 +88,23 @@ def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: 
 
 
 def refused(near: Near, least: float) -> ComputationError:
-    """What is said of a collision nearer to a boundary than `least`."""
+    """The error for a collision nearer to a boundary than `least`."""
     return ComputationError(
         f"no derivative: the collision lies at the {near}, nearer than {least:.1g}",
         advice="move the impact; the boundary itself can be differentiated (wetdoublet boundary --wrt)",
     )
 
 
-# ---- sticks: nothing to differentiate but e_n = 0, which holds up to the boundary
+# ---- sticks: only e_n = 0 is defined, up to the boundary
 
 
 def _stick(
     scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, least: float
 ) -> Near | None:
-    """A boundary within `least` in the Stokes number, by the outcome on either side."""
+    """A boundary within the relative distance `least` in the Stokes number, by the outcomes on both sides."""
     decided = len(path.steps) == 1 and path.steps[0].duration == 0
     if decided and energy_proof(finder.proof) is not None:
-        return None  # by energy, before the film has taken any: far from every boundary
+        return None  # certified by energy before the film dissipates any, so far from every boundary
     for factor in (1 - least, 1 + least):
         aside = _located(scene, n, n.stokes * factor, finder.rtol)
         if aside is not None and aside.separated:
@@ -125,11 +124,11 @@ def _located(scene: Scene, n: DimensionlessGroups, stokes: float, rtol: float) -
         return None
 
 
-# ---- what a separated trajectory shows
+# ---- estimates from a separated trajectory
 
 
 def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
-    """Boundaries by the trajectory's own measure."""
+    """Nearby boundaries, with distances estimated from the trajectory."""
     model, groups = finder.model, finder.groups
     contact = contact_gap(groups)
     smaller = sorted(groups[name] for name in GAPS.values())[-2]
@@ -146,11 +145,11 @@ def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
 def _criteria(
     model: Model, path: EventSequence, step: PhaseRun, y: np.ndarray, glass: float, contact: float
 ) -> Iterator[Near]:
-    """A closing phase: how flat it meets its criterion, how nearly it meets the others."""
+    """Boundaries of a closing phase: grazing of its criterion, and margins of the others."""
     pressure, first, second = _pressures(model, step.phase.region.film, step.phase.region.shear)(y, path.p).full()
     met = step.kinds[:1] and step.kinds[0]
     if met == "glass":
-        if step.duration == 0:  # true at initial contact already
+        if step.duration == 0:  # met at initial contact
             yield Near("glass criterion met at initial contact", math.log(pressure[-1] / glass), _P_GT)
         elif second[-1] < 0 < first[-1]:
             yield Near(GLASS, first[-1] ** 2 / (-2 * second[-1] * glass), _P_GT)
@@ -174,7 +173,7 @@ _P_GT = "liquid.glass_transition_pressure"
 
 
 def _barrier(finder: EventLocator) -> float:
-    """Gap of the highest barrier; the rupture gap where that is the barrier, or none is known."""
+    """Gap of the highest barrier; the rupture gap if that is the barrier or none is known."""
     rim = finder.groups["rupture_gap"] if finder.model.bridge else 1.0
     proof = energy_proof(finder.proof)
     barriers = proof.barriers(finder.y) if proof is not None else ()
@@ -187,7 +186,7 @@ def _separatrix(finder: EventLocator) -> str:
 
 
 def _passing(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
-    """How slowly a phase passes the saddle, or how near to it the doublet turns."""
+    """Separatrix of the saddle: speed at which a phase passes it, or distance at which the doublet turns."""
     if _separatrix(finder) != SADDLE:
         return
     speed = np.abs(y[1])
@@ -199,11 +198,11 @@ def _passing(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Ne
 
 
 def _leaving(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
-    """How fast the doublet still is where it separates."""
+    """Separatrix of the rim: remaining speed at separation."""
     model = finder.model
     held = model.bridge or model.strings or model.choice.law("attraction") is not None
     if step.event != "rupture" or (model.oblique and not model.wall and not held):
-        return  # what turns, with a film alone, always separates
+        return  # an oblique doublet with a film alone always separates
     yield Near(RIM, float(y[1, -1]) ** (2 if held else 1), _HINT)
     if model.strings and model.oblique:
         names = list(model.state)
@@ -222,7 +221,7 @@ def _region(step: PhaseRun) -> tuple[int, int]:
 
 @own_cache(128)
 def _pressures(model: Model, film: int, shear: int) -> Function:
-    """(states, groups) -> scaled film pressure, its rate, and the rate of that."""
+    """Function (states, groups) -> scaled film pressure, its first and second time derivative."""
     rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
     pressure = model.groups["glass_number"] - model("events")["glass"]
     first = jtimes(pressure, model.column, rates)
@@ -231,7 +230,7 @@ def _pressures(model: Model, film: int, shear: int) -> Function:
 
 
 def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseRun, np.ndarray]]:
-    """Steps and states along each: coarse, and sharper where the coarse ones would decide something."""
+    """Phases and states along each: at a coarse tolerance, and a fine one where those indicate a boundary."""
     told = tolerance(_COARSE, "rosenbrock", finder.groups)
     for step, before, inside, end in resampled(path, told, _GRID, lambda step: not step.phase.resting, lenient=True):
         if step.phase.resting:
@@ -239,8 +238,8 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
         y = before[:, None]
         if step.duration > 0:
             y = np.column_stack([before, end if inside is None else inside])
-            y[:, -1] = np.where(np.arange(end.size) == 1, y[:, -1], end)  # the speed is the one before a jump
-            if not step.reverses:
+            y[:, -1] = np.where(np.arange(end.size) == 1, y[:, -1], end)  # speed before the jump
+            if not step.rebounds:
                 y[1, -1] = end[1]
         yield step, y
 
@@ -249,7 +248,7 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
 
 
 def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
-    """The distance in the Stokes number of a boundary that looks near."""
+    """The computed distance in the Stokes number of an estimated boundary."""
     line = Line(scene, n.angle, _FINE, kernel=False, machine_code=False)
     escapes = (lambda stokes: line.escape(stokes, True).value, lambda stokes: line.escape(stokes, False).value)
     functions: dict[str, tuple[Callable[[float], float | None], ...]] = {
@@ -269,7 +268,7 @@ def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
 
 
 def _secant(function: Callable[[float], float | None], stokes: float) -> float | None:
-    """Relative distance to the nearest root, to a percent or so; None where the function is not defined."""
+    """Relative distance to the nearest root, within about a percent; None where the function is undefined."""
     before, at = 0.0, _ASIDE
     f_before, f = function(stokes), function(stokes * (1 + _ASIDE))
     for _ in range(_SECANTS):

@@ -1,8 +1,8 @@
-"""How a change of outcome moves with the parameters: gradients of the functions that are zero there.
+"""Derivatives of a change of outcome in the parameters: gradients of the functions that are zero there.
 
-They are smooth through the change (`boundaries.line`): the amplitude of the unstable mode, the
-gap at which an escape stops short of the rim, the largest pressure of the approach. Their gradients in the groups are
-one adjoint each, at the change itself; the implicit function theorem does the rest.
+They are smooth through the change (`boundaries.line`): the amplitude of the unstable mode, the gap at which an escape
+stops short of the rim, the largest pressure of the approach. Their gradients in the groups are one adjoint each, at the
+change itself; the implicit function theorem gives the derivatives of St*.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ from .derivatives import adjoint, evaluate, settled
 from .directions import landed
 from .trajectory_expression import Course, course_of, ending, influential
 
-_BELOW, _ABOVE = 1 - 1e-8, 1 + 1e-8  # parts of St* at which the doublet just falls back, just meets a criterion
-_FREE_RIM = 1 + 1e-5  # and at which it just leaves a film that alone holds it, without ever falling back
+_BELOW, _ABOVE = 1 - 1e-8, 1 + 1e-8  # factors of St* at which it falls back, meets a criterion
+_FREE_RIM = 1 + 1e-5  # and at which it leaves a film without attraction
 _GRID = (*(float(part) for part in np.linspace(0, 1, 401)[1:]),)
 _NEWTON = 12
 
 
 @dataclass(frozen=True)
 class Slope:
-    """Gradient (in the groups named) of a function that is zero at a change of outcome; its size is arbitrary."""
+    """Gradient (in the named groups) of a function that is zero at a change of outcome; its scale is arbitrary."""
 
     groups: tuple[str, ...]
     gradient: np.ndarray
 
 
 def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope | None:
-    """The gradient at a change; None for a change that has no smooth function of its own.
+    """The gradient at a change; None for a change without a smooth function.
 
     Raises:
         ComputationError: the trajectory there could not be followed.
@@ -64,7 +64,7 @@ def _groups(scene: Scene, angle: float, stokes: float) -> dict[str, float]:
     return nondimensionalise(scene, scene.speed_of(stokes), angle).groups
 
 
-# ---- a criterion that is just met: the trajectory up to the maximum, at which time makes no difference
+# ---- a criterion that is just met: the trajectory up to the maximum, where the time derivative is zero
 
 
 def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | None:
@@ -73,13 +73,13 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
     path = finder.run()
     if path.reversal is None:
         return None
-    k = next(k for k, step in enumerate(path.steps) if step.reverses)
+    k = next(k for k, step in enumerate(path.steps) if step.rebounds)
     step = path.steps[k]
     told = tolerance(rtol, "rosenbrock", finder.groups)
     word = contact_word(finder.groups) if step.kinds[0] in GAPS else step.kinds[0]
     before = path.ends[k - 1][: len(model.state)] if k else model.start(path.p)
     if step.duration > 0:
-        step = replace(step, duration=_extremum(model, step, word, before, path.p, told), event=None, reverses=False)
+        step = replace(step, duration=_extremum(model, step, word, before, path.p, told), event=None, rebounds=False)
     course, durations = _up_to(path, k, step)
     end = ending(course, "rosenbrock", told)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
@@ -91,7 +91,7 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
 
 
 def _extremum(model: Model, step: PhaseRun, word: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
-    """Time within the phase at which the pressure is largest, or the gap smallest, by Newton's method."""
+    """Time within the phase of the largest pressure or smallest gap, by Newton's method."""
     rates = _rates(model, step.phase.region, word)
     integrate = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
     time = step.duration
@@ -106,7 +106,7 @@ def _extremum(model: Model, step: PhaseRun, word: str, before: np.ndarray, p: np
 
 @own_cache(64)
 def _rates(model: Model, region: Region, word: str) -> Function:
-    """(state, groups) -> rate of the pressure or gap, and the rate of that."""
+    """Function (state, groups) -> first and second time derivative of the pressure or gap."""
     flow = model.function("right_hand_side", region.film, region.shear)(model.column, model.parameters)
     first = jtimes(model("events")[word], model.column, flow)
     return Function("rates", [model.column, model.parameters], [first, jtimes(first, model.column, flow)])
@@ -114,7 +114,7 @@ def _rates(model: Model, region: Region, word: str) -> Function:
 
 @own_cache(64)
 def _margin(model: Model, word: str) -> Function:
-    """(state, groups) -> gradients, in either, of by how much a criterion is met, as a logarithm."""
+    """Function (state, groups) -> gradients in both of the logarithmic margin of a criterion."""
     limit = model.groups[CRITERIA[word].limit]
     of = limit / model.state["gap"] if word in GAPS else (limit - model("events")[word]) / limit
     slopes = [densify(gradient(of, each)) for each in (model.column, model.parameters)]
@@ -124,8 +124,8 @@ def _margin(model: Model, word: str) -> Function:
 # ---- a doublet that just escapes
 
 
-def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> Slope | None:
-    probe = _probe(scene, angle, stokes * _BELOW, reversed_, rtol)
+def _escape(scene: Scene, angle: float, stokes: float, rebound: bool, rtol: float) -> Slope | None:
+    probe = _probe(scene, angle, stokes * _BELOW, rebound, rtol)
     path = probe.run()
     barrier = barrier_of(probe)
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
@@ -134,13 +134,13 @@ def _escape(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: fl
         return None if saddle is None else _at_saddle(probe, path, saddle)
     if path.steps and KINDS[EventKind.FELL_BACK] in path.steps[-1].kinds:
         return _at_rim(probe, path)
-    probe = _probe(scene, angle, stokes * _FREE_RIM, reversed_, rtol)
+    probe = _probe(scene, angle, stokes * _FREE_RIM, rebound, rtol)
     path = probe.run()
     return _at_rim(probe, path) if path.separated else None
 
 
-def _probe(scene: Scene, angle: float, stokes: float, reversed_: bool, rtol: float) -> UnstoppedTrajectory:
-    groups = _groups(scene, angle, stokes) | ({} if reversed_ else WITHOUT_SOLIDS)
+def _probe(scene: Scene, angle: float, stokes: float, rebound: bool, rtol: float) -> UnstoppedTrajectory:
+    groups = _groups(scene, angle, stokes) | ({} if rebound else WITHOUT_SOLIDS)
     return UnstoppedTrajectory(load(select_model(scene, angle > 0)), groups, rtol)
 
 
@@ -160,17 +160,17 @@ def _at_rim(probe: EventLocator, path: EventSequence) -> Slope:
 
 
 def _at_saddle(probe: EventLocator, path: EventSequence, saddle: Saddle) -> Slope | None:
-    """Amplitude of the unstable mode near the saddle, which moves itself.
+    """Amplitude of the unstable mode near the saddle, which moves with the parameters.
 
-    At a fixed time and with the mode as it is: what that leaves out is smaller than the amplitude's own growth by the
-    distance of the nearest approach.
+    Time and mode are kept fixed. The neglected terms are smaller than the growth of the amplitude by the distance of
+    the nearest approach.
     """
     told = tolerance(probe.rtol, "rosenbrock", probe.groups)
     found = _nearest(probe, path, saddle, told)
     if found is None:
         return None
     k, duration = found
-    course, durations = _up_to(path, k, replace(path.steps[k], duration=duration, event=None, reverses=False))
+    course, durations = _up_to(path, k, replace(path.steps[k], duration=duration, event=None, rebounds=False))
     end = ending(course, "rosenbrock", told)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
     mode = saddle.modes[saddle.unstable].real
@@ -186,7 +186,7 @@ def _active(course: Course, probe: EventLocator) -> np.ndarray:
 
 
 def _nearest(probe: EventLocator, path: EventSequence, saddle: Saddle, told: Tolerance) -> tuple[int, float] | None:
-    """Which phase comes nearest to the saddle, and how long into it; of those on the saddle's side of the film edge."""
+    """The phase nearest to the saddle, among those on its side of the film edge, and the time within it."""
     region = Region(int(saddle.gap < 1), int(saddle.gap < probe.edge), resting=False)
 
     def beside(step: PhaseRun) -> bool:
@@ -203,7 +203,7 @@ def _nearest(probe: EventLocator, path: EventSequence, saddle: Saddle, told: Tol
 
 
 def _up_to(path: EventSequence, k: int, last: PhaseRun) -> tuple[Course, np.ndarray]:
-    """The course of a path up to a time within step k, and its durations."""
+    """The course of a path up to a time within phase k, and its durations."""
     steps = [*path.steps[:k], last]
     part = replace(path, steps=steps, ends=path.ends[: k + 1])
     return course_of(part, path.model.choice), np.array([step.duration for step in steps])
@@ -211,7 +211,7 @@ def _up_to(path: EventSequence, k: int, last: PhaseRun) -> tuple[Course, np.ndar
 
 @own_cache(64)
 def _moving(model: Model) -> Function:
-    """(state at the saddle's gap with the trajectory's momentum, groups) -> d(saddle's state)/d(groups).
+    """Function (state at the saddle's gap with the trajectory's momentum, groups) -> d(saddle's state)/d(groups).
 
     The gap follows from the slope of the effective potential, which is zero there, by one step of Newton's method.
     """

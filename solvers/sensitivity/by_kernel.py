@@ -1,4 +1,4 @@
-"""The Taylor kernel's derivatives in the parameters of a scene, of one collision or of many of the same scene."""
+"""Derivatives by the Taylor kernel in a scene's parameters, of one collision or of many of the same scene."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .problem import Problem, Slopes, sharpened
 from .result import Near
 from .results import QUANTITIES
 
-# Results whose derivatives the kernel carries, the ledger's being CasADi's: column of a derivative, field of the value.
+# Results that the kernel differentiates (not the ledger): column of the derivative, field of the value.
 _WHERE: dict[str, tuple[int, str | int]] = {
     "restitution": (0, 0),
     "tangential_restitution": (1, 1),
@@ -32,23 +32,23 @@ _WHERE: dict[str, tuple[int, str | int]] = {
     "rotation": (COLUMNS["turned"], "turned"),
 }
 KNOWN = tuple(_WHERE)
-BACKWARD = ("restitution",)  # what is taken back along trajectories
-DIRECTIONS = 4  # parameters by which carrying along costs no more (docs/kernel.md)
+BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
+DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 
 def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
-    """Whether the kernel differentiates these results of a scene here, of oblique collisions and of those head-on."""
+    """True if the kernel differentiates these results of the scene, for oblique and head-on collisions as requested."""
     return all(name in KNOWN for name in of) and differentiates(scene, oblique)
 
 
 @dataclass(frozen=True)
 class Along:
-    """Collisions with their derivatives in theta, p = p_ref (1 + theta), SI.
+    """Results of collisions and their derivatives in theta, p = p_ref (1 + theta), SI.
 
     Arguments:
-        run: the kernel's answers.
-        value: (results, collisions); NaN where nothing separated, or the result is not defined.
+        run: the kernel's records.
+        value: (results, collisions); NaN for sticks and undefined results.
         first: (results, collisions, parameters).
     """
 
@@ -67,12 +67,12 @@ def gradients_by_kernel(
     budget: int = STEPS,
     backward: bool = False,
 ) -> Along | None:
-    """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
+    """Derivatives of impacts that are all oblique or all head-on; None without a kernel.
 
     Arguments:
-        impacts: of one scene; nothing but speed and angle differs among them.
-        order: of the series; None: the cheapest for the tolerance.
-        backward: of the restitution alone, taken back along the trajectories (`run_tangent`).
+        impacts: impacts of one scene, which differ only in speed and angle.
+        order: order of the Taylor series; None for the cheapest at the tolerance.
+        backward: differentiate the restitution alone by the adjoint (`run_tangent`).
     """
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
@@ -85,7 +85,7 @@ def gradients_by_kernel(
     )  # fmt: skip
     if found is None:
         return None
-    # quantities change with the parameters as those of the first collision do, but for its speed and angle
+    # the quantities' derivatives are those of the first collision, except for speed and angle
     paces, rows = np.ones((size, len(found.quantities))), np.zeros((len(found.quantities), len(wrt)))
     for k, quantity in enumerate(found.quantities):
         rows[k] = by_quantity.get(quantity, 0.0)
@@ -108,11 +108,11 @@ def gradients_by_kernel(
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
         paced = found.slopes[:, :, column] * paces
-        first[place] = np.einsum("ck,kp->cp", paced, rows)  # small: no BLAS, no threads
+        first[place] = np.einsum("ck,kp->cp", paced, rows)  # small: avoid BLAS threads
         if steep is not None and "speed" in found.quantities:
             moved = found.quantities.index("speed")
             first[place] += paced[:, [moved]] * rows[moved] * (bent - 1)
-        if name == "final_spin":  # it parted as it touched: the spin is what rounding leaves
+        if name == "final_spin":  # separation at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if QUANTITIES[name].scale is not None:
             scale, relative = scales().of(name)
@@ -123,7 +123,7 @@ def gradients_by_kernel(
 
 
 def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
-    """Derivatives of a located collision; None where the kernel has none, or finds another trajectory."""
+    """Derivatives of a located collision; None if the kernel has none or finds another trajectory."""
     odd_head_on = not problem.n.oblique and problem.odd(of)
     if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
@@ -139,16 +139,16 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
 
 
 def _steep(angle: np.ndarray) -> np.ndarray:
-    """By what part the normal speed falls for each part of an angle, the relative speed held."""
+    """-d ln(normal speed)/d ln(angle) at fixed relative speed."""
     steep: np.ndarray = angle * np.tan(angle)
     return steep
 
 
 class _Scales:
-    """SI scales of results: their values, and how they change with the parameters.
+    """SI scales of results: values and logarithmic derivatives.
 
     Arguments:
-        falls: by what part the speed falls for each part of the angle; None if it is held.
+        falls: -d ln(normal speed)/d ln(angle) at fixed relative speed; None where the normal speed is held.
     """
 
     def __init__(
@@ -167,7 +167,7 @@ class _Scales:
         self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": n.rate * pace * turn}
         first = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
         self._relative = {name: np.tile(slopes[name] / first[name], (speed.size, 1)) for name in first}
-        if "impact.angle" in wrt:  # of a tangent, which is no power of the angle
+        if "impact.angle" in wrt:  # derivative of tan(angle), which is no power of the angle
             k = wrt.index("impact.angle")
             if falls is None:
                 self._relative["rate"][:, k] *= steep
@@ -176,7 +176,7 @@ class _Scales:
                 self._relative["rate"][:, k] = 2 * angle / np.sin(2 * angle) - falls
 
     def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
-        """(collisions,) of the scale, and (collisions, parameters) of its logarithm's derivatives."""
+        """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""
         scale = QUANTITIES[name].scale
         assert scale is not None
         return self._values[scale], self._relative[scale]

@@ -1,4 +1,4 @@
-"""Which engine differentiates where none is asked for; docs/kernel.md has the measurement that it goes by."""
+"""Default engine for derivatives, based on the measurement in docs/kernel.md."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from . import by_kernel as kernel
 def chosen(scene: Scene, of: Sequence[str], oblique: Collection[bool], rtol: float, count: int = 1) -> str:
     """The engine for first derivatives, forward, of `count` collisions of a scene.
 
-    The Taylor kernel where it is compiled already, or where the collisions are not few; else CasADi's Rosenbrock.
+    It is the Taylor kernel if already compiled or if the collisions are many; else CasADi's Rosenbrock.
 
     Arguments:
-        of: results.
-        oblique: whether collisions are oblique, and whether head-on: a kernel each.
+        of: requested results.
+        oblique: contains True if some collisions are oblique, False if some are head-on; these are separate kernels.
     """
     if not all(name in kernel.KNOWN for name in of):
         return "rosenbrock"

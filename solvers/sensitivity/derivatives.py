@@ -1,4 +1,4 @@
-"""Derivatives of a trajectory's expression, forward and adjoint, first and second: CasADi functions, kept by course."""
+"""CasADi functions of a trajectory's first and second derivatives, forward and adjoint, cached by course."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..host.interrupts import check
 from ..host.thread_caches import own_cache
 from .trajectory_expression import TrajectoryExpression
 
-# Largest landing step over its phase. The error of a first derivative is of its square, times how much the trajectory
-# amplifies, which near a saddle is one over the distance; that of a second derivative is of the step itself.
+# Largest landing step relative to its phase. The error of a first derivative is the square of the step times the
+# amplification, near a saddle one over the distance; the error of a second derivative is linear in the step.
 LANDED, LANDED_WELL = 3e-7, 1e-10
 _TRIES = 8
 
 
 def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray]:
-    """A function's results as arrays; IntegrationFailed in one line, and CasADi's pages dropped."""
+    """A function's results as arrays; IntegrationFailed without CasADi's long messages."""
     check()
     with listening() as heard:
         try:
@@ -27,7 +27,7 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
             if "KeyboardInterrupt" in str(error) + heard.getvalue():
                 raise KeyboardInterrupt from None
             raise IntegrationFailed("the integrator gave up") from None
-    if "KeyboardInterrupt" in heard.getvalue():  # CVODES has taken it for a step to be tried again
+    if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES has treated as a failed step
         raise KeyboardInterrupt
     arrays = [np.asarray(each.full()) for each in found]
     if not all(np.isfinite(each).all() for each in arrays):
@@ -37,7 +37,7 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
 
 @own_cache(256)
 def forward(expression: TrajectoryExpression, count: int) -> Function:
-    """(groups, durations, directions: groups x count) -> quantities, shifts, derivatives (quantities x count)."""
+    """Function (groups, durations, directions: groups x count) -> quantities, shifts, slopes (quantities x count)."""
     p, durations, z, shifts = _symbols(expression)
     seeds = MX.sym("seeds", p.numel(), count)
     with quiet():
@@ -47,7 +47,7 @@ def forward(expression: TrajectoryExpression, count: int) -> Function:
 
 @own_cache(256)
 def adjoint(expression: TrajectoryExpression, count: int) -> Function:
-    """(groups, durations, weights: quantities x count) -> quantities, shifts, gradients (groups x count)."""
+    """Function (groups, durations, weights: quantities x count) -> quantities, shifts, gradients (groups x count)."""
     p, durations, z, shifts = _symbols(expression)
     seeds = MX.sym("seeds", z.numel(), count)
     with quiet():
@@ -57,7 +57,7 @@ def adjoint(expression: TrajectoryExpression, count: int) -> Function:
 
 @own_cache(256)
 def curvature(expression: TrajectoryExpression, count: int) -> Function:
-    """(groups, durations, weights, directions: groups x count) -> the weighted sum's Hessian times the directions.
+    """Function (groups, durations, weights, directions: groups x count) -> weighted sum's Hessian times directions.
 
     Forward over adjoint. Rosenbrock only: CasADi's CVODES has no second derivatives of this kind.
     """
@@ -79,13 +79,13 @@ def _symbols(expression: TrajectoryExpression) -> tuple[MX, MX, MX, MX]:
 def settled(
     expression: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, landed: np.ndarray, within: float
 ) -> np.ndarray:
-    """Durations at which this engine's own solution meets its events within a part `within` of each phase.
+    """Durations corrected so that this engine's solution meets its events within a part `within` of each phase.
 
     Arguments:
-        integrated: indices of the legs that are landed.
+        landed: indices of the legs that end on an event.
 
     Raises:
-        IntegrationFailed: it does not: its solution misses an event.
+        IntegrationFailed: the engine's solution misses an event.
     """
     durations = durations.copy()
     for _ in range(_TRIES):

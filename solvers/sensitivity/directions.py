@@ -1,4 +1,4 @@
-"""Derivatives of a trajectory along directions in its groups: as few as are asked for, first and second."""
+"""First and second derivatives of a trajectory along as few directions in its groups as needed."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ def differentiated(
     """Durations at which this engine meets the events, the quantities, and their derivatives in the groups.
 
     Arguments:
-        dp: directions (groups, n); the derivatives found are right along these, by `adjoint` along all.
-        active: which groups have any influence.
-        amplified: the trajectory is known to amplify small errors.
+        dp: directions (groups, n); the derivatives are valid along these, with `adjoint` along all.
+        active: mask of groups with influence.
+        amplified: True if the trajectory is known to amplify small errors.
 
     Raises:
-        IntegrationFailed: the engine gave up, or its solution misses an event.
+        IntegrationFailed: the engine failed, or its solution misses an event.
     """
     if amplified:
         durations = settled(whole, p, durations, landed(course), LANDED_WELL)
@@ -59,12 +59,12 @@ def _once(
 
 
 def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
-    """Directions in the groups that span `dp`: these themselves, or the groups' own where those are fewer.
+    """Directions in the groups that span `dp`: `dp` itself, or unit directions of the groups if those are fewer.
 
-    A group moves by its own size, or by one where it is zero.
+    A unit direction changes a group by its own value, or by one if that is zero.
     """
     moving = [k for k in range(p.size) if active[k] and np.any(dp[k])]
-    used = np.unique(dp[:, np.any(dp != 0, axis=0)], axis=1)  # speed and Stokes number are one direction
+    used = np.unique(dp[:, np.any(dp != 0, axis=0)], axis=1)  # speed and Stokes number give the same direction
     if used.shape[1] < len(moving) and np.linalg.matrix_rank(used) == used.shape[1]:
         return used
     own = np.zeros((p.size, len(moving)))
@@ -73,7 +73,7 @@ def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
 
 
 def inverse(seeds: np.ndarray) -> np.ndarray:
-    """Left inverse of directions, whatever their sizes: a group that is 1e-15 of another is no less one."""
+    """Left inverse of directions, scaled by rows, because groups may differ by many orders of magnitude."""
     rows = np.abs(seeds).max(axis=1, initial=0.0)
     rows[rows == 0] = 1.0
     sized = seeds / rows[:, None]

@@ -1,4 +1,4 @@
-"""`gradients_many()`: derivatives of many collisions of one scene, by the Taylor kernel, the rest one after another."""
+"""`gradients_many()`: derivatives of many collisions of one scene, by the Taylor kernel, or one after another."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ from .sensitivities import sensitivities
 if TYPE_CHECKING:
     import xarray
 
-_SOON = 1000  # steps within which what separates mostly has
-_LONG = 10 * STEPS  # what creeps crawls without derivatives (runtime/implicit.h), and by single steps with them
-_STRETCH = 4096  # collisions a thread takes at a time
+_SOON = 1000  # steps within which most separating collisions end
+_LONG = 10 * STEPS  # steps for creeping collisions (runtime/implicit.h)
+_STRETCH = 4096  # collisions in a block for a thread
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
 
 @dataclass
 class _Asked:
-    """What is asked for, and the results as they come in: NaN until then."""
+    """The request, and the results so far; NaN where not computed."""
 
     scene: Scene
     speed: np.ndarray
@@ -76,7 +76,7 @@ class _Asked:
         return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
 
     def units(self, which: np.ndarray) -> np.ndarray:
-        """(collisions, parameters): dp/dtheta."""
+        """Scales dp/dtheta, (collisions, parameters)."""
         first = references(self.scene, self.kind, float(self.speed[which[0]]), float(self.angle[which[0]]))
         units = np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(first)[1].full()).ravel()
         units = np.tile(units, (which.size, 1))
@@ -90,7 +90,7 @@ class _Asked:
         return units
 
     def reference(self) -> np.ndarray:
-        """(collisions, parameters): each parameter's own value."""
+        """Values of the parameters, (collisions, parameters)."""
         first = dict(zip(self.kind.entries, references(self.scene, self.kind, 1.0, 0.0).tolist(), strict=True))
         columns = {"impact.speed": self.speed, "impact.angle": self.angle, RELATIVE: self.relative_speed}
         columns["impact.stokes"] = self.speed * self.scene.stokes_per_speed
@@ -116,20 +116,20 @@ def gradients_many(
         scene: a Scene, a path or a preset's name.
         stokes, speed, relative_speed: as for `collide_many`; default the scene's.
         angle: impact angles in rad, 1-D or a single number; default the scene's.
-        wrt: parameters by dotted name; None: every number of the scene, and the impact's three.
+        wrt: parameters by dotted name; None for every numeric entry of the scene, and speed, Stokes number and angle.
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
-        hold: what of the impact stays when another parameter varies, as for `sensitivities`.
+        hold: quantity held when another parameter varies, as for `sensitivities`.
         engine: "taylor" (default for more than 100 collisions, and where its kernel is compiled already), "rosenbrock"
             or "cvodes", which take them one after another.
 
     Returns:
         Dataset: value (quantity, collision); gradient and elasticity (quantity, collision, parameter), SI; outcome and
-        reason (collision). A stick has restitution 0 with the gradient 0, and NaN for what it leaves undefined. Where
-        no derivative exists, as `sensitivities` has it, there is NaN, and `reason` names the boundary.
+        reason (collision). A stick has restitution 0 with gradient 0, and NaN for undefined results. Where no
+        derivative exists (see `sensitivities`) there is NaN, and `reason` names the boundary.
 
     Raises:
-        InputError: a name, length or value that cannot be.
+        InputError: an invalid name, length or value.
 
     Example:
         >>> import numpy as np
@@ -161,14 +161,14 @@ def gradients_many(
 
 
 def _by_kernel(asked: _Asked) -> np.ndarray:
-    """What the kernel can do; returns the collisions that are left."""
+    """Compute collisions by the kernel; returns the indices of those left to CasADi."""
     turns = any(QUANTITIES[name].odd for name in asked.of) and "impact.angle" in asked.wrt
     parts, left = [], [np.flatnonzero(asked.angle == 0) if turns else np.zeros(0, int)]
     for oblique in (True, False) if not turns else (True,):
         which = np.flatnonzero((asked.angle > 0) == oblique)
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
     if len(parts) > 1:
-        with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel runs without the interpreter's lock
+        with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel releases the interpreter's lock
             left += pool.map(lambda part: _stretch(asked, part), parts)
     else:
         left += [_stretch(asked, part) for part in parts]
@@ -176,7 +176,7 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 
 
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
-    # of a few collisions, or by a few parameters, directions cost no more
+    # for few collisions or few parameters forward tangents cost no more
     back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
     order = order_for(asked.rtol)
 
@@ -190,7 +190,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
         return which
     answers, measures = found.run.answers, found.run.near
     late = np.flatnonzero(answers["status"] > LAST_ANSWER)
-    if back and late.size:  # long trajectories have directions that hold the step
+    if back and late.size:  # forward tangents of long trajectories, as these also limit the step
         held = run_part(which[late], asked.rtol, _SOON, False)
         if held is None:
             return which
@@ -199,13 +199,13 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     near, least = measures[:, 0], limit(asked.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(asked, which, found, far)
-    # what creeps for long mostly sticks: without derivatives first
+    # long creeping collisions mostly stick, so they are first computed without derivatives
     slow = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if slow.size:
         plain = _without(asked, which[slow], asked.rtol)
         answers[slow], measures[slow] = plain.answers, plain.near
-    # nearer than NEAR a trajectory amplifies its errors: again, to a tolerance that allows for it, by decades
-    told = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # nothing is to be measured
+    # nearer than NEAR to a boundary errors are amplified, so these are repeated with tolerances smaller by decades
+    told = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # no distance to compute
     close = (answers["outcome"] > 0) & ~far & ((near > LOOK * least) | (told & (near >= least)))
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
@@ -235,10 +235,10 @@ def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
 
 
 def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
-    """Collisions without derivatives, by the same kernel."""
+    """The collisions without derivatives, by the same kernel."""
     oblique = bool(asked.angle[which[0]] > 0)
     found = run_tangent(asked.impacts(which, factor), oblique, rtol, "rotation" in asked.of, (), order_for(asked.rtol))
-    assert found is not None  # the kernel is there
+    assert found is not None  # the kernel is available
     return found
 
 
@@ -254,7 +254,7 @@ def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarra
 
 
 def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
-    """Sticks that are ones on either side as well, as solvers/sensitivity/boundary_distance.py looks at them."""
+    """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
     stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
     sure = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
     look = np.flatnonzero(stuck & ~sure)

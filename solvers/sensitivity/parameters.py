@@ -1,6 +1,6 @@
-"""What a collision depends on: the numbers of its scene by dotted name, and their way into groups and scales.
+"""Parameters of a collision: numeric entries of its scene by dotted name, and the map to groups and scales.
 
-Everything is differentiated in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0: of order one each.
+Derivatives are in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0, so that each is of order one.
 """
 
 from __future__ import annotations
@@ -29,17 +29,17 @@ RELATIVE = "impact.relative_speed"
 
 
 def known(scene: Scene) -> tuple[str, ...]:
-    """The parameters of a scene: its numbers as the file gives them, then the impact's three."""
+    """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
     own = [name for name, value in scene.si if not (isinstance(value, str) or name.startswith("impact."))]
     return (*own, *((RELATIVE,) if RELATIVE in scene.entries else ()), *IMPACT)
 
 
 def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
-    """The parameters asked for; InputError naming the nearest known for one that the scene has not."""
+    """The requested parameters; InputError with the nearest known name for one that the scene does not have."""
     everything = known(scene)
     if wrt is None:
         return everything
-    # not in the file, but numbers of their own all the same
+    # parameters even if the scene takes their defaults or gives another speed
     more = (*_defaults(scene), RELATIVE)
     asked = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not asked:
@@ -48,20 +48,20 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
 
 
 def _defaults(scene: Scene) -> dict[str, float]:
-    """Numbers that the scene has without saying so."""
+    """Numeric entries that take their defaults."""
     tables = {name.partition(".")[0] for name, _ in scene.si}
     return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables}
 
 
 def hold_of(scene: Scene, hold: object, label: str = "hold") -> str:
-    """What of the impact is held fixed; None: the relative speed if the scene says that, else the normal speed."""
+    """The held quantity; None means the relative speed where the scene gives that, else the normal speed."""
     if hold is not None:
         return check_hold(hold, label)
     return "relative_speed" if RELATIVE in scene.entries else "speed"
 
 
 def check_hold(hold: object, label: str = "hold") -> str:
-    """What of the impact is held fixed; InputError if it is none of these."""
+    """The held quantity, one of `HOLDS`; InputError otherwise."""
     if not isinstance(hold, str) or hold not in HOLDS:
         raise InputError(label, hold, ", ".join(HOLDS), "is not known" + did_you_mean(hold, HOLDS))
     return hold
@@ -69,11 +69,11 @@ def check_hold(hold: object, label: str = "hold") -> str:
 
 @dataclass(frozen=True)
 class Kind:
-    """What the way from parameters to groups depends on: which entries a scene has, and what of the impact is held."""
+    """Key of a parameter map: the entries that a scene has, and the held quantity of the impact."""
 
-    entries: tuple[str, ...]  # reference values in this order
+    entries: tuple[str, ...]  # names of the reference values, in order
     hold: str
-    shape: tuple[object, ...]  # what chooses among the formulas
+    shape: tuple[object, ...]  # choices that select the formulas
     formulas: Mapping[str, Formula] = field(compare=False, repr=False)
 
     @property
@@ -88,7 +88,7 @@ class Kind:
 
 
 def kind_of(scene: Scene, hold: str) -> Kind:
-    """The kind of a scene's collision."""
+    """The kind (key of the parameter map) of a scene's collision."""
     own = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if not name.startswith("impact."))
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
     return Kind(
@@ -100,7 +100,7 @@ def kind_of(scene: Scene, hold: str) -> Kind:
 
 
 def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarray:
-    """Values of a kind's entries, SI."""
+    """Reference values of a kind's entries, SI."""
     values: dict[str, Any] = _defaults(scene) | dict(scene.entries)
     values |= {"impact.speed": speed, "impact.stokes": scene.stokes_of(speed), "impact.angle": angle}
     values[RELATIVE] = speed / normal_speed(1.0, angle)
@@ -108,16 +108,16 @@ def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarr
 
 
 def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
-    """What a parameter that is zero is measured in."""
+    """Scale of a parameter whose reference value is zero."""
     return film(values) if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
 
 
 @dataclass(frozen=True)
 class ParameterMap:
-    """From parameters to groups and scales: functions of the reference values.
+    """Map from parameters to groups and scales, as CasADi functions of the reference values.
 
     Arguments:
-        values: (ref,) -> groups, scales of length, time, rate and energy.
+        values: (ref,) -> groups, then the scales of length, time, rate and energy.
         slopes: (ref,) -> their derivatives in theta, and dp/dtheta.
         bends: (ref, weights of groups and scales) -> Hessian of the weighted sum in theta.
     """
@@ -129,9 +129,9 @@ class ParameterMap:
 
 @own_cache(128)
 def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> ParameterMap:
-    """The way from a kind's parameters to the groups of a model.
+    """The map from a kind's parameters to the groups of a model.
 
-    Speed and Stokes number are one variable: either moves whichever of the two the kind holds, by the same part.
+    Speed and Stokes number are one variable: either changes the held one by the same relative amount.
     """
     reference = SX.sym("ref", len(kind.entries))
     theta = SX.sym("theta", len(wrt))
@@ -167,7 +167,7 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
 
 
 def _impact(base: Mapping[str, SX], ways: Ways) -> dict[str, SX]:
-    """Speeds and Stokes number of the reference."""
+    """Speeds and Stokes number as expressions of the reference values."""
     of = quantities(base, ways)
     stokes = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], of["speed"])
     relative = of["speed"] / normal_speed(1, base["impact.angle"])

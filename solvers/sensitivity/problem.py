@@ -1,4 +1,4 @@
-"""A collision and the parameters to differentiate in: located, held against the boundaries, differentiated in theta."""
+"""The differentiation of one collision: located, checked for nearby boundaries, differentiated in theta."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from .result import Near
 from .results import QUANTITIES
 from .trajectory_expression import course_of, influential, trajectory_expression
 
-_LOCATED = 1e-8  # tolerance at which the trajectory is located: it only has to be near, landings take the rest
-NEAR = 1e-2  # a trajectory nearer than this to a boundary amplifies its errors: the tolerance falls with the distance
+_LOCATED = 1e-8  # tolerance of the event location; landings on the events correct the remaining error
+NEAR = 1e-2  # at smaller distances to a boundary errors are amplified, so the tolerance is reduced with the distance
 SHARPEST = 1e-13
 _ASIDE = 1e-5  # rad
-_SHARPEST_CVODES = 3e-12  # of CVODES with sensitivities: tighter, it gives up on some trajectories
+_SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 
 Along = np.ndarray | Literal["all"] | None
-"""Directions (n, m) in the parameters, SI, along which second derivatives are wanted."""
+"""Directions (n, m) in the parameters, SI, of the requested second derivatives."""
 
 
 @dataclass(frozen=True)
 class Slopes:
-    """Derivatives of quantities in theta, SI: y (q,), dy/dtheta (q, n), along directions d2y (q, n, m) if asked for."""
+    """Derivatives of quantities in theta, SI: y (q,), dy/dtheta (q, n), optional d2y along directions (q, n, m)."""
 
     value: np.ndarray
     first: np.ndarray
@@ -43,7 +43,7 @@ class Slopes:
 
 @dataclass(frozen=True)
 class Problem:
-    """A collision, the parameters to differentiate in, and the reference that theta is measured from."""
+    """A collision, the parameters to differentiate in, and their reference values."""
 
     scene: Scene
     n: DimensionlessGroups
@@ -58,7 +58,7 @@ class Problem:
         return cls(scene, nondimensionalise(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
 
     def located(self, of: tuple[str, ...], rtol: float) -> tuple[EventSequence, Near | None]:
-        """The trajectory and the nearest boundary that it shows; ComputationError if that is too near."""
+        """The located trajectory and the nearest boundary found; ComputationError if that is too near."""
         finder = EventLocator(load(select_model(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
         try:
             path = finder.run()
@@ -70,13 +70,14 @@ class Problem:
         return path, near
 
     def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
-        """What is asked for and begins to depend on the angle at zero."""
+        """The requested quantities that are odd in the angle, with a derivative at zero."""
         return tuple(name for name in of if QUANTITIES[name].odd) if "impact.angle" in self.wrt else ()
 
     def beside(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
-        """Derivatives in the angle of quantities that are odd in it, just beside head-on.
+        """Derivatives in the angle of quantities that are odd in it, from a small angle.
 
-        With strings, whose equations are divided by the impact's rotation. The error is of the square of the angle.
+        Used with strings, whose equations are divided by the impact's rotation rate. The error is quadratic in the
+        angle.
         """
         aside = Problem.of(self.scene, self.n.speed, _ASIDE, ("impact.angle",), self.kind.hold)
         path = EventLocator(load(select_model(self.scene, True)), aside.n.groups, _LOCATED).run()
@@ -84,7 +85,7 @@ class Problem:
         return dict(zip(of, (slopes.first[:, 0] / aside.units()[0]).tolist(), strict=True))
 
     def defined(self, name: str, path: EventSequence) -> bool:
-        """Whether physics defines a quantity for the collision, as something that varies."""
+        """True if a quantity is defined for the collision and can vary."""
         if name == "tangential_restitution" and not self.n.oblique:
             return False
         return path.separated or name == "energy.initial"
@@ -120,7 +121,7 @@ class Problem:
         durations = np.array([step.duration for step in path.steps])
         second = None
         try:
-            # the bends of the groups take the derivative in every group, not along the parameters only
+            # second derivatives of the groups need the gradient in every group
             how = method if along is None else "adjoint"
             durations, z, dz = differentiated(whole, course, p, durations, dp, active, how, _amplifies(near))
             if along is not None:
@@ -144,7 +145,7 @@ class Problem:
         return np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(self.reference)[1].full()).ravel()
 
     def value_of(self, name: str) -> float:
-        """A parameter's own value, SI."""
+        """The value of a parameter, SI."""
         if name == "impact.speed":
             return self.n.speed
         if name == RELATIVE:
@@ -155,7 +156,7 @@ class Problem:
 
 
 def sharpened(rtol: float, near: Near | None) -> float:
-    """The tolerance of a trajectory that amplifies its errors by one over its distance from a boundary."""
+    """The tolerance reduced for a trajectory near a boundary, which amplifies errors by one over the distance."""
     return min(rtol, max(rtol * near.distance / NEAR, SHARPEST)) if near is not None and _amplifies(near) else rtol
 
 
@@ -164,7 +165,7 @@ def _amplifies(near: Near | None) -> bool:
 
 
 class _Units:
-    """SI scales of quantities, which depend on the parameters as well."""
+    """SI scales of quantities, with their derivatives in the parameters."""
 
     def __init__(self, of: tuple[str, ...], scales: np.ndarray, slopes: np.ndarray) -> None:
         self.where = [SCALES.index(scale) if (scale := QUANTITIES[name].scale) else None for name in of]
@@ -182,7 +183,7 @@ class _Units:
         second: np.ndarray,
         right: np.ndarray,
     ) -> np.ndarray:
-        """Second derivatives in theta: of the trajectory in its groups, and of the groups and scales themselves."""
+        """Second derivatives in theta, from those of the trajectory in its groups and those of groups and scales."""
         found = []
         for k in range(z.size):
             weights = np.concatenate([dz[k] * self.scale[k], np.zeros(len(SCALES))])

@@ -1,4 +1,4 @@
-"""Sensitivities of one collision: immutable, labelled, prints well, converts to the JSON object and to a Dataset."""
+"""Sensitivities of one collision: immutable; prints as a table, converts to the JSON object and to a Dataset."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 Row = Mapping[str, float | None]
-_SHOWN = 5  # quantities side by side
-_ROUNDING = 1e-13  # of the largest elasticity: what is left of contributions that cancel
+_SHOWN = 5  # most quantities side by side
+_ROUNDING = 1e-13  # relative to the largest elasticity; smaller ones are rounding errors of cancelling contributions
 
 
 @dataclass(frozen=True)
 class Near:
-    """The nearest boundary known, and how far the collision is from it, as a part of `of`."""
+    """The nearest known boundary, and the collision's distance from it relative to the quantity `of`."""
 
     boundary: str
     distance: float
@@ -33,17 +33,17 @@ class Near:
 
 @dataclass(frozen=True, kw_only=True)
 class Sensitivities:
-    """Derivatives of a collision's results; SI and radians, None where there is nothing to differentiate.
+    """Derivatives of a collision's results; SI and radians; None where undefined.
 
     Attributes:
         value: each quantity's value.
         gradient: quantity -> parameter -> dy/dp, all others held.
         elasticity: quantity -> parameter -> d ln y/d ln p; None where y or p is zero.
-        hessian: quantity -> parameter -> parameter -> d2y/dp dq, if asked for.
-        hessian_times: quantity -> parameter -> the Hessian times the vector that was asked for.
-        outcome: the collision's.
-        reference: each parameter's own value.
-        near: the nearest boundary that the trajectory itself shows, None if it shows none.
+        hessian: quantity -> parameter -> parameter -> d2y/dp dq, if requested.
+        hessian_times: quantity -> parameter -> the Hessian times the requested vector.
+        outcome: outcome of the collision.
+        reference: values of the parameters.
+        near: the nearest boundary found from the trajectory, None if there is none.
     """
 
     value: Mapping[str, float | None]
@@ -86,7 +86,7 @@ class Sensitivities:
         }
 
     def to_dataset(self) -> xarray.Dataset:
-        """Value, gradient and elasticity over `quantity` and `parameter`; NaN where there is None. Imports xarray."""
+        """Dataset of value, gradient and elasticity over `quantity` and `parameter`; NaN for None. Imports xarray."""
         import numpy as np
         import xarray as xr
 
@@ -142,7 +142,7 @@ class Sensitivities:
         return "\n".join([*_aligned([head, units], widths), "", title, *_aligned(rows, widths)])
 
     def _bent(self) -> list[str]:
-        """A table of second derivatives a quantity, and one of the Hessian times a vector, if they were asked for."""
+        """Tables of second derivatives, one per quantity, and of the Hessian times a vector, if requested."""
         names, tables = self.parameters, []
         for y, rows in (self.hessian or {}).items():
             for k in range(0, len(names), _SHOWN):
@@ -164,7 +164,7 @@ class Sensitivities:
         return "~0" if self._rounded(y, p) else f"{elasticity:.5g}"
 
     def _rounded(self, y: str, p: str) -> bool:
-        """Whether an elasticity, though not zero, is no more than rounding."""
+        """True if a nonzero elasticity is only rounding error."""
         largest = max((abs(value or 0.0) for value in self.elasticity[y].values()), default=0.0)
         return 0 < abs(self.elasticity[y][p] or 0.0) < _ROUNDING * largest
 
@@ -186,7 +186,7 @@ class Sensitivities:
 
 
 def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:
-    """Lines of cells, the first of each to the left; as wide as they need, or as `widths` says."""
+    """Lines of aligned cells, the first column left-aligned; column widths as needed or as in `widths`."""
     widths = widths or [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]).rstrip() for row in rows]
 

@@ -1,4 +1,4 @@
-"""What can be differentiated: the results of a collision by name, and what each asks of the computation."""
+"""The differentiable results of a collision by name, and the requirements of each."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ..host.arguments import check_names
 
 @dataclass(frozen=True)
 class Quantity:
-    """A result of a collision.
+    """A differentiable result of a collision.
 
     Arguments:
-        scale: by which its dimensionless value comes to SI ("length", "time", "rate", "energy"); None: it has no unit.
-        extra: what must be integrated along, if it has an integral of its own.
-        odd: it changes sign with the impact angle, and so depends on it head-on.
+        scale: conversion of the dimensionless value to SI ("length", "time", "rate", "energy"); None if dimensionless.
+        extra: name of its quadrature, if it is an integral over the trajectory.
+        odd: True if it changes sign with the impact angle, and so depends on it head-on.
     """
 
     name: str
@@ -52,7 +52,7 @@ SPENT = (*LEDGER[2:-1],)
 
 
 def check_quantities(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
-    """The quantities asked for; InputError naming the nearest for one that there is not."""
+    """The requested quantities; InputError with the nearest name for an unknown one."""
     asked = check_names(of, tuple(QUANTITIES), label)
     if not asked:
         raise InputError(label, "", ", ".join(QUANTITIES), "names no quantity")
@@ -60,6 +60,6 @@ def check_quantities(of: Sequence[str] | str, label: str = "of") -> tuple[str, .
 
 
 def computed(of: Sequence[str]) -> tuple[str, ...]:
-    """What must be computed for these: the residual stands for all terms of the ledger."""
+    """The quantities to compute for these; the residual requires all terms of the ledger."""
     names = [name for one in of for name in (LEDGER[:-1] if one == "energy.residual" else (one,))]
     return tuple(dict.fromkeys(names))

@@ -1,4 +1,4 @@
-"""`sensitivities()`: a scene in, derivatives of its collision's results out."""
+"""`sensitivities()`: derivatives of the results of a scene's collision."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from .results import SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
 _PART = Field("hessian", "a number (SI)", "1.0", Range("of either sign", lambda _: True))
-_BEST = "rosenbrock"  # its derivatives are some hundred times more accurate than those of CVODES at one tolerance
+_BEST = "rosenbrock"  # its derivatives are about a hundred times more accurate than those of CVODES at one tolerance
 
 
 def check_method(method: object, label: str = "method") -> str:
-    """How to differentiate; InputError if it is neither forward nor adjoint."""
+    """The method, "forward" or "adjoint"; InputError otherwise."""
     if not isinstance(method, str) or method not in METHODS:
         raise InputError(label, method, ", ".join(METHODS), "is not known" + did_you_mean(method, METHODS))
     return method
@@ -51,24 +51,24 @@ def sensitivities(
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name.
         of: results by name: `restitution`, `contact_time`, ..., `energy.capillary`.
-        wrt: parameters by dotted name; None: every number of the scene, and the impact's three (`impact.speed`, ...).
+        wrt: parameters by dotted name; None for every numeric entry, and `impact.speed`, `.stokes` and `.angle`.
         stokes, speed, angle, relative_speed: the impact, as for `collide`.
-        method: "forward" costs with the parameters asked, "adjoint" with the results.
+        method: "forward" has a cost proportional to the number of parameters, "adjoint" to that of results.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is rosenbrock's); None:
             taylor where its kernel is compiled already, else rosenbrock, which needs no compiler and is more accurate
             than cvodes.
-        hold: what of the impact stays when another parameter varies: its "speed", its "stokes" number or its
-            "relative_speed", which is the default where the scene gives that; else the speed.
-        hessian: second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) asks only for
-            the Hessian times that vector, at the price of one direction.
+        hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";
+            None for the relative speed where the scene gives that, else the speed.
+        hessian: compute second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) requests
+            only the Hessian times that vector, at the cost of one direction.
 
     Returns:
         Sensitivities: value, gradient and elasticity by name.
 
     Raises:
         InputError: a name or option is not acceptable.
-        ComputationError: the trajectory could not be completed, or it is so near a boundary that no derivative exists.
+        ComputationError: the trajectory could not be completed, or is too near a boundary for derivatives.
 
     Example:
         >>> from wetdoublet.solvers import sensitivities
@@ -98,7 +98,7 @@ def sensitivities(
         beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
         try:
             slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
-        except ComputationError:  # its trajectory misses what the located one met: the kernel may not
+        except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
             alone = beside or asked is not None or method != "forward" or along is not None
             slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
             if slopes is None:
@@ -113,7 +113,7 @@ def sensitivities(
     rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
     for name, slope in turning.items():
         row = rows[name][1]
-        assert row is not None  # it separates
+        assert row is not None  # for instance, if it separates
         row[names.index("impact.angle")] = slope
     values = {name: row[0] for name, row in rows.items()}
     reference = {name: problem.value_of(name) for name in names}
@@ -149,11 +149,11 @@ Combined = tuple[float | None, np.ndarray | None, np.ndarray | None]
 
 
 def _combined(name: str, todo: tuple[str, ...], slopes: Slopes | None, units: np.ndarray, along: Along) -> Combined:
-    """Value, gradient (n,) and second derivatives (n, m) of a quantity, out of those that were computed."""
+    """Value, gradient (n,) and second derivatives (n, m) of a quantity, from the computed ones."""
     columns = units if isinstance(along, str) else np.ones(1)
     parts = _parts(name)
     if slopes is None or any(part not in todo for part in parts):
-        if name == "restitution":  # of a stick
+        if name == "restitution":  # the restitution of a stick
             return 0.0, np.zeros(units.size), np.zeros((units.size, columns.size))
         return None, None, None
     weights = np.array([parts.get(one, 0.0) for one in todo])
@@ -164,7 +164,7 @@ def _combined(name: str, todo: tuple[str, ...], slopes: Slopes | None, units: np
 
 
 def _parts(name: str) -> dict[str, float]:
-    """A quantity as a sum of what is computed."""
+    """A quantity as a weighted sum of computed quantities."""
     if name != "energy.residual":
         return {name: 1.0}
     return {"energy.initial": 1.0, "energy.final": -1.0} | dict.fromkeys(SPENT, -1.0)
@@ -181,7 +181,7 @@ def _matrix(names: tuple[str, ...], matrix: np.ndarray | None) -> dict[str, dict
 def _elasticities(
     name: str, reference: Mapping[str, float], value: float | None, row: np.ndarray | None
 ) -> dict[str, float | None]:
-    """D ln y/d ln p, None where y or p is zero; the ledger's residual is zero but for rounding."""
+    """Elasticities d ln y/d ln p; None where y or p is zero, and for the ledger's residual, which is rounding error."""
     none = row is None or not value or name == "energy.residual"
     return {
         p: None if none or not at else float(row[k]) * at / value + 0.0  # type: ignore[index, operator]  # `none` says so

@@ -1,4 +1,4 @@
-"""A tornado chart: elasticities as bars, the strongest on top."""
+"""Tornado chart: elasticities as bars, the largest on top."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from ..scene.scene import Scene
 from .results import QUANTITIES
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
-_MOST = 16  # bars a panel
-_SEEN = 0.005  # of a panel's longest bar: a shorter one would not be seen
-_LONG = 6  # columns of panels at most
+_MOST = 16  # most bars in a panel
+_SEEN = 0.005  # shortest bar, relative to a panel's longest
+_LONG = 6  # most columns of panels
 _NAMES = {
     "impact.speed": "impact speed, Stokes",
     "impact.angle": "impact angle",
@@ -19,7 +19,7 @@ _NAMES = {
     "particles.youngs_modulus": "Young's modulus",
     "particles.poisson_ratio": "Poisson's ratio",
 }
-"""Parameters whose name in the scene does not say enough."""
+"""Labels of parameters whose entry names are not descriptive enough."""
 
 
 class Elasticities(Protocol):
@@ -42,7 +42,7 @@ class Elasticities(Protocol):
 
 
 def draw(found: Elasticities) -> Any:
-    """A panel a quantity, a bar a parameter; those too weak to be seen, or without elasticity, are named below.
+    """Draw a panel per quantity and a bar per parameter; parameters with negligible or no elasticity are listed below.
 
     Returns:
         The matplotlib Figure.
@@ -77,7 +77,7 @@ def _has_value(found: Elasticities) -> bool:
 
 
 def _ranked(found: Elasticities, names: Sequence[str]) -> list[str]:
-    """Parameters with influence, strongest last (bars are drawn from below); speed and Stokes number once."""
+    """Parameters with influence, the largest last (bars are drawn from below); speed and Stokes number appear once."""
     single = [p for p in found.parameters if not (p == "impact.stokes" and "impact.speed" in found.parameters)]
     rows = {p: [abs(found.elasticity[y][p] or 0.0) for y in names] for p in single}
     longest = [max((row[k] for row in rows.values()), default=0.0) for k in range(len(names))]

@@ -1,7 +1,7 @@
-"""How a trajectory as a function of time moves with the parameters: dy(t)/dp on a grid, as a Dataset.
+"""Derivatives of a trajectory in the parameters at fixed time: dy(t)/dp on a grid, as a Dataset.
 
-At a fixed time: where an event moves, a quantity that jumps at it has no derivative there; just before and just after
-it the derivatives differ by the saltation. What an event's own time does is in `d_event_time`.
+A quantity that jumps at an event has no derivative there; just before and just after the event the derivatives differ
+by the saltation. `d_event_time` has the derivatives of the events' times.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ from .trajectory_expression import Course, course_of, ending, follow_course, inf
 if TYPE_CHECKING:
     import xarray
 
-POINTS = 64  # a phase, crowded at its ends
+POINTS = 64  # points of a phase, denser at its ends
 _PART = np.linspace(0, 1, POINTS + 1)
 _GRID = tuple(float(part) for part in (_PART**3 * (10 - 15 * _PART + 6 * _PART**2))[1:])
-_TIME, _RATE = 1, 2  # places of the scales
+_TIME, _RATE = 1, 2  # indices of the scales
 _VARIABLES = {
     "gap": ("m", "gap between the surfaces"),
     "normal_velocity": ("m/s", "normal velocity, negative on approach"),
@@ -69,7 +69,7 @@ def trajectory_sensitivities(
 
     Raises:
         InputError: a name or option is not acceptable.
-        ComputationError: as for `sensitivities`. Of a stick: the trajectory up to where it is decided, if there is one.
+        ComputationError: as for `sensitivities`. For a stick, the trajectory ends where the outcome is decided.
     """
     import xarray as xr
 
@@ -112,7 +112,7 @@ Piece = tuple[np.ndarray, np.ndarray, np.ndarray, str]
 def _pieces(
     problem: Problem, path: EventSequence, plugin: str, rtol: float
 ) -> tuple[list[Piece], list[tuple[str, float, np.ndarray]]]:
-    """The integrated phases one by one, and the events with their times and what these do."""
+    """The phases one by one, and the events with their times and time derivatives."""
     told = tolerance(rtol, plugin, problem.n.groups)
     whole = course_of(path, select_model(problem.scene, path.model.oblique, full=True))
     groups = tuple(whole.model.groups)
@@ -137,7 +137,7 @@ def _pieces(
                 leg = _leg(part, seeds.shape[1], plugin, told)
                 y, rates, tangents, clock, d_clock = evaluate(leg, p, durations[: k + 1], seeds)
                 time = before + durations[k] * np.array([0.0, *_GRID])
-                # at a fixed time in seconds, not at one in x0/v0 since the last event
+                # converted to a fixed time in seconds, from a fixed time in x0/v0 since the last event
                 delay = d_before + time[:, None] * ds[_TIME] / scales[_TIME]
                 moved = (tangents @ back).reshape(5, time.size, -1) - rates[:, :, None] * delay
                 units = _units(scales, ds)
@@ -163,8 +163,10 @@ def _units(scales: np.ndarray, ds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @own_cache(64)
 def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
-    """(groups, durations, directions) -> the five variables over a course's last leg, their rates, the derivatives of
-    the former along the directions (at a fixed time since the leg began), its end's time, and that one's.
+    """Function (groups, durations, directions) -> values over a course's last leg, and their derivatives.
+
+    Outputs: the five variables, their rates, the variables' derivatives along the directions (at a fixed time since the
+    leg began), the time of its end, and that time's derivatives.
     """
     model = course.model
     extras = ("rotation",) if model.has("turning_rate") and not model.strings else ()
@@ -180,7 +182,7 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
         shown = _shown(flow, told.offset)
         columns = [start, *(inside[:, k] for k in range(POINTS))]
         y, rates = (horzcat(*each) for each in zip(*(shown(column, p) for column in columns)))
-        # rows of `vec(y.T)`: variable by variable
+        # rows of `vec(y.T)`, ordered by variable
         tangents = densify(jtimes(vec(y.T), p, seeds))
         return Function(
             "leg", [p, durations, seeds], [y, rates, tangents, end.time, densify(jtimes(end.time, p, seeds))]
@@ -189,7 +191,7 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
 
 @own_cache(64)
 def _shown(flow: Flow, offset: float) -> Function:
-    """(state with extras, groups) -> gap, normal velocity, rotation rate, spin, rotation; and their rates."""
+    """Function (state with extras, groups) -> gap, normal velocity, rotation rate, spin, rotation; and their rates."""
     model, parts = flow.model, expressions(flow)
     outputs: dict[str, Any] = model("outputs") if model.oblique else {}
     turned = parts.extras["rotation"] - offset if "rotation" in parts.extras else model.state.get("rotation", SX(0))

@@ -1,7 +1,7 @@
 """A located trajectory as one CasADi expression: phases over constant durations, landings on events, and jumps.
 
-Evaluated at the located durations a landing moves the state by about nothing, but its derivatives are the saltation's,
-the first and, by its second-order terms, the second. So value, gradients and Hessians are CasADi's own.
+A landing is a correction of the state onto the event's surface. At the located durations it is almost zero, but its
+first and second derivatives are those of the saltation. So CasADi differentiates the whole trajectory.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from ..model.model import Model, ModelKey, load
 from ..model.phases import Flow, Phase, WatchedEvents
 from .results import QUANTITIES
 
-# landing's parameters after the groups: direction of motion, and the level of the certificate, which is never landed on
+# further arguments of the guards: direction of motion, and the certificate's level, which is not used here
 _NO_LEVEL = 0.0
 
 
 @dataclass(frozen=True)
 class Leg:
-    """A phase of a trajectory without its duration: its equations, the event at its end, and what that does."""
+    """A phase of a trajectory without its duration: equations, final event and the effect of that."""
 
     phase: Phase
     lasts: bool
     event: str | None
-    reverses: bool
+    rebounds: bool
     holds: bool
 
 
 @dataclass(frozen=True)
 class Course:
-    """A trajectory but for its numbers: the key under which its expression is kept.
+    """The sequence of phases and events of a trajectory, without numbers; the key of its cached expression.
 
     Arguments:
-        nearest: legs after which the gap was smallest; -1: at initial contact.
+        nearest: index of the leg at whose end the gap is smallest; -1 for initial contact.
     """
 
     choice: ModelKey
@@ -59,15 +59,15 @@ class Course:
 
 
 def course_of(path: EventSequence, choice: ModelKey) -> Course:
-    """The course of a located path, to be integrated with a model (its own, or the full form of it)."""
-    legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.reverses, step.holds) for step in path.steps)
+    """The course of a located path, for its own model or the full form of it."""
+    legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.rebounds, step.holds) for step in path.steps)
     gaps = [1.0, *(float(end[0]) for end in path.ends)]
     return Course(choice, legs, path.watch.tangential_edge, int(np.argmin(gaps)) - 1)
 
 
 @dataclass(frozen=True)
 class TrajectoryExpression:
-    """The expression of a course: (groups, durations) -> quantities, shifts of the landings over the durations."""
+    """Expression of a course: (groups, durations) -> quantities, relative shifts of the durations by the landings."""
 
     function: Function
     of: tuple[str, ...]
@@ -76,7 +76,7 @@ class TrajectoryExpression:
 
 @dataclass
 class CourseState:
-    """What a course leads to, as expressions in its groups and durations; the state carries the extras."""
+    """Final state of a course, as expressions in its groups and durations; `y` includes the quadratures."""
 
     start: MX
     y: MX
@@ -89,7 +89,7 @@ class CourseState:
 def follow_course(
     course: Course, p: MX, durations: MX, extras: tuple[str, ...], plugin: str, tolerance: Tolerance
 ) -> CourseState:
-    """Follow a course from initial contact."""
+    """Build the expressions of a course from initial contact on."""
     model = course.model
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
@@ -107,9 +107,9 @@ def follow_course(
                 at.shifts.append(dt / durations[k])
         if k == course.nearest:
             at.nearest = at.y[0]
-        if leg.reverses:
-            at.dry += model.function("reversal_loss")(at.y[:size], p)
-            at.y = vertcat(model.function("reversal")(at.y[:size], p), at.y[size:])
+        if leg.rebounds:
+            at.dry += model.function("rebound_loss")(at.y[:size], p)
+            at.y = vertcat(model.function("rebound")(at.y[:size], p), at.y[size:])
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
     return at
@@ -124,7 +124,7 @@ def symbols(course: Course) -> tuple[MX, MX]:
 def trajectory_expression(
     course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance
 ) -> TrajectoryExpression:
-    """The expression of a course for the quantities asked for; nothing else is integrated."""
+    """The expression of a course for the requested quantities, with only the quadratures that these need."""
     model = course.model
     extras, size = _extras(model, of), len(model.state)
     p, durations = symbols(course)
@@ -141,7 +141,7 @@ def trajectory_expression(
 
 @own_cache(256)
 def ending(course: Course, plugin: str, tolerance: Tolerance) -> TrajectoryExpression:
-    """The expression of the state in which a course ends."""
+    """The expression of the final state of a course."""
     p, durations = symbols(course)
     at = follow_course(course, p, durations, (), plugin, tolerance)
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
@@ -151,7 +151,7 @@ def ending(course: Course, plugin: str, tolerance: Tolerance) -> TrajectoryExpre
 
 
 def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
-    """What is integrated along: the rotation where it is not a state, the terms of the ledger that the model has."""
+    """Names of the quadratures: the rotation where it is not a state, and the model's terms of the ledger."""
     wanted = [QUANTITIES[name].extra for name in of]
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
@@ -173,12 +173,12 @@ def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:
 
 
 def influential(course: Course, groups: dict[str, float]) -> list[bool]:
-    """Which groups a course can depend on: those of criteria that it does not meet have no influence on it."""
+    """Mask of groups that influence a course; those of rebound criteria that it does not meet have none."""
     landed = {leg.event for leg in course.legs}
     met = GAPS[contact_word(groups)] if "contact" in landed else None
     absent = {
         "glass_number": "glass" not in landed,
         **{gap: gap != met for gap in GAPS.values()},
-        "dry_restitution": not any(leg.reverses for leg in course.legs),
+        "dry_restitution": not any(leg.rebounds for leg in course.legs),
     }
     return [not absent.get(name, False) for name in course.model.groups]

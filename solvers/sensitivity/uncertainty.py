@@ -1,4 +1,4 @@
-"""What uncertain inputs make of a result: standard deviations to first order, and by quasi-random sampling beside."""
+"""Propagation of uncertain inputs to results: first-order standard deviations, and quasi-random sampling."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .result import Sensitivities
 if TYPE_CHECKING:
     import xarray
 
-_MOST = 2**20  # samples
+_MOST = 2**20  # most samples
 _LEVELS = (0.025, 0.975)
 _OVER = (*SPEEDS, "impact.angle")
 
@@ -34,7 +34,7 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
     """Standard deviations of parameters, SI: `"5 %"` is a part of the value, text with a unit and numbers are absolute.
 
     Raises:
-        InputError: a name that the scene has not, or a value that is no uncertainty.
+        InputError: a name that the scene does not have, or a value that is no uncertainty.
     """
     check_mapping(uncertainty, label, "standard deviations by dotted name")
     check_wrt(scene, tuple(uncertainty), label)
@@ -67,7 +67,7 @@ def _value(scene: Scene, name: str) -> float:
 
 
 def first_order(found: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:
-    """Standard deviation of each result if the parameters vary independently: sqrt(sum (dy/dp sigma_p)^2)."""
+    """Standard deviation of each result for independent parameters: sqrt(sum (dy/dp sigma_p)^2)."""
     return {
         name: None if found.value[name] is None else float(np.sqrt(sum(
             (float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items()
@@ -77,7 +77,7 @@ def first_order(found: Sensitivities, deviation: Mapping[str, float]) -> dict[st
 
 
 def spoken(found: Sensitivities, spread: Mapping[str, float | None]) -> str:
-    """The standard deviations in a line each."""
+    """The standard deviations as text, one line each."""
     known = {name: value for name, value in found.value.items() if value is not None and spread[name] is not None}
     return "\n".join(f"{name} = {value:.6g} ± {spread[name]:.2g} (first order)" for name, value in known.items())
 
@@ -92,23 +92,24 @@ def band(
     samples: int = 64,
     rtol: float = 1e-8,
 ) -> xarray.Dataset:
-    """A result over the Stokes number, speed or angle, and how uncertain it is.
+    """A result over the Stokes number, speed or angle, with its uncertainty.
 
     Arguments:
         scene: a Scene with an impact, a path or a preset's name.
-        uncertainty: standard deviations by dotted name, as `deviations` takes them.
+        uncertainty: standard deviations by dotted name, as for `deviations`.
         over: "impact.stokes", "impact.speed", "impact.relative_speed" or "impact.angle".
-        values: where, SI and radians. The speed of each is held while other parameters vary; where the scene gives the
-            relative speed, that.
+        values: values of `over`, SI and radians. The speed of each is held while other parameters vary; the relative
+            speed where the scene gives that.
         of: restitution, tangential_restitution, rotation, contact_time or smallest_gap.
-        samples: scrambled Sobol points each (a power of two), normal distributions cut off where a value cannot be.
+        samples: number of scrambled Sobol points for each value (a power of two); normal distributions, truncated to
+            valid values.
 
     Returns:
         Dataset over `over`: the result, `first_order` (its standard deviation; NaN where no derivative exists, with the
         `reason`), `outcome`, `low` and `high` (2.5 and 97.5 % of the samples) and `sampled` (their standard deviation).
 
     Raises:
-        InputError: a name or value that cannot be.
+        InputError: an invalid name or value.
         ComputationError: scipy is not installed.
     """
     import xarray as xr
@@ -158,7 +159,7 @@ def _sampled(
     samples: int,
     rtol: float,
 ) -> np.ndarray:
-    """The result of every sample (values, samples); a stick has restitution 0, other results of it are NaN."""
+    """Results of the samples, (values, samples); a stick has restitution 0 and NaN for other results."""
     normal = _normal(samples, len(uncertainty))
     columns: dict[str, list[np.ndarray]] = {name: [] for name in uncertainty}
     speeds, angles = [], []
@@ -192,7 +193,7 @@ def _held(scene: Scene, speed: float) -> Scene:
 
 
 def check_samples(samples: object) -> int:
-    """Return how many points of a Sobol sequence there shall be; InputError unless they fill it."""
+    """Return the number of points of a Sobol sequence; InputError unless it is a power of two in range."""
     count = check_whole(samples, "samples", 2, _MOST)
     if count & (count - 1):
         raise InputError("samples", samples, "a power of two", "does not fill a Sobol sequence")
@@ -200,7 +201,7 @@ def check_samples(samples: object) -> int:
 
 
 def _normal(samples: int, count: int) -> np.ndarray:
-    """Standard normal deviates of a scrambled Sobol sequence, the same every time."""
+    """Standard normal deviates of a scrambled Sobol sequence with a fixed seed."""
     try:
         from scipy.stats import norm, qmc
     except ImportError:
@@ -209,7 +210,7 @@ def _normal(samples: int, count: int) -> np.ndarray:
 
 
 def _possible(entry: Field, value: float, deviation: np.ndarray) -> np.ndarray:
-    """The value and its deviations, these halved until the schema takes them; at its very edge there are none."""
+    """The value plus its deviations; a deviation is halved until the schema accepts it, and is zero at a limit."""
     holds = entry.range.holds
     moved = np.array(deviation)
     for _ in range(60):
@@ -221,7 +222,7 @@ def _possible(entry: Field, value: float, deviation: np.ndarray) -> np.ndarray:
 
 
 def draw(found: xarray.Dataset) -> Any:
-    """The result with a shaded band of two standard deviations to first order, and the samples' 2.5 to 97.5 %.
+    """Draw the result with bands of two first-order standard deviations and of the samples' 2.5 to 97.5 %.
 
     Returns:
         The matplotlib Figure.
@@ -236,7 +237,7 @@ def draw(found: xarray.Dataset) -> Any:
     axis = figure.subplots()
     outcomes = found.outcome.values
     starts = [0, *(k for k in range(1, x.size) if outcomes[k] != outcomes[k - 1]), x.size]
-    for k, (start, stop) in enumerate(pairwise(starts)):  # what jumps is not joined
+    for k, (start, stop) in enumerate(pairwise(starts)):  # no line across a jump
         part = slice(start, stop)
         label, shade = ("as given", "±2σ, first order") if k == 0 else (None, None)
         axis.fill_between(

@@ -35,16 +35,16 @@ def sobol_indices(
 
     Arguments:
         scene: a Scene with an impact, a path or a preset's name.
-        ranges: dotted name -> (low, high), text with its unit or SI. The impact's own speed is held otherwise.
-        of: restitution, or another result of `collide_many` (which a stick leaves undefined: an error then).
-        samples: base samples, a power of two; samples (2 + parameters) collisions are computed.
+        ranges: dotted name -> (low, high), text with its unit or SI. The impact's speed is held unless it varies.
+        of: restitution, or another result of `collide_many` (an error if some collision sticks).
+        samples: number of base samples, a power of two; samples (2 + parameters) collisions are computed.
 
     Returns:
         Dataset over `parameter`: `first`, `total`, and half widths of their 95 % intervals; `collisions` in the
         attributes.
 
     Raises:
-        InputError: a name or range that cannot be.
+        InputError: an invalid name or range.
         ComputationError: SALib is not installed, a collision failed, or the result is not defined over the whole box.
     """
     import xarray as xr

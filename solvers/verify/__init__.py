@@ -1,4 +1,4 @@
-"""`wetdoublet verify`: symbolic identities out of the derivation, and numbers held to their bounds."""
+"""`wetdoublet verify`: symbolic identities of the derivation, and numerical checks against bounds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The stick certificate, audited: what it proved to stick is integrated on, long, without it, and must not escape."""
+"""Audit of the stick certificates: certified sticks are integrated further without certificates and must not escape."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from .report import Finding
 from .sample import WHOLE, own_stokes, place
 
 _SEED = 20120821
-DECADES = (-1.5, 1.5)  # of the scene's own Stokes number
+DECADES = (-1.5, 1.5)  # relative to the scene's Stokes number
 STEEPEST = 85.0  # deg
-LONG = 1e4  # x0/v0: beyond what the certificate's own trajectory took
+LONG = 1e4  # x0/v0; time of integration beyond the certified end
 _RTOL = 1e-8
-_PHASES = 300  # of a trajectory that chatters
-SECONDS = 6.0  # of processor time: impacts left over then are counted, not integrated
+_PHASES = 300  # most phases of a trajectory that chatters
+SECONDS = 6.0  # s of CPU time; remaining impacts are counted but not integrated
 
 
 class _Long(Exception):
-    """The trajectory has lasted as long as was asked for."""
+    """The requested time has been reached."""
 
 
 class WithoutCertificate(EventLocator):
-    """A trajectory that no certificate ends; it runs to an event that ends it, or until a time."""
+    """A locator without certificates: a trajectory ends at a final event or at a given time."""
 
     until = math.inf
 
     def on(self, until: float) -> EventSequence:
-        """Integrate; the path is `separated` if the doublet escaped before `until` (x0/v0)."""
+        """Integrate until time `until` (x0/v0); the path is `separated` if the doublet escaped before."""
         self.until = until
         try:
             return self.run()
@@ -65,14 +65,14 @@ class WithoutCertificate(EventLocator):
 
 @dataclass
 class Audit:
-    """What became of a sample of impacts."""
+    """Counts of the outcomes of a sample of impacts."""
 
     impacts: int = 0
     sticks: int = 0
-    proved: int = 0  # by a theorem
-    settled: int = 0  # ended early by what is no theorem (surface arm)
+    proved: int = 0  # certified by a theorem
+    settled: int = 0  # ended early without a theorem (surface lever arm)
     cut: int = 0  # reached a cut-off of the experiment when continued
-    unfinished: list[str] = field(default_factory=list)  # could not be integrated on
+    unfinished: list[str] = field(default_factory=list)  # could not be integrated further
     escaped: list[str] = field(default_factory=list)
     left: int = 0
 
@@ -84,12 +84,12 @@ def stick_audit(
     impacts: int = WHOLE.audited,
     locator: type[EventLocator] = EventLocator,
 ) -> Iterator[Finding]:
-    """Counts, and the law that no certified stick escapes.
+    """Findings of the audit: counts, and the check that no certified stick escapes.
 
     Arguments:
-        angles: rad, to draw from; None for 0 to STEEPEST degrees.
-        impacts: how many; a quarter of them where angles are given.
-        trajectory: whose certificate is audited.
+        angles: angles of the sample, rad; None for 0 to STEEPEST degrees.
+        impacts: number of impacts; a quarter of it if angles are given.
+        locator: locator whose certificate is audited.
     """
     found = audit(scene, angles, impacts, locator)
     statement = (
@@ -116,7 +116,7 @@ def audit(
     impacts: int = WHOLE.audited,
     locator: type[EventLocator] = EventLocator,
 ) -> Audit:
-    """Draw impacts, locate each with its certificate, and continue the proved ones without it."""
+    """Sample impacts, locate each with its certificate, and continue the certified ones without it."""
     draw = np.random.default_rng(_SEED)
     found, begun = Audit(), time.process_time()
     for _ in range(impacts if angles is None else impacts // 4):
@@ -130,7 +130,7 @@ def audit(
             n = nondimensionalise(scene, scene.speed_of(stokes), angle)
             path = locator(load(select_model(scene, n.oblique)), n.groups, _RTOL).run()
         except WetDoubletError:
-            continue  # nothing is certified
+            continue  # the scene has no certificate
         found.sticks += path.outcome == "stick"
         if path.outcome == "stick" and (path.certified or _ended_early(path)):
             _without_proof(found, scene, n, path, place(stokes, angle))
@@ -138,7 +138,7 @@ def audit(
 
 
 def _ended_early(path: EventSequence) -> bool:
-    """Whether the trajectory stopped inside a phase, by a proof or by what stands in for one."""
+    """True if the trajectory stopped within a phase, by a certificate or a criterion without proof."""
     return bool(path.steps) and path.steps[-1].event is None
 
 

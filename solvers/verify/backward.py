@@ -1,7 +1,7 @@
-"""Forward, then backward: a smooth stretch of a trajectory, run back in time, must come back to where it started.
+"""Reversibility: a smooth section of a trajectory, integrated backward in time, must return to its start.
 
-Backward in time what relaxes grows: the spin of a wet sphere by many decades a microsecond. So stretches are short, and
-the bound is the tolerance times the norm of the inverse of the stretch's own variational matrix.
+Relaxing modes grow backward in time, such as the spin of a wet sphere by many decades in a microsecond. Sections are
+therefore short, and the bound is the tolerance times the norm of the inverse of the section's variational matrix.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ from .follow import Followed, follow
 from .report import Finding, bounded
 from .sample import PLUGINS, REFERENCE, RTOL, Sample, place
 
-_SAFETY = 30.0  # of rtol: what either engine may add up to over a stretch, before it is amplified
-MOST = 1e4  # amplification of a stretch
-_AIM = 1e3  # amplification a stretch is first cut for, from the fastest rate at its ends
-_SHORTEST = 1e-12  # of a phase: stretches are halved no further
-_PLACES = (0.0, 0.3, 0.8)  # where in a phase stretches begin
-_TRAJECTORIES = 6  # of the sample
+_SAFETY = 30.0  # in units of rtol; allowed error of either integration over a section, before amplification
+MOST = 1e4  # largest amplification of a section
+_AIM = 1e3  # target amplification of the first estimate, from the fastest rate at the ends
+_SHORTEST = 1e-12  # shortest section, relative to its phase
+_PLACES = (0.0, 0.3, 0.8)  # starting points of sections, relative to the phase
+_TRAJECTORIES = 6  # trajectories of the sample
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """A smooth part of a trajectory, from where, for how long (x0/v0), and how it amplifies backward."""
+    """A smooth section of a trajectory: initial state, duration (x0/v0), and backward amplification of errors."""
 
     flow: Flow
     start: np.ndarray
@@ -42,7 +42,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class _Return:
-    """How far from its start a stretch came back, and what it was allowed."""
+    """Distance of the returned state from the start of a section, and its bound."""
 
     error: float
     bound: float
@@ -51,10 +51,10 @@ class _Return:
 
 
 def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[Finding]:
-    """Every engine, over stretches of every phase of a few trajectories.
+    """Findings for every engine, over sections of every phase of a few trajectories.
 
     Arguments:
-        back: what makes the integrator backward in time; `returning` if None.
+        back: factory of the integrator backward in time; `returning` if None.
     """
     back = returning if back is None else back
     returns: dict[str, list[_Return]] = {engine: [] for engine in PLUGINS}
@@ -63,7 +63,7 @@ def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[F
             try:
                 followed = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
             except WetDoubletError:
-                continue  # the sample names what is not completed
+                continue  # failures are reported with the sample
             for piece in followed.replayed.pieces:
                 where = place(*one, event=piece.name)
                 found += [_returned(stretch, followed, engine, where, back) for stretch in stretches(piece, followed.p)]
@@ -84,7 +84,7 @@ def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[F
 
 
 def _chosen(sample: Sample) -> list[tuple[float, float]]:
-    """Impacts of the sample, evenly taken."""
+    """A few impacts of the sample, evenly spaced."""
     impacts = [next(iter(impact.values())) for impact in sample.impacts]
     moving = [(one.stokes, one.angle) for one in impacts if (one.contact_time or one.until or 0) > 0]
     picked = np.unique(np.linspace(0, len(moving) - 1, min(_TRAJECTORIES, len(moving))).round().astype(int))
@@ -92,7 +92,7 @@ def _chosen(sample: Sample) -> list[tuple[float, float]]:
 
 
 def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
-    """Stretches of a phase that amplify by no more than MOST."""
+    """Sections of a phase with an amplification of at most MOST."""
     told = Tolerance(1e-10, 1e-13)
     for part in _PLACES:
         start = piece.start
@@ -123,13 +123,13 @@ def _returned(stretch: Stretch, followed: Followed, engine: str, where: str, ret
 
 
 def tolerance_of(engine: str) -> Tolerance:
-    """What an engine is told here."""
-    share = 1 / 30 if engine == "cvodes" else 1.0  # as everywhere: rtol means about the same for both
+    """Integrator tolerance of an engine for this check."""
+    share = 1 / 30 if engine == "cvodes" else 1.0  # as elsewhere, so that rtol has about the same meaning for both
     return Tolerance(RTOL * share, 1e-3 * RTOL * share)
 
 
 class Returning:
-    """A flow backward in time. Call: (y at the end, groups, duration) -> y at the start."""
+    """Protocol of a backward integrator: (y at the end, groups, duration) -> y at the start."""
 
     def __init__(self, function: Function) -> None:
         self.function = function
@@ -147,7 +147,7 @@ Back = Callable[[Flow, str, Tolerance], Returning]
 
 @own_cache(64)
 def returning(flow: Flow, engine: str, told: Tolerance) -> Returning:
-    """The integrator of a flow's rates, negated."""
+    """The integrator of a flow with negated rates."""
     parts, duration = expressions(flow), SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": -duration * parts.rates}
     with quiet():
@@ -155,7 +155,7 @@ def returning(flow: Flow, engine: str, told: Tolerance) -> Returning:
 
 
 def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float) -> float:
-    """Norm of the inverse of a stretch's variational matrix, in units of the states' scales; inf if it is too large."""
+    """Norm of the inverse of a section's variational matrix, in units of the states' scales; inf if too large."""
     size = start.size
     x0 = np.concatenate([start, np.eye(size).ravel()])
     try:
@@ -163,14 +163,14 @@ def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float
             end = _variational(flow)(x0=x0, p=np.append(p, duration))["xf"].full().ravel()
     except RuntimeError:
         return math.inf
-    inverse = end[size:].reshape(size, size)  # rows of its transpose are columns; the norm is of the scaled matrix
+    inverse = end[size:].reshape(size, size)  # transposed, as CasADi stores columns; scaled below
     scale = _scale(flow, p)
     scaled = inverse.T * scale[None, :] / scale[:, None]
     return float(np.linalg.norm(scaled, np.inf)) if np.isfinite(scaled).all() else math.inf
 
 
 def _scale(flow: Flow, p: np.ndarray) -> np.ndarray:
-    """Typical sizes of the states: 1 but for the orbital momentum, which starts at (4 + aspect)^2."""
+    """Scales of the states: 1, except for the orbital momentum, which starts at (4 + aspect)^2."""
     groups = dict(zip(flow.model.groups, p, strict=True))
     sizes = {"orbital_momentum": (4 + groups.get("aspect", 0.0)) ** 2}
     return np.array([sizes.get(name, 1.0) for name in flow.model.state])
@@ -184,7 +184,7 @@ def _jacobian(flow: Flow) -> Function:
 
 @own_cache(32)
 def _variational(flow: Flow) -> Function:
-    """A flow with the inverse of its variational matrix: dW/dt = -W df/dy, W(0) = 1."""
+    """Integrator of a flow and of the inverse of its variational matrix: dW/dt = -W df/dy, W(0) = 1."""
     parts, duration = expressions(flow), SX.sym("duration")
     size = parts.variables.numel()
     inverse = SX.sym("inverse", size, size)

@@ -1,6 +1,6 @@
-"""What makes up e_n^2 - 1: rotational energy released, less what film, shear, bridge, solids and strings take.
+"""Budget of e_n^2 - 1: released rotational energy minus losses to film, tangential force, bridge, solids and strings.
 
-Every term is 2 E/(m v0^2), so that e_n^2 - 1 is their sum and e_n > 1 where the rotation released more than was lost.
+Every term is 2 E/(m v0^2), so that e_n^2 - 1 is their sum, and e_n > 1 where more energy is released than lost.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ TERMS = ("rotation_released", *LOSSES)
 def restitution_budget(
     scene: Scene | str, *, stokes: Sequence[float], angle: Sequence[float], rtol: float = 1e-9
 ) -> xarray.Dataset:
-    """What e_n^2 - 1 is made of, over impact angle and Stokes number.
+    """The terms of e_n^2 - 1 over impact angle and Stokes number.
 
     Arguments:
         stokes: Stokes numbers.
@@ -60,7 +60,7 @@ def restitution_budget(
 def budgeted(
     scene: Scene, stokes: Sequence[float], angle: Sequence[float], rtol: float, collide: Collide = collide
 ) -> xarray.Dataset:
-    """The budget over impact angle (rad) and Stokes number, of what `collide` integrates."""
+    """The budget over impact angle (rad) and Stokes number, of collisions computed by `collide`."""
     import xarray as xr
 
     shape = (len(angle), len(stokes))
@@ -87,7 +87,7 @@ def budgeted(
 
 
 def terms(one: Collision) -> dict[str, float]:
-    """The terms of one collision that separated; only its restitution for a stick."""
+    """The terms of one collision; for a stick only the restitution."""
     if one.outcome == "stick" or one.energy is None:
         return {"restitution": one.restitution}
     unit = one.scene.particles.reduced_mass * one.speed**2 / 2
@@ -103,7 +103,7 @@ def terms(one: Collision) -> dict[str, float]:
 
 
 def _released(one: Collision) -> float:
-    """Energy of rotation at initial contact less that at separation, J: from the rates, not from the ledger."""
+    """Rotational energy at initial contact minus that at separation, J, from the rates, independent of the ledger."""
     particles, film = one.scene.particles, one.scene.liquid.film_thickness
     a, m = particles.reduced_radius, particles.reduced_mass
     first, last = 4 * a + film, 4 * a + _separation(one)
@@ -113,12 +113,12 @@ def _released(one: Collision) -> float:
 
 
 def _separation(one: Collision) -> float:
-    """Gap at which the doublet parts, m."""
+    """Gap at separation, m."""
     return one.scene.rupture_gap
 
 
 def ceiling(one: Collision) -> float:
-    """Most that e_n^2 can be if only the bridge takes energy; NaN for the surface arm and with strings."""
+    """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for the surface lever arm and with strings."""
     if one.energy is None or one.scene.pendulum is not None or one.scene.model.arm != "midgap":
         return math.nan
     particles = one.scene.particles

@@ -1,7 +1,7 @@
-"""Closed forms against integration: what the equations become when parts of a scene are taken away.
+"""Closed-form solutions against integration, for scenes with parts removed.
 
-Each is found without the equations of motion as they are emitted: a momentum integral, Newton's first law, a harmonic
-oscillator, an exponential. The scene's own numbers are kept.
+Each is derived independently of the emitted equations of motion: a momentum integral, Newton's first law, a harmonic
+oscillator, an exponential. The scene's numerical values are kept.
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ from .report import Finding, bounded
 from .sample import PLUGINS, RTOL, Collide, own_stokes, place
 
 Integrators = Callable[[Flow, str, Tolerance], Callable[[np.ndarray, np.ndarray, float], np.ndarray]]
-_BOUND = 1000 * RTOL  # global error of either engine, as between the engines
-_ANGLE = math.radians(50)  # of the closed forms that turn, if the scene's own impact is head-on
+_BOUND = 1000 * RTOL  # global error of either engine, as in the comparison of engines
+_ANGLE = math.radians(50)  # angle for oblique closed forms if the scene's impact is head-on
 _INSTANTS = np.array([0.03, 0.1, 0.3, 1.0])
-_SMALLEST, _BOUNCES = 0.02, 4  # e_n of a bounce that is compared; how many
+_SMALLEST, _BOUNCES = 0.02, 4  # smallest e_n and number of the compared bounces
 
 
 def closed_forms(
     group: str, scene: Scene, head_on: bool = False, plain: Integrators = plain, collide: Collide = collide
 ) -> Iterator[Finding]:
-    """Every closed form that the scene has.
+    """Findings for every closed form that applies to the scene.
 
     Arguments:
-        head_on: only those without rotation.
-        plain: what gives the integrator of a flow.
-        collide: what integrates a bounce.
+        head_on: only forms without rotation.
+        plain: factory of the integrator of a flow.
+        collide: function that computes a bounce.
     """
 
     def alone(scene: Scene, engine: str, plain: Integrators) -> tuple[float, str]:
@@ -62,7 +62,7 @@ def closed_forms(
 _TOLD = {
     "film_alone": (
         "film alone",
-        "head-on, no bridge, no strings: approach, reversal and e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
+        "head-on, no bridge, no strings: approach, rebound and e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
     ),
     "straight_line": (
         "straight line",
@@ -80,7 +80,7 @@ _TOLD = {
 
 
 def film_loss(s: float) -> float:
-    """Lf(s), St times the loss of -u/v0 between x0 and s x0, the film alone."""
+    """Lf(s), St times the loss of -u/v0 between x0 and s x0, for the film alone."""
     return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
 
 
@@ -91,13 +91,13 @@ def _bare(scene: Scene) -> Scene:
 
 
 def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: Collide = collide) -> tuple[float, str]:
-    """Largest error of u(s) on the way in, of e_n and of the gap at reversal; and where."""
+    """Largest error of u(s) on approach, of e_n and of the gap at rebound, with its place."""
     bare = _bare(scene)
     worst = max(_approach(bare, factor * own_stokes(bare), engine, plain) for factor in (0.3, 1.0, 4.0))
     bounced = 0
     for stokes in _stokes_range(bare):
         n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
-        gap = _reversal(n, bare.model.glass)
+        gap = _rebound(n, bare.model.glass)
         loss = film_loss(gap) / stokes
         expected = bare.particles.dry_restitution * (1 - loss) - loss
         if gap == 1 or expected < _SMALLEST or bounced == _BOUNCES:
@@ -112,26 +112,26 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
 
 
 def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tuple[float, str]:
-    """Error of -u/v0 against the closed form on the way in, at several instants."""
+    """Error of -u/v0 against the closed form on approach, at several instants."""
     n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
     flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
     contact, errors = contact_gap(n.groups), [0.0]
     for time in _INSTANTS.tolist():
         gap, normal_velocity = _integrated(plain, flow, engine, n, start, time)
-        if gap > contact:  # no trajectory goes further
+        if gap > contact:  # within the range that trajectories reach
             errors.append(abs(-normal_velocity - (1 - film_loss(gap) / stokes)))
     return max(errors), place(stokes, 0.0, engine, "approach")
 
 
 def _stokes_range(bare: Scene) -> list[float]:
-    """Stokes numbers from where the film just stops what would reach the roughness, up and down."""
+    """Stokes numbers about the one at which the film just stops the pair at the roughness."""
     gap = bare.particles.roughness / bare.liquid.film_thickness
     critical = film_loss(gap) * (1 + 1 / max(bare.particles.dry_restitution, 0.2))
     return list(np.geomspace(1e-3 * critical, 30 * critical, 60).tolist())
 
 
-def _reversal(n: DimensionlessGroups, glass: str) -> float:
-    """The first gap, from x0 inward, at which a criterion is met; by scanning and bisection of the closed form."""
+def _rebound(n: DimensionlessGroups, glass: str) -> float:
+    """The first gap on approach at which a rebound criterion is met, by a scan and bisection of the closed form."""
     stokes, limit = n.groups["stokes"], n.groups["glass_number"]
     contact = contact_gap(n.groups)
     if contact >= 1:
@@ -157,7 +157,7 @@ def _reversal(n: DimensionlessGroups, glass: str) -> float:
 
 
 def _oblique(scene: Scene) -> DimensionlessGroups:
-    """Numbers of the scene's impact, or of a slanted one if it is head-on."""
+    """Dimensionless groups of the scene's impact, or of an oblique one if it is head-on."""
     return nondimensionalise(scene, scene.speed_of(own_stokes(scene)), scene.angle or _ANGLE)
 
 
@@ -184,7 +184,7 @@ def straight_line(scene: Scene, engine: str, plain: Integrators = plain) -> tupl
 
 
 def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
-    """Error of the slip, and of its end as one rigid body, with the gap held at some depths of the film."""
+    """Error of the slip and of the final rigid rotation, at several constant gaps in the film."""
     bare = _bare(scene).with_entries({"model.arm": "midgap"})
     n = _oblique(bare)
     choice = select_model(bare, oblique=True, full=True)
@@ -203,7 +203,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
             y = _integrated(plain, flow, engine, n, start, time)
             rate = y[2] / (r / a) ** 2
             slip = math.exp(-decay * time * n.time)
-            rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # omega0 = 1: what L leaves of it
+            rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # over omega0, at the same angular momentum
             spin = rigid * (1 - slip)
             error = max(abs(rate - y[3] - slip), abs(y[3] - spin))
             worst = max(worst, (error, place(n.stokes, n.angle, engine, f"x = {gap:.3g} x0")))
@@ -211,7 +211,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
 
 
 def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
-    """Error of r and beta of dry spheres on strings, small angles, over r0 and 1 rad, up to a third of a swing."""
+    """Error of r and beta of dry spheres on strings at small angles, over r0 and 1 rad, up to a third of a swing."""
     assert scene.pendulum is not None
     tables = {name: value for name, value in scene.to_dict().items() if name != "bridge"}
     dry = Scene.from_dict(tables).with_entries({"pendulum.law": "small-angle"})

@@ -1,4 +1,4 @@
-"""What every trajectory must keep: the energy ledger, angular momentum; and what the engines must agree on."""
+"""Conservation checks of every trajectory (energy ledger, angular momentum) and agreement of the engines."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..errors import WetDoubletError
 from .report import Finding, bounded
 from .sample import REFERENCE, RTOL, Sample, where
 
-# Per rtol of the sample. A linear invariant is kept by every step to rounding and to what Newton's method leaves;
-# the ledger is a sum of quadratures with the integrator's own error; between engines the errors of both add up.
+# In units of the sample's rtol. A linear invariant is conserved by every step up to rounding and Newton's residual;
+# the ledger is a sum of quadratures with the integrator's error; between engines both errors add.
 DRIFT, RESIDUAL, AGREEMENT = 10 * RTOL, 100 * RTOL, 1000 * RTOL
 _NUDGE, _WORST_CONDITION = 1e-5, 1e4
 
 
 def conserved(group: str, sample: Sample) -> Iterator[Finding]:
-    """Completed trajectories, ledger, drift and agreement of the engines, each at its worst place."""
+    """Findings on completed trajectories, ledger, drift and agreement of the engines, each with its worst case."""
     statement = "every collision of the sample is completed"
     figure = f"{len(sample.all)} of {len(sample.failures) + len(sample.all)} collisions"
     told = tuple(f"  {text}" for text in sample.failures[:5])
@@ -42,7 +42,7 @@ def conserved(group: str, sample: Sample) -> Iterator[Finding]:
 
 
 def _agreement(group: str, sample: Sample) -> Iterator[Finding]:
-    """Every engine against the reference, in outcome and e_n."""
+    """Comparison of every engine with the reference, in outcome and e_n."""
     pairs = [
         (one, impact[REFERENCE])
         for impact in sample.impacts
@@ -58,7 +58,7 @@ def _agreement(group: str, sample: Sample) -> Iterator[Finding]:
 
 
 def _residual(one: Collision) -> float:
-    """Residual over the initial energy; not a number counts as without bound."""
+    """Residual over the initial energy; inf for NaN."""
     if one.energy is None:
         return math.inf
     figure = abs(one.energy.residual) / one.energy.initial
@@ -77,7 +77,7 @@ def _apart(one: Collision, other: Collision) -> float:
 
 
 def _allowed(one: Collision, other: Collision) -> float:
-    """AGREEMENT; where it is exceeded, times the condition of e_n, which grows without bounds towards a boundary."""
+    """The bound AGREEMENT; where exceeded, multiplied by the conditioning of e_n, which diverges towards a boundary."""
     if not AGREEMENT < _apart(one, other) < math.inf:
         return AGREEMENT
     try:

@@ -1,6 +1,6 @@
-"""Where e_n crosses 1 along lines of constant angle: many collisions scanned, then every crossing closed in on.
+"""Stokes numbers at which e_n crosses 1 along lines of constant angle, by a scan and refinement of each crossing.
 
-e_n may also jump over 1, where the outcome changes; the crossing is then that change.
+e_n may also jump across 1 where the outcome changes; the crossing is then that change.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from ..engines.taylor.build import supported
 from ..many.collide_many import FAILED, collide_many
 from ..scene.scene import Scene
 
-_FINER = 16  # steps of the scan to one of the grid where a collision takes microseconds
-_PARTS = 32  # that a bracket is cut into at a time
-_SHARP = 2e-5  # relative width of a bracket that is left: an edge is shown with three digits
+_FINER = 16  # scan steps per grid step with the kernel
+_PARTS = 32  # subdivisions of a bracket in a round
+_SHARP = 2e-5  # final relative width of a bracket; edges are shown with three digits
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,9 @@ class Above:
     """Where e_n > 1 at one angle.
 
     Attributes:
-        spans: Stokes intervals, ascending; an end of the scan where e_n > 1 there.
+        spans: Stokes intervals, ascending; limited by the scan where e_n > 1 at its end.
         most, at: largest e_n of the scan, and its Stokes number.
-        failed: collisions of the scan that were not completed.
+        failed: number of collisions of the scan that failed.
     """
 
     angle: float
@@ -38,12 +38,12 @@ class Above:
 
 
 def above_one(scene: Scene, angles: Sequence[float], stokes: np.ndarray, rtol: float) -> list[Above]:
-    """Stokes intervals with e_n > 1, their ends within 1e-5.
+    """Stokes intervals with e_n > 1, with ends accurate to a relative 1e-5.
 
     Arguments:
-        angles: rad.
-        stokes: Stokes numbers, ascending; narrower intervals than their steps, or a sixteenth of them where there is
-            a kernel, may be missed.
+        angles: impact angles, rad.
+        stokes: Stokes numbers, ascending; intervals narrower than their steps (with a kernel, a sixteenth of these) may
+            be missed.
     """
     steps = (stokes.size - 1) * (_FINER if supported(scene) else 1)
     scan = np.exp(np.interp(np.linspace(0, stokes.size - 1, steps + 1), np.arange(stokes.size), np.log(stokes)))
@@ -63,18 +63,18 @@ def above_one(scene: Scene, angles: Sequence[float], stokes: np.ndarray, rtol: f
 
 
 def _closed_in(scene: Scene, angles: np.ndarray, low: np.ndarray, high: np.ndarray, rtol: float) -> np.ndarray:
-    """Where e_n crosses 1 between two Stokes numbers, all brackets in step."""
+    """Refine all brackets of crossings of e_n = 1 together."""
     while low.size and np.max(high / low - 1) > _SHARP:
         cuts = low[:, None] * (high / low)[:, None] ** np.linspace(0, 1, _PARTS + 1)
         e_n, _ = _restitution(scene, np.repeat(angles, cuts.shape[1]), cuts.ravel(), rtol)
-        first = np.argmax(np.diff(e_n.reshape(cuts.shape) > 1, axis=1), axis=1)  # the ends differ: there is one
+        first = np.argmax(np.diff(e_n.reshape(cuts.shape) > 1, axis=1), axis=1)  # exists, because the ends differ
         row = np.arange(low.size)
         low, high = cuts[row, first], cuts[row, first + 1]
     return np.asarray(np.sqrt(low * high))
 
 
 def _restitution(scene: Scene, angles: np.ndarray, stokes: np.ndarray, rtol: float) -> tuple[np.ndarray, np.ndarray]:
-    """e_n of many collisions, and which failed: 0 there, as for a stick."""
+    """e_n of many collisions, and a mask of failures, where e_n is 0 as for a stick."""
     found = collide_many(scene, stokes=stokes, angle=angles, rtol=rtol, engine="taylor")
     failed = found["outcome"].values == FAILED
     return np.where(failed, 0.0, found["restitution"].values), failed

@@ -1,4 +1,4 @@
-"""A located trajectory with its pieces, for checks that look inside one: what `collide` computes, kept open."""
+"""A collision with its located path and phases, for checks that need more than the result of `collide`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..scene.scene import Scene
 
 @dataclass(frozen=True)
 class Followed:
-    """A trajectory: its path, as one engine integrated it, with spin as a state."""
+    """A located path and its integration by one engine, with spin as a state."""
 
     n: DimensionlessGroups
     path: EventSequence

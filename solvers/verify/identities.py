@@ -1,4 +1,4 @@
-"""The identities of the derivation, as findings."""
+"""Symbolic identities of the derivation, as findings."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 
 def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
-    """The checks of `derive.checks` (which loads sympy), for the laws of `scene`, or for all of the library's.
+    """Findings of `derive.checks` (imports sympy) for the laws of `scene`, or for all laws of the library.
 
-    A user's laws have checks of their own, after these.
+    The checks of a user's laws follow these.
     """
     from ...derive.checks import symbolic_checks
     from ...derive.physics.laws import LAWS
@@ -33,7 +33,7 @@ def symbolic(scene: Scene | None = None) -> Iterator[Finding]:
 
 
 def _alone(checks: Iterable[Check]) -> Iterator[Check]:
-    """Each check made while no other thread derives anything."""
+    """Run the checks one by one, locked against derivations in other threads."""
     left = iter(checks)
     while True:
         with DERIVING:
@@ -44,7 +44,7 @@ def _alone(checks: Iterable[Check]) -> Iterator[Check]:
 
 
 def of_the_model(package: Package) -> Iterator[Finding]:
-    """The checks of a user's model, out of the model file that it was emitted from."""
+    """Findings of the checks of a user's model, from its model file."""
     from ...derive.checks.user import model_checks
 
     with DERIVING:

@@ -1,4 +1,4 @@
-"""All numeric checks of a scene, in the order of the report; one that breaks does not silence the others."""
+"""All numerical checks of a scene, in the order of the report; if one raises an error, the others still run."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 def numeric(
     scene: Scene, head_on: bool = False, budget: xarray.Dataset | None = None, extent: Extent = WHOLE
 ) -> Iterator[Finding]:
-    """Every law of a scene, measured.
+    """Findings of all numerical checks of a scene.
 
     Arguments:
-        head_on: its head-on variant: without what turns.
-        budget: of the scene, if it is known already.
-        extent: how much is looked at.
+        head_on: check the head-on variant, without rotation.
+        budget: budget of the scene, if already computed.
+        extent: size of the samples.
     """
     group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
     sample = collisions(scene, (0.0,) if head_on else None, extent)

@@ -1,4 +1,4 @@
-"""Convergence: the error of e_n must fall with the tolerance that is asked for, about in proportion."""
+"""Convergence: the error of e_n must decrease about in proportion to the requested tolerance."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from .report import Finding
 from .sample import REFERENCE, WHOLE, Collide, Sample, place
 
 _TRUTH = 1e-13
-SLOPES = (0.6, 1.4)  # d log error / d log rtol: p/(p + 1) to 1 for error per step, and some scatter
-RISE = 10.0  # the error may not grow by more than this from one decade of rtol to the next
-SMALL = 0.05  # of rtol: a trajectory all of whose errors are below this needs no slope, for it is better than asked for
-_FLOOR = 3e-13  # relative: rounding, and the truth's own error
-_SMALLEST = 0.05  # e_n of a trajectory that is asked
+SLOPES = (0.6, 1.4)  # bounds of d log error / d log rtol: p/(p + 1) to 1 for error per step, plus scatter
+RISE = 10.0  # largest factor by which the error may grow from one decade of rtol to the next
+SMALL = 0.05  # in units of rtol; if all errors are smaller, the slope is not tested
+_FLOOR = 3e-13  # relative error of rounding and of the reference
+_SMALLEST = 0.05  # smallest e_n of a tested trajectory
 
 
 def convergence(
     group: str, sample: Sample, tolerances: Sequence[float] = WHOLE.tolerances, collide: Collide = collide
 ) -> Iterator[Finding]:
-    """The slope of every engine, the worse of two trajectories of the sample.
+    """Findings on the slope of every engine, the worse of two trajectories of the sample.
 
     Arguments:
-        tolerances: rtol, descending.
-        collide: what integrates at a tolerance.
+        tolerances: values of rtol, descending.
+        collide: function that computes a collision at a tolerance.
     """
     chosen = _chosen(sample)
     if not chosen:
@@ -58,7 +58,7 @@ def convergence(
 def _judged(
     group: str, statement: str, one: Collision, engine: str, tolerances: Sequence[float], collide: Collide
 ) -> tuple[float, Finding]:
-    """The finding of one trajectory, and how bad it is."""
+    """The finding of one trajectory, and its severity."""
     name, at = f"convergence, {engine}", place(one.stokes, one.angle)
     try:
         errors = measured(one, engine, tolerances, collide)
@@ -90,10 +90,10 @@ def measured(one: Collision, engine: str, tolerances: Sequence[float], collide: 
 
 
 def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, float]:
-    """Slope of log error over log rtol by least squares, above rounding, and the largest rise between neighbours."""
+    """Least-squares slope of log error over log rtol above rounding, and the largest rise between neighbours."""
     kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(tolerances, errors) if error > _FLOOR]
     if not all(map(math.isfinite, errors)) or len(kept) < 3:
-        return math.nan, math.inf  # nothing to fit
+        return math.nan, math.inf  # too few points for a fit
     x, y = np.array(kept).T
     slope = float(np.polyfit(x, y, 1)[0])
     raised = [max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)]
@@ -101,6 +101,6 @@ def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, fl
 
 
 def _chosen(sample: Sample) -> list[Collision]:
-    """Of the sample's trajectories that separate, the least and the most oblique."""
+    """The least and the most oblique of the sample's separating trajectories."""
     asked = [one for one in sample.separated if one.restitution > _SMALLEST and (one.contact_time or 0) > 0]
     return [asked[0], asked[-1]] if len(asked) > 1 else asked

@@ -1,4 +1,4 @@
-"""The e_n > 1 argument as a picture: a map of e_n, and what e_n^2 - 1 is made of at two angles."""
+"""Figure on e_n > 1: a map of e_n, and the terms of e_n^2 - 1 at two angles."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ..host.files import save
 from ..scene.scene import Scene
 from .budget import LOSSES
 
-# Okabe-Ito; the rotation against its losses
+# Okabe-Ito; released energy and losses
 RELEASED = "#009E73"
 COLOURS = {
     "normal_lubrication": "#0072B2",
@@ -30,12 +30,12 @@ COLOURS = {
     "strings": "#8C6D31",
 }
 _NOTHING, _INK, _NOTE = "#DDDDDD", "black", "#6E6E6E"
-_BRIGHTEST = 2.0  # e_n at the end of the colour scale
-_STEEP = math.radians(75)  # angle of the upper panel; the lower one is less oblique
+_BRIGHTEST = 2.0  # upper limit of e_n in the colour scale
+_STEEP = math.radians(75)  # angle of the upper panel, degrees; the lower one is less oblique
 
 
 def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
-    """Draw a budget over angle and Stokes number as `restitution_budget` returns it.
+    """Draw a budget over angle and Stokes number, as returned by `restitution_budget`.
 
     Arguments:
         path: file to write (.png, .pdf or .svg); None only draws.
@@ -61,7 +61,7 @@ def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
 
 
 def _rows(data: xarray.Dataset, scene: Scene) -> list[int]:
-    """The angles of the panels on the right: a steep one, and the scene's own or half-way up."""
+    """Indices of the angles of the right panels: a steep one, and the scene's or a medium one."""
     angles = data["angle"].values
     steep = int(np.argmin(np.abs(angles - _STEEP)))
     own = scene.angle if scene.angle and scene.angle < _STEEP - 0.1 else math.radians(45)
@@ -70,7 +70,7 @@ def _rows(data: xarray.Dataset, scene: Scene) -> list[int]:
 
 
 def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> None:
-    """Map of e_n, white where it is 1."""
+    """Draw the map of e_n, white where e_n = 1."""
     e_n = np.ma.masked_where(data["outcome"].values <= 0, data["restitution"].values)
     angles, stokes = np.degrees(data["angle"].values), data["stokes"].values
     norm = TwoSlopeNorm(1.0, 0.0, _BRIGHTEST)
@@ -81,7 +81,7 @@ def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> 
     bar.set_label("normal restitution $e_n$ (grey: stick)", fontsize=9)
     bar.ax.tick_params(labelsize=8)
     if np.ma.count(e_n) and float(e_n.max()) > 1 > float(e_n.min()):
-        # a stick has e_n = 0: the contour goes between it and its neighbours
+        # a stick has e_n = 0, so the contour passes between it and its neighbours
         filled = np.where(np.isfinite(data["restitution"].values), data["restitution"].values, 0.0)
         contour = axes.contour(angles, stokes, filled.T, levels=[1.0], colors=_INK, linewidths=1.2)
         axes.clabel(contour, fmt={1.0: "$e_n = 1$"}, fontsize=8)
@@ -103,7 +103,7 @@ def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> 
 
 
 def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
-    """What is released above zero, what is lost below, and the sum as a line."""
+    """Draw released energy above zero, losses below, and the sum as a line."""
     stokes = data["stokes"].values
     parted = np.isfinite(data["excess"].values[row])
     axes.set_xscale("log")
@@ -112,7 +112,7 @@ def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
         taken = data[name].values[row] * (1 if name == "rotation_released" else -1)
         taken = np.where(parted, taken, 0.0)
         colour = RELEASED if name == "rotation_released" else COLOURS[name]
-        # a bridge may give: each sign is stacked on its own side
+        # a bridge may release energy, so each sign is stacked on its side
         for side, stack in ((np.maximum(taken, 0), gains), (np.minimum(taken, 0), losses)):
             axes.fill_between(stokes, stack, stack + side, where=parted, color=colour, linewidth=0)
             stack += side
@@ -134,13 +134,13 @@ def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
 
 
 def _runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """First and last index of each run of True."""
+    """First and last indices of each run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     return [(int(first), int(after) - 1) for first, after in zip(edges[::2], edges[1::2])]
 
 
 def _between(values: np.ndarray, low: int, high: int) -> float:
-    """Half-way between two neighbours on a logarithmic axis; an end of it beyond the last one."""
+    """Midpoint of two neighbours on a logarithmic axis; the end point beyond the last one."""
     low, high = max(low, 0), min(high, values.size - 1)
     return float(math.sqrt(values[low] * values[high]))
 

@@ -1,4 +1,4 @@
-"""The e_n > 1 argument as findings: the identity, its ceiling, and the region it leads to, named and tabulated."""
+"""Findings on e_n > 1: the budget identity, the upper limit of e_n, and the region with e_n > 1."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from .edges import Above, above_one
 from .report import Finding, bounded
 from .sample import WHOLE, Extent, own_stokes, place
 
-_DECADES = (-1.0, 1.6)  # of the scene's own Stokes number
+_DECADES = (-1.0, 1.6)  # relative to the scene's Stokes number
 _RTOL = 1e-10
 _HEADS = ("released", "film", "shear", "bridge", "solids", "strings")
-_SHOWN = (30, 60, 75)  # deg: of the table, each with its first, middle and last St that separates
+_SHOWN = (30, 60, 75)  # angles of the table, deg; each with its first, middle and last separating St
 
 
 def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
-    """The budget over the angles and Stokes numbers that matter for a scene."""
+    """The budget over the relevant angles and Stokes numbers of a scene."""
     stokes = own_stokes(scene) * np.logspace(*_DECADES, extent.grid_points)
     return restitution_budget(scene, stokes=stokes.tolist(), angle=np.radians(extent.grid_angles).tolist(), rtol=_RTOL)
 
 
 def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:
-    """Findings on a budget of a scene."""
+    """Findings on the budget of a scene."""
     parted = np.isfinite(data["excess"].values)
     failed = [text for text in data["reason"].values.ravel() if text]
     if failed:
@@ -37,11 +37,11 @@ def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding
     if not parted.any():
         yield Finding(group, "e_n > 1", "the region where e_n > 1", "no doublet separates", "", None)
         return
-    size = np.maximum(1.0, np.abs(data["rotation_released"].values))  # the largest of the terms, m v0^2/2 at least
+    size = np.maximum(1.0, np.abs(data["rotation_released"].values))  # the largest term, at least m v0^2/2
     open_by = np.abs(data["gap"].values + data["residual"].values) / size
     where, worst = _worst(data, open_by)
     statement = "e_n^2 - 1 = rotation released - film - shear - bridge - solids - strings, over the largest of them"
-    # the residual of the ledger, which has its own bound in units of all the initial energy, not of v0^2 alone
+    # the ledger's residual, bounded relative to the whole initial energy, not to v0^2 alone
     energy = 1 + np.tan(data["angle"].values)[:, None] ** 2
     bound = RESIDUAL * float((energy / size).ravel()[np.nanargmax(np.where(parted, open_by, -1))])
     rounding = float(np.nanmax(np.abs(data["gap"].values) / size))
@@ -52,7 +52,7 @@ def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding
 
 
 def _worst(data: xarray.Dataset, figure: np.ndarray) -> tuple[str, float]:
-    """Where a figure is largest, and how large."""
+    """Place and value of the maximum of a quantity."""
     j, k = np.unravel_index(int(np.nanargmax(figure)), figure.shape)
     return place(float(data["stokes"][k]), float(data["angle"][j])), float(figure[j, k])
 
@@ -72,7 +72,7 @@ def _ceiling(group: str, data: xarray.Dataset) -> Iterator[Finding]:
 
 
 def _region(group: str, scene: Scene, data: xarray.Dataset) -> Finding:
-    """Angles and Stokes numbers with e_n > 1, the largest e_n, and what made it up."""
+    """Finding on angles and Stokes numbers with e_n > 1, the largest e_n, and its terms."""
     e_n, stokes = data["restitution"].values, data["stokes"].values
     j, k = np.unravel_index(int(np.nanargmax(e_n)), e_n.shape)
     found = above_one(scene, data["angle"].values.tolist(), stokes, _RTOL)
@@ -96,7 +96,7 @@ def _region(group: str, scene: Scene, data: xarray.Dataset) -> Finding:
 
 
 def _name(one: Above, rim: tuple[float, float]) -> str:
-    """The intervals of an angle in words; one that reaches an end of what was looked at has no end there."""
+    """The intervals of an angle in words; open where an interval reaches the end of the scan."""
     spans = []
     for low, high in one.spans:
         ends = ([f"from {low:.3g}"] if low > rim[0] else []) + ([f"to {high:.3g}"] if high < rim[1] else ["on"])
@@ -105,7 +105,7 @@ def _name(one: Above, rim: tuple[float, float]) -> str:
 
 
 def table(data: xarray.Dataset, best: tuple[int, int]) -> list[str]:
-    """The terms at a few points, in m v0^2/2: at some angles, and where e_n is largest."""
+    """Table of the terms in units of m v0^2/2, at some angles and at the largest e_n."""
     picked = set()
     for angle in _SHOWN:
         j = int(np.argmin(np.abs(data["angle"].values - math.radians(angle))))

@@ -1,4 +1,4 @@
-"""What `wetdoublet verify` has found: findings, and the report they make up, on a terminal and as Markdown."""
+"""Findings of `wetdoublet verify`, and the report of them as text and as Markdown."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
 WIDTH = 100
 _MARKS = {True: "ok", False: "FAIL", None: "note"}
-_MARK = 6  # columns of the mark on the left
-_ABOUT = 4  # ... of what is said about a finding
-_BESIDE = 26  # columns of figure and bound, where places stand in line
+_MARK = 6  # width of the mark on the left, characters
+_ABOUT = 4  # the same for details of a finding
+_BESIDE = 26  # width of value and bound, so that places are aligned
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One check: what it says, its figure, the bound it is held to ("" for an identity), and whether it holds.
+    """The result of one check: statement, value, bound ("" for an identity), and success.
 
     Arguments:
-        ok: None for what is reported and not held to anything.
+        ok: None for a value that is reported without a bound.
         where: the place of the worst case (Stokes number, angle, engine, event).
-        about: further lines on it (a table, intervals), shown as they are.
+        about: further lines (a table, intervals), shown verbatim.
     """
 
     group: str
@@ -37,7 +37,7 @@ class Finding:
 
     @property
     def line(self) -> str:
-        """The whole of it in one line: which law, by how much, where."""
+        """The finding in one line: law, value, place."""
         held = f", bound {self.bound}" if self.bound else ""
         place = f", at {self.where}" if self.where else ""
         return f"{self.name} ({self.group}): {self.figure}{held}{place}"
@@ -46,7 +46,7 @@ class Finding:
 def bounded(
     group: str, name: str, statement: str, figure: float, bound: float, where: str, about: tuple[str, ...] = ()
 ) -> Finding:
-    """A finding whose figure is held to a bound; one that is not a number fails."""
+    """A finding whose value must not exceed a bound; NaN fails."""
     return Finding(group, name, statement, f"{figure:.1e}", f"{bound:.1e}", bool(figure <= bound), where, about)
 
 
@@ -55,7 +55,7 @@ class Report:
     """All findings. `str` for a terminal, `to_markdown` for a page.
 
     Arguments:
-        budget: what e_n^2 - 1 is made of (`restitution_budget`), of the one scene that was asked for.
+        budget: budget of e_n^2 - 1 (`restitution_budget`), if a single scene was requested.
     """
 
     findings: tuple[Finding, ...]
@@ -101,7 +101,7 @@ class Report:
 
     @property
     def summary(self) -> str:
-        """The last line: how many checks hold, and which do not."""
+        """The last line: number of passed checks, and names of failed ones."""
         held = sum(finding.ok is not None for finding in self.findings)
         notes = len(self.findings) - held
         told = f", {notes} note{'s' * (notes != 1)}" if notes else ""
@@ -118,7 +118,7 @@ class Report:
 
 
 def _section(title: str, members: list[Finding], told: bool = False) -> list[str]:
-    """A group's lines: name, figure beside its bound, place; `told` adds what the check says and where it stands."""
+    """Lines of a group: name, value with bound, place; `told` adds the statement of the check and its source."""
     lines = [title, "-" * len(title)]
     name = max(len(finding.name) for finding in members)
     figures = [_held(finding) for finding in members]
@@ -139,14 +139,14 @@ def _section(title: str, members: list[Finding], told: bool = False) -> list[str
 
 
 def _held(finding: Finding) -> str:
-    """Figure and bound; a bound with two dots in it is a range."""
+    """Value and bound as text; a bound with two dots is a range."""
     if not finding.bound:
         return finding.figure
     return f"{finding.figure} {'in' if '..' in finding.bound else '<='} {finding.bound}"
 
 
 def _wrapped(first: str, text: str, indent: str) -> list[str]:
-    """Text behind `first`, its spaces kept where it fits on one line."""
+    """Text after `first`, wrapped; unchanged if it fits on one line."""
     if len(first) + len(text) <= WIDTH:
         return [(first + text).rstrip()]
     return wrap(text, WIDTH, initial_indent=first, subsequent_indent=indent, break_long_words=False)

@@ -1,4 +1,4 @@
-"""From scenes to a report."""
+"""`verify`: all checks of a scene or of all presets."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .report import Finding, Report
 
 
 def verify(scene: Scene | str | None = None, progress: Callable[[Finding], None] | None = None) -> Report:
-    """Check the laws, and the numbers of a scene.
+    """Check the laws symbolically, and the collisions of a scene numerically.
 
     Arguments:
         scene: a Scene, a file or a preset's name; None for all presets and their head-on variants.
         progress: called with each finding as it is made.
 
     Returns:
-        The Report; `report.ok` tells whether all that is held to something holds.
+        The Report; `report.ok` is True if all checks passed.
     """
     loaded = None if scene is None else Scene.load(scene)
     findings: list[Finding] = []

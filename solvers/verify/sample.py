@@ -1,4 +1,4 @@
-"""The collisions that the laws are measured on: impacts around the scene's own, integrated by every engine."""
+"""The sample of collisions for numerical checks: impacts around the scene's, integrated by every engine."""
 
 from __future__ import annotations
 
@@ -14,31 +14,31 @@ from ..settings import ENGINES
 
 RTOL = 1e-10
 ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))
-FACTORS = (0.3, 1.0, 4.0)  # of the scene's own Stokes number
-PLUGINS = ("cvodes", "rosenbrock")  # engines that integrate any equations, not only whole collisions
-REFERENCE = "rosenbrock"  # the engine that also locates
+FACTORS = (0.3, 1.0, 4.0)  # relative to the scene's Stokes number
+PLUGINS = ("cvodes", "rosenbrock")  # engines that can integrate arbitrary phases, not only whole collisions
+REFERENCE = "rosenbrock"  # the engine that also locates events
 Collide = Callable[..., Collision]
 
 
 @dataclass(frozen=True)
 class Extent:
-    """How much of a scene is looked at; by default, what `verify` looks at.
+    """Sizes of the samples of a scene; the defaults are those of `verify`.
 
     Arguments:
-        angles: of the sample, rad; the scene's own is added.
-        factors: Stokes numbers of the sample, over the scene's own.
-        tolerances: of the convergence, descending.
-        audited: impacts of the audit of the stick certificate.
-        grid_angles: of the budget, degrees.
+        angles: angles of the sample, rad; the scene's is added.
+        factors: Stokes numbers of the sample, relative to the scene's.
+        tolerances: tolerances of the convergence check, descending.
+        audited: impacts of the certificate audit.
+        grid_angles: angles of the budget, degrees.
         grid_points: Stokes numbers of the budget.
     """
 
     angles: tuple[float, ...] = ANGLES
     factors: tuple[float, ...] = FACTORS
     tolerances: tuple[float, ...] = tuple(10.0**-k for k in range(5, 12))
-    audited: int = 240  # a quarter of them head-on
+    audited: int = 240  # a quarter of this head-on
     grid_angles: tuple[float, ...] = tuple(range(5, 90, 5))
-    grid_points: int = 27  # ten a decade
+    grid_points: int = 27  # ten per decade
 
 
 WHOLE = Extent()
@@ -46,7 +46,7 @@ WHOLE = Extent()
 
 @dataclass
 class Sample:
-    """Collisions by impact and engine, and what could not be computed."""
+    """Collisions by impact and engine, and failures."""
 
     scene: Scene
     impacts: list[dict[str, Collision]] = field(default_factory=list)
@@ -58,45 +58,45 @@ class Sample:
 
     @property
     def separated(self) -> Iterator[Collision]:
-        """The reference engine's collisions that part."""
+        """The reference engine's collisions that separate."""
         for impact in self.impacts:
             if REFERENCE in impact and impact[REFERENCE].outcome != "stick":
                 yield impact[REFERENCE]
 
     @property
     def silent(self) -> str:
-        """Why there is no trajectory that lasts; empty if there is one."""
+        """The reason if no trajectory has a duration; empty if one has."""
         if not self.all:
             return "no collision was completed"
         if not any(one.contact_time or one.until for one in self.all):
-            return "no trajectory lasts: all reverse at initial contact"
+            return "no trajectory lasts: all rebound at initial contact"
         return ""
 
 
 def own_stokes(scene: Scene) -> float:
-    """The Stokes number that the sample is centred on."""
+    """The Stokes number at the centre of the sample."""
     return scene.stokes or 1.0
 
 
 def place(stokes: float, angle: float, engine: str = "", event: str = "") -> str:
-    """A place in words."""
+    """Stokes number, angle and engine as text."""
     parts = [f"St {stokes:.4g}", f"{math.degrees(angle):.4g} deg", engine, event]
     return ", ".join(part for part in parts if part)
 
 
 def where(one: Collision) -> str:
-    """The place of a collision."""
+    """The place of a collision as text."""
     return place(one.stokes, one.angle, one.engine)
 
 
 def collisions(
     scene: Scene, angles: Sequence[float] | None = None, extent: Extent = WHOLE, collide: Collide = collide
 ) -> Sample:
-    """Integrate the sample of a scene; one that fails is noted, the others go on.
+    """Compute the sample of a scene; failures are recorded and the others go on.
 
     Arguments:
-        angles: rad; None for the extent's and the scene's own.
-        collide: what integrates one.
+        angles: impact angles, rad; None for the extent's and the scene's.
+        collide: function that computes a collision.
     """
     own = own_stokes(scene)
     sample = Sample(scene)
@@ -107,7 +107,7 @@ def collisions(
                 try:
                     found[engine] = collide(scene, stokes=own * factor, angle=angle, rtol=RTOL, engine=engine)
                 except InputError as error:
-                    if error.field != "engine":  # an engine may not take every scene
+                    if error.field != "engine":  # an engine may not support every scene
                         sample.failures.append(f"{place(own * factor, angle, engine)}: {error}")
                 except WetDoubletError as error:
                     sample.failures.append(f"{place(own * factor, angle, engine)}: {error}")

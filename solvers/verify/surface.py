@@ -1,4 +1,4 @@
-"""The surface arm does not conserve angular momentum; that it loses exactly what its equations say is checked."""
+"""Check of the surface lever arm: its drift of angular momentum must equal the torque integral."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .follow import Followed, follow
 from .report import Finding, bounded
 from .sample import REFERENCE, RTOL, Sample, place
 
-_BOUND = 100 * RTOL  # of the loss and of L: two integrations of the same equations, one by quadrature
+_BOUND = 100 * RTOL  # relative to the loss and to L: two integrations of the same equations, one by quadrature
 
 
 def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float] | None = None) -> Iterator[Finding]:
-    """For a scene with the surface arm: the drift as a note, and held to the integral of -x F_t dt.
+    """Findings for a scene with the surface lever arm: the drift, and its difference from the integral of -x F_t dt.
 
     Arguments:
-        integral: of a trajectory, over L(0); `torque` if None.
+        integral: function of a trajectory that returns the integral over L(0); `torque` if None.
     """
     integral = torque if integral is None else integral
     scene = sample.scene
@@ -38,7 +38,7 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
             lost = followed.model.values("angular_momentum", followed.replayed.y, followed.p)["angular_momentum"] - 1.0
             apart = abs(lost - integral(followed))
         except WetDoubletError:
-            continue  # the sample itself names what is not completed
+            continue  # failures are reported with the sample
         found.append((apart if math.isfinite(apart) else math.inf, abs(lost), place(one.stokes, one.angle, REFERENCE)))
     if not found:
         return
@@ -53,7 +53,7 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
 
 
 def torque(followed: Followed) -> float:
-    """-(integral of x F_t dt)/L(0) along a trajectory, piece by piece."""
+    """-(integral of x F_t dt)/L(0) along a trajectory, phase by phase."""
     groups = dict(zip(followed.model.groups, followed.p, strict=True))
     total = 0.0
     for piece in followed.replayed.pieces:

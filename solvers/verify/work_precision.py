@@ -1,4 +1,4 @@
-"""Run time against achieved error of each engine, for one scene on this machine, and which setting to choose."""
+"""Run time against achieved error of each engine for one scene on this machine, and recommended settings."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from ..settings import ENGINES
 from .stress.answers import Impact
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))
-BATCH, SINGLE = 100, 8  # collisions in a call; those of them that are also computed one by one
-STOKES, ANGLES = (0.01, 10.0), (math.radians(5), math.radians(85))  # where the scene has no impact
-_AROUND, _TURNED, _STEEPEST = 2.0, math.radians(5), math.radians(89)  # factor in St and difference in angle about one
-_TIGHTEST = (1e-13, 1e-12, 1e-11)  # of a reference: the first that the engine completes
-_PASSES, _LONG = 10, 0.05  # passes, and s after which there is no further one; the cheapest counts
-_DEAR = 1.0  # s: an engine whose batch takes longer is not given a batch at tighter tolerances
+BATCH, SINGLE = 100, 8  # collisions in a call, and number of those also computed one by one
+STOKES, ANGLES = (0.01, 10.0), (math.radians(5), math.radians(85))  # ranges if the scene has no impact
+_AROUND, _TURNED, _STEEPEST = 2.0, math.radians(5), math.radians(89)  # about an impact: factor in St, change of angle
+_TIGHTEST = (1e-13, 1e-12, 1e-11)  # tolerances of a reference; the first that the engine completes is used
+_PASSES, _LONG = 10, 0.05  # most passes, and s after which no further one starts; the cheapest counts
+_DEAR = 1.0  # s; after a slower batch, an engine gets no batches at smaller tolerances
 _GOLDEN = 0.6180339887498949
 
 Progress = Callable[[int, int], None]
@@ -34,12 +34,12 @@ _Found = TypeVar("_Found")
 
 @dataclass(frozen=True)
 class Computed:
-    """What a collision came to; contact time in s, None for a stick."""
+    """Result of a collision; contact time in s, None for a stick."""
 
     outcome: str
     restitution: float
     contact_time: float | None
-    engine: str  # that answered: an engine hands over what it cannot complete
+    engine: str  # the engine that completed it, which may be a fallback
 
 
 @dataclass(frozen=True)
@@ -48,11 +48,11 @@ class Row:
 
     Arguments:
         error: largest absolute error of e_n; None where no collision separates.
-        time_error: largest relative error of the contact time; likewise.
+        time_error: largest relative error of the contact time; None likewise.
         single: mean CPU time (s) of a collision computed alone.
         batch: CPU time (s) of a collision of a batch; None where that was too expensive to measure.
         wrong, failed: collisions with another outcome than the reference, and without any.
-        handed_over: collisions that another engine answered.
+        handed_over: number of collisions completed by another engine.
     """
 
     engine: str
@@ -66,13 +66,13 @@ class Row:
     handed_over: int
 
     def keeps(self, error: float) -> bool:
-        """Whether all outcomes are right and no error of e_n is larger."""
+        """True if all outcomes are right and no error of e_n exceeds `error`."""
         return not self.wrong and not self.failed and (self.error or 0.0) <= error
 
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The cheapest setting for a use; engine and rtol are None where there is none, and the reason says why."""
+    """The cheapest setting for a use; engine and rtol are None, with a reason, if there is none."""
 
     use: str
     engine: str | None
@@ -85,14 +85,15 @@ class WorkPrecision:
     """Cost and error of the engines on a sample of a scene's collisions.
 
     Arguments:
-        sample: in words.
-        batch: collisions in a call.
-        impacts: those that errors are measured on.
-        separate: how many of them separate.
-        left_out: impacts so near a boundary that the references do not agree on the outcome.
-        references: engine and tolerance of each reference; an engine is compared with the first that is not itself.
-        uncertainty: largest difference in e_n between the references: an error below it cannot be told from theirs.
-        time_uncertainty: the same of the contact time, relative.
+        sample: description of the sample.
+        batch: number of collisions in a call.
+        impacts: impacts on which errors are measured.
+        separate: number of these that separate.
+        left_out: impacts so near a boundary that the references disagree on the outcome.
+        references: engine and tolerance of each reference; an engine is compared with the first other one.
+        uncertainty: largest difference in e_n between the references; smaller errors cannot be distinguished from
+            theirs.
+        time_uncertainty: the same for the contact time, relative.
     """
 
     scene: Scene
@@ -114,7 +115,7 @@ class WorkPrecision:
         )
 
     def _cheapest(self, use: str, error: float, cost: Callable[[Row], float | None]) -> Recommendation:
-        """Of each engine the loosest tolerance from which on the error is kept; of those, the cheapest."""
+        """The cheapest of the engines, each at the loosest tolerance below which the error is always met."""
         if error < self.uncertainty:
             said = f"the references differ by {self.uncertainty:.1e} in e_n, so that {error:.1e} cannot be verified"
             return Recommendation(use, None, None, said)
@@ -140,7 +141,7 @@ class WorkPrecision:
 
     @property
     def engines(self) -> tuple[str, ...]:
-        """The engines that were measured."""
+        """The measured engines."""
         return tuple(dict.fromkeys(row.engine for row in self.rows))
 
     def _loosest(self, engine: str, error: float) -> Row | None:
@@ -162,10 +163,10 @@ def work_precision(
     """Measure the engines on collisions about the scene's impact, on one core.
 
     Arguments:
-        scene: without an impact, a default sample of Stokes numbers and angles is measured.
-        progress: told the settings that are measured, and of how many.
-        single: collisions computed one by one; errors are theirs.
-        batch: collisions in one call.
+        scene: the scene; if it has no impact, a default sample of Stokes numbers and angles is used.
+        progress: called with (settings measured, settings in all).
+        single: number of collisions computed one by one, from which errors are computed.
+        batch: number of collisions in one call.
 
     Example:
         >>> from wetdoublet.solvers import Scene
@@ -214,7 +215,7 @@ def work_precision(
 
 
 def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
-    """Impacts spread evenly over a rectangle of St and angle, and what it is."""
+    """Impacts spread evenly over a rectangle of St and angle, and its description."""
     stokes, angle = scene.stokes, scene.angle
     if stokes is None or angle is None:
         spans, why = (STOKES, ANGLES), "the default, as the scene has no impact"
@@ -233,7 +234,7 @@ def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
 def _references(
     scene: Scene, impacts: Sequence[Impact], engines: Sequence[str]
 ) -> tuple[dict[str, list[Computed]], dict[str, float]]:
-    """Answers of two engines at the tightest tolerance that each completes, and that tolerance."""
+    """Results of two engines at the smallest tolerance that each completes, and that tolerance."""
     truth: dict[str, list[Computed]] = {}
     tight: dict[str, float] = {}
     for engine in ("taylor", "rosenbrock", "cvodes"):
@@ -252,7 +253,7 @@ def _references(
 
 
 def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Computed | None:
-    """A collision as a user asks for it; None if it fails."""
+    """A collision as computed by `collide`; None if it fails."""
     try:
         found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
     except ComputationError:
@@ -292,7 +293,7 @@ def _errors(found: Sequence[Computed], expected: Sequence[Computed]) -> list[tup
 
 
 def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) -> float | None:
-    """CPU time (s) of an impact among all in one call; None if one of them fails."""
+    """CPU time (s) per impact of one call for all; None if one fails."""
     stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
     asked: Any = {"rtol": rtol, "engine": engine}
     collide_many(scene, stokes=stokes[:1], angle=angle[:1], **asked)  # builds
@@ -301,7 +302,7 @@ def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) ->
 
 
 def _cheapest(run: Callable[[], _Found]) -> tuple[float, _Found]:
-    """CPU time (s) of the cheapest of some calls, and what the last returned."""
+    """CPU time (s) of the cheapest of some calls, and the result of the last."""
     least, spent = math.inf, 0.0
     for _ in range(_PASSES):
         start = time.process_time()
@@ -314,5 +315,5 @@ def _cheapest(run: Callable[[], _Found]) -> tuple[float, _Found]:
 
 
 def shown(seconds: float) -> str:
-    """A time in ms or us, with three digits."""
+    """A time as text in ms or us, with three digits."""
     return f"{seconds * 1e3:.3g} ms" if seconds >= 1e-3 else f"{seconds * 1e6:.3g} us"

@@ -1,4 +1,4 @@
-"""Run time against achieved error as text, as JSON and as a picture."""
+"""Run time against achieved error as text, JSON and a figure."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..host.environment import environment
 from ..host.files import save
 from .work_precision import Row, WorkPrecision, shown
 
-_STYLES = {  # Okabe-Ito colours, a marker each
+_STYLES = {  # Okabe-Ito colours and a marker for each engine
     "cvodes": ("#0072B2", "o"),
     "rosenbrock": ("#D55E00", "s"),
     "taylor": ("#E69F00", "*"),
@@ -25,7 +25,7 @@ _NOTE = "#555555"
 
 
 def to_dict(found: WorkPrecision, error: float) -> dict[str, Any]:
-    """Return the JSON object: s, rad, and null where nothing was measured."""
+    """Return the JSON object; s and rad, null where not measured."""
     return {
         "scene": name_of(found.scene),
         "environment": environment(),
@@ -57,7 +57,7 @@ def to_dict(found: WorkPrecision, error: float) -> dict[str, Any]:
 
 
 def text(found: WorkPrecision, error: float) -> str:
-    """Return the sample, the table, what its errors are measured against, and the recommendation."""
+    """Return a text of the sample, the table, the references and the recommendation."""
     lines = [
         f"{name_of(found.scene)}: {found.sample}",
         _counted(found),
@@ -108,10 +108,10 @@ def _cells(row: Row) -> list[str]:
 
 
 def draw(found: WorkPrecision, error: float, path: str | Path | None = None) -> Figure:
-    """Draw CPU time against achieved error, alone and in a batch, a curve an engine; the recommended points are ringed.
+    """Draw CPU time against achieved error, alone and in a batch, one curve per engine; recommended points are ringed.
 
     Arguments:
-        error: that is wanted.
+        error: requested error of e_n.
         path: file to write (.png, .pdf or .svg); None only draws.
     """
     figure = Figure(figsize=(9.2, 4.4), layout="constrained")
@@ -165,7 +165,7 @@ def _frame(axes: Axes, title: str) -> None:
 
 
 def _limits(left: Axes, right: Axes, found: WorkPrecision, error: float) -> None:
-    """Large errors on the left; grey where an error cannot be told from the references' own."""
+    """Set axis limits, large errors on the left; grey where an error is below the references' uncertainty."""
     errors = [row.error for row in found.rows if row.error] + [error]
     own = found.uncertainty
     least = min([*errors, *([own] if own else [])]) / 4

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...equations.events import reversal
+from ...equations.events import rebound
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
 from ...physics.laws.base import is_slot_call
-from ...physics.laws.reversal import elastic_compliance, elastic_length
+from ...physics.laws.rebound import elastic_compliance, elastic_length
 from ...physics.laws.rupture import rupture_distance
 from ...physics.laws.start import initial_rate, start_values
 from ...physics.laws.strings import r as string_distance
@@ -198,7 +198,7 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 
 def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
-    group, start = "Start, reversal, rupture", start_values()
+    group, start = "Start, rebound, rupture", start_values()
     # the criterion is scaled with v0: put the gap and the velocity back
     pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -normal_velocity)))
     pressure = sp.factor(pressure.subs({gap: x / x0, normal_velocity: u / v0}, simultaneous=True))
@@ -214,7 +214,7 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     yield Equation(
         group,
         latex(u),
-        reversal((normal_velocity,))[normal_velocity].subs(normal_velocity, u),
+        rebound((normal_velocity,))[normal_velocity].subs(normal_velocity, u),
         "if any of these is met",
         r"\to",
     )

@@ -269,7 +269,7 @@ class Header:
         lines = self._value("start", "static inline void start(const constants *c, vec *y)", states)
         after = {name: f"after[{name.upper()}]" for name in states}
         lines += self._value(
-            "reversal", "static inline void reversal(const constants *c, const vec *y, vec *after)", after
+            "rebound", "static inline void rebound(const constants *c, const vec *y, vec *after)", after
         )
         lines += self._value(
             "inward_force",

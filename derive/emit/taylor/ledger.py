@@ -114,7 +114,7 @@ class Ledger:
         return behind_flag([f"c->ledger.{name} = {self.constants.text.vector(value)};" for name, value in prepared])
 
     def functions(self, valued: Valued) -> list[str]:
-        """Energies of a state, its angular momentum, and the loss of a reversal."""
+        """Energies of a state, its angular momentum, and the loss of a rebound."""
         if not self.there:
             return []
         model = self.model
@@ -127,8 +127,8 @@ class Ledger:
             f"{model['energies'].doc} In order: {', '.join(places)}.",
             self.constants,
         )
-        loss = model["reversal_loss"]
-        head = "static inline vec reversal_loss(const constants *c, const vec *y)"
+        loss = model["rebound_loss"]
+        head = "static inline vec rebound_loss(const constants *c, const vec *y)"
         lines += valued(list(loss.outputs), head, {"dry_contact": "return"}, loss.doc, self.constants)
         head = "static inline vec booked_momentum(const constants *c, const vec *y)"
         if any(each.name == "angular_momentum" for each in model.functions):

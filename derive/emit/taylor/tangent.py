@@ -195,9 +195,9 @@ class Tangent(LinearFlow):
             "The start's derivative by a group.",
         )  # fmt: skip
         lines += self._directed(
-            "reversal",
-            "static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
-            states, True, "The derivative just after a reversal.",
+            "rebound",
+            "static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
+            states, True, "The derivative just after a rebound.",
         )  # fmt: skip
         shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
         lines += self._directed(

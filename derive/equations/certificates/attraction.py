@@ -7,7 +7,7 @@ Oblique, with attractions F that fall with the gap, strings or not, midgap arm, 
    `hold` = F(x_f) + S_n(contact, beta) - J_max^2/r^3 (in contact) pulls inward, beside lubrication; it must be > 0.
 3. What moves outward now, or rebounds with e_dry of the present approach, is stopped before x_f: its kinetic energy is
    below hold (x_f - x) (`escape` < 0).
-4. What falls from X to x gains at most the work of F + max S_n; a reversal leaves e_dry^2 of it, and less than that is
+4. What falls from X to x gains at most the work of F + max S_n; a rebound leaves e_dry^2 of it, and less than that is
    needed to come back to X: e_dry^2 (F + max S_n) < F + S_n - J_max^2/r^3 at every gap, worst where F is least
    (`rebound` < 0). So no maximum of the gap exceeds the one before.
 

@@ -8,7 +8,7 @@ trajectory as a stick):
 2. beta only grows, and S_n(r, beta) grows with both. So where J_max^2/r^3 < S_n/m at the smallest gap (`outward` <
    `pull`), everything but lubrication pushes inward from now on, at every gap.
 3. Then the film alone stops a doublet that opens: u St/v0 below its integral from here to x0 (`film` < 0).
-4. Closing, it gains no more than u^2 + 2 max(S_n/m) x0; a reversal happens at most where the glass criterion is met at
+4. Closing, it gains no more than u^2 + 2 max(S_n/m) x0; a rebound happens at most where the glass criterion is met at
    that speed, or in contact; if the film stops the rebound from there (`recoil` < 0), it stops every later one.
 
 `checks.pendulum_certificate` proves the steps on the emitted equations.

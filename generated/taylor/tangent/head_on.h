@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 9d96ea4345e41696ac7f9b0587cb38a4c24920a0f5ca8b7dd20e6d5a11b14940 */
+ * Equations sha256 058933c41ce7287e2db675c6f95672ca89e785ad57f0cb7f690177b963310ada */
 
 /* Head-on doublet with a film only.
  *
@@ -119,8 +119,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     (void)group;
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 904ade93a46c49575a2a143cdcc95b2cb05508948c8c85d59ad6b9faad9cf8f3 */
+ * Equations sha256 1c2f620516f4a83b004a884b58bb3ef2dd14739463885e19f8589756a0782367 */
 
 /* Head-on doublet with a liquid bridge.
  *
@@ -178,8 +178,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     (void)group;
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

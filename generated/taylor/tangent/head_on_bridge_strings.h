@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3a5b3348a2f4975ac82269851b1794a53de3dc62927ff7c4e1cebe25361dfc7a */
+ * Equations sha256 8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7 */
 
 /* Head-on doublet with a liquid bridge and pendulum strings.
  *
@@ -235,8 +235,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     (void)group;
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 d3b3374936ef6e5dfb988abf3440299295b16bff69756a6b4154ce9295a507aa */
+ * Equations sha256 41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538 */
 
 /* Head-on doublet with pendulum strings.
  *
@@ -184,8 +184,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     (void)group;
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

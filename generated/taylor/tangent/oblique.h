@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 086e9f9d9b485ca3952a69793800db1fef580b75e3d815ffd0dbff35e6c5715d */
+ * Equations sha256 0fdcd8f0c4dc0eeb109b06d826277a0a8ce316ccf4e61469c13abde36ff0e1ac */
 
 /* Oblique doublet with a film only.
  *
@@ -373,8 +373,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

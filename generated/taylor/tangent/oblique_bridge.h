@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 9b8708e2cb100d4f8fe939671c8fcc318080b54c0414eedfa1f05077f16fd269 */
+ * Equations sha256 3d30f8e36719cb2aaa21a5e04cadff63a7ee0d954429a9a37c33126f0ccc8ea6 */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -425,8 +425,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

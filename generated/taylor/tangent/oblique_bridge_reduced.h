@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 eb39dcb9df13bdb8688829df507be1ca9a19b061cab1d6fc214503692bb2680b */
+ * Equations sha256 6fb9f6e1be007a48cbce9f3584874aaa22150d93b10fd378b82ef547b7d4fa33 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -358,8 +358,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 51ef97acd09a41955c46e8ec1343ab847237614237559a60fea7a09239fe12bd */
+ * Equations sha256 9b160502f70f975309dbc246ffdc139ea62a7eaa723fddf3acef3ffa05563bbd */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -560,8 +560,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

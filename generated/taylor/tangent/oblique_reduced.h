@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 92a4d2622ca085d9738a66034cbb5acc3212a1f240370b64d4225047af79a249 */
+ * Equations sha256 72de48b453175062882b6a638185edcedfdfa1cc25bd27e8db44dddc379eaf52 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
@@ -306,8 +306,8 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a reversal. */
-static inline void reversal_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+/* The derivative just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
     (void)y;

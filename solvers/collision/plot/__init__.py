@@ -1,1 +1,1 @@
-"""The picture of a collision."""
+"""Figures of one collision."""

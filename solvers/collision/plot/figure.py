@@ -1,4 +1,4 @@
-"""A collision as a figure: what it does over time, and the doublet at a few instants."""
+"""A collision as a figure: its quantities over time, and the doublet at a few instants."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .strip import draw_strip, strip_size
 from .time_panels import GREY, letter, micro, time_panels
 
 WIDTH = 9.0  # inches
-_ROW = 1.35  # inches a row of panels is high
+_ROW = 1.35  # height of a row of panels, inches
 _STRIP = WIDTH - 0.5
 
 

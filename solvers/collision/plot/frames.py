@@ -1,4 +1,4 @@
-"""The doublet at a few instants, seen from above: where the spheres are, and how they have turned."""
+"""The doublet at a few instants in the plane of motion: positions and orientations of the spheres."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ...errors import InputError
 from ...scene.scene import Scene
 from ..outcome import Outcome
 
-_MOVING = 5  # frames of a trajectory that shows something; else 3
-_APART = 0.8  # of R: how much further apart the last frame of a separated pair is
+_MOVING = 5  # frames of a trajectory with visible motion; else 3
+_APART = 0.8  # extra distance in the last frame of a separated pair, in units of R
 
 Vector = tuple[float, float]
 
@@ -23,16 +23,16 @@ class Frame:
     """The doublet at one instant. SI units and radians; the centre of mass rests at the origin.
 
     Arguments:
-        gap: between the surfaces.
-        angle: of the line of centres, counter-clockwise from that at initial contact.
+        gap: gap between the surfaces.
+        angle: angle of the line of centres, counter-clockwise from initial contact.
         turned: angle by which the first sphere has turned.
-        radius: of the first sphere.
-        partner: radius of the second; infinite for a wall.
-        partner_turned: angle by which that has turned.
+        radius: radius of the first sphere.
+        partner: radius of the second sphere; infinite for a wall.
+        partner_turned: angle by which the second has turned.
         slid: distance by which a wall has moved past the sphere's centre.
-        share: part of the distance between the centres that the first is away from the centre of mass.
+        share: distance of the first from the centre of mass, as a part of the distance between the centres.
         relative: velocity of the second sphere relative to the first; None where it is not shown.
-        free: after rupture, drawn on along straight lines.
+        free: before initial contact or after rupture, on straight lines.
     """
 
     time: float
@@ -57,12 +57,12 @@ class Frame:
 
     @property
     def distance(self) -> float:
-        """Distance between the centres, R_1 + R_2 + x; beside a wall, from the first's to the wall."""
+        """Distance between the centres, R_1 + R_2 + x; with a wall, from the first's centre to the wall."""
         return self.radius + self.gap if self.wall else sum(self.radii) + self.gap
 
     @property
     def centres(self) -> tuple[Vector, Vector]:
-        """Where the two are; of a wall, the point of it that is nearest."""
+        """Centres of the two spheres; for a wall, its point nearest to the sphere."""
         x, y = self.distance * math.cos(self.angle), self.distance * math.sin(self.angle)
         if self.wall:
             return (-x / 2, -y / 2), (x / 2, y / 2)
@@ -82,7 +82,7 @@ class Frame:
 
 
 def frames(collision: Outcome) -> list[Frame]:
-    """Return instants equally spaced in time from initial contact on, and for a separated pair one after rupture."""
+    """Return frames equally spaced in time from initial contact on, and for a separated pair one after rupture."""
     trajectory = _Trajectory.of(collision)
     still = np.ptp(trajectory.rotation) < math.radians(20) and np.ptp(trajectory.gap) < 0.2 * trajectory.first.radius
     instants = np.linspace(0.0, trajectory.time[-1], 3 if still else _MOVING + (collision.outcome == "stick"))
@@ -94,7 +94,7 @@ def frames(collision: Outcome) -> list[Frame]:
 
 
 def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
-    """Return the given instants, s from initial contact: straight lines before it and after rupture.
+    """Return frames at the given instants, s since initial contact; motion is straight before it and after rupture.
 
     A stick has no instants after its end.
     """
@@ -111,16 +111,16 @@ def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
 
 @dataclass(frozen=True)
 class _Trajectory:
-    """A trajectory, to be read at any instant."""
+    """A trajectory that can be evaluated at any instant."""
 
     time: np.ndarray
     gap: np.ndarray
     rotation: np.ndarray
-    turned: tuple[np.ndarray, np.ndarray]  # of the two
-    slid: np.ndarray  # past a wall
+    turned: tuple[np.ndarray, np.ndarray]  # angles of the two spheres
+    slid: np.ndarray  # distance moved along a wall
     first: Frame  # at initial contact
     approach: Vector  # relative velocity at initial contact
-    parting: tuple[float, float]  # normal velocity and velocity across the line of centres at the end
+    parting: tuple[float, float]  # normal and transverse relative velocity at the end
     spins: tuple[float, float]  # at the end
 
     @classmethod
@@ -153,7 +153,7 @@ class _Trajectory:
         return self.at(float(self.time[-1]))
 
     def before(self, instant: float) -> Frame:
-        """The pair on its way to initial contact."""
+        """The pair on straight lines, before initial contact."""
         first = self.at(0.0)
         x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant * (not first.wall)
         gap = math.hypot(x, y) - (first.distance - first.gap)
@@ -163,7 +163,7 @@ class _Trajectory:
         )  # fmt: skip
 
     def apart(self, wait: float) -> Frame:
-        """The pair on straight lines, a time after rupture."""
+        """The pair on straight lines, `wait` seconds after rupture."""
         last, (normal_velocity, across) = self.last, self.parting
         x, y = last.distance + normal_velocity * wait, across * wait * (not last.wall)
         along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
@@ -177,7 +177,7 @@ class _Trajectory:
 
 
 def _first(scene: Scene, gap: float) -> Frame:
-    """The two at initial contact."""
+    """The pair at initial contact."""
     radius = 2 * scene.particles.reduced_radius
     if scene.wall:
         return Frame(0.0, gap, 0.0, 0.0, radius, partner=math.inf, partner_turned=0.0)
@@ -186,7 +186,7 @@ def _first(scene: Scene, gap: float) -> Frame:
 
 
 def _wait(last: Frame, normal_velocity: float, across: float) -> float:
-    """Time after rupture until the pair is as far apart as shows: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
+    """Time after rupture of the last frame, s: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
     across *= not last.wall
     speed = math.hypot(normal_velocity, across)
     goal = last.distance + _APART * last.radius
@@ -195,16 +195,17 @@ def _wait(last: Frame, normal_velocity: float, across: float) -> float:
 
 
 def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarray, spin: np.ndarray) -> np.ndarray:
-    """Return the angle each sphere has turned, int xi dt: the doublet's own angle and the integral of the slip.
+    """Return the angle each sphere has turned, int xi dt, rad: the doublet's angle plus the integral of the slip.
 
-    The angle of the doublet is integrated exactly; only the slip xi - omega, soon gone, is left to the trapezoids.
+    The angle of the doublet comes from the integrator; only the slip xi - omega, which decays quickly, is integrated by
+    the trapezoidal rule.
     """
     turned: np.ndarray = rotation + _integral(time, spin - rotation_rate)
     return turned
 
 
 def _integral(time: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """From the first instant on, by trapezoids."""
+    """Cumulative integral of `rate` by the trapezoidal rule, 0 at the first instant."""
     pieces = 0.5 * (rate[1:] + rate[:-1]) * np.diff(time)
     integral: np.ndarray = np.concatenate([[0.0], np.cumsum(pieces)])
     return integral

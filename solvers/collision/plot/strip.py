@@ -1,4 +1,4 @@
-"""The picture of the doublet at a few instants, side by side and to one scale."""
+"""Pictures of the doublet at a few instants, side by side and to the same scale."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ..outcome import Outcome
 from .frames import Frame, Vector
 
 LIQUID, VELOCITY, FIRST, SECOND, INK = "#56B4E9", "#D55E00", "#E8E8E8", "#BDBDBD", "#202020"
-_BETWEEN = 0.7  # of R: space between frames
-_ARROW = 1.15  # of R: length of the fastest velocity's arrow, half of it on either side of the centre
+_BETWEEN = 0.7  # space between frames, in units of R
+_ARROW = 1.15  # length of the longest velocity arrow, in units of R; centred on the sphere
 
 
 def wetted_radius(scene: Scene, gap: float) -> float:
-    """Return the radius of the liquid between the spheres, m: of a bridge, else where the film is filled.
+    """Return the radius of the liquid between the spheres, m: of the bridge, else of the region that the films fill.
 
     Surfaces are parabolas, h = x + s^2/R, R = 2a; with a bridge, the volume between them inside s is V R^3.
     """
@@ -33,7 +33,7 @@ def wetted_radius(scene: Scene, gap: float) -> float:
 
 
 def draw_strip(axes: Axes, collision: Outcome, pictures: Sequence[Frame], captions: Sequence[str]) -> None:
-    """Draw the frames side by side, to one scale, a caption under each; lengths are in sphere radii."""
+    """Draw the frames side by side, to the same scale, a caption under each; lengths are in sphere radii."""
     radius = pictures[0].radius
     fastest = max((math.hypot(*frame.relative) for frame in pictures if frame.relative), default=1.0)
     bottom = -max(frame.half_height for frame in pictures) / radius - 0.25
@@ -51,14 +51,14 @@ def draw_strip(axes: Axes, collision: Outcome, pictures: Sequence[Frame], captio
 
 
 def strip_size(pictures: Sequence[Frame]) -> tuple[float, float]:
-    """Width and height of the strip in sphere radii, captions left out."""
+    """Width and height of the strip in sphere radii, without captions."""
     radius = pictures[0].radius
     width = sum(2 * max(frame.half_width / radius, 1.75) + _BETWEEN for frame in pictures) - _BETWEEN
     return width + 0.4, 2 * max(frame.half_height for frame in pictures) / radius + 0.5
 
 
 def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: float) -> None:
-    """One frame around (place, 0), lengths in sphere radii."""
+    """Draw one frame around (place, 0), lengths in sphere radii."""
     radius, scene = frame.radius, collision.scene
     centres = [(place + x / radius, y / radius) for x, y in frame.centres]
     radii = [each / radius for each in frame.radii]
@@ -87,7 +87,7 @@ def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: f
             if not share:
                 continue
             length = share * _ARROW / fastest
-            # centred, so that the tips of a head-on approach stay apart
+            # centred, so that the arrow heads of a head-on approach do not overlap
             x, y = 0.5 * length * frame.relative[0], 0.5 * length * frame.relative[1]
             ends = (centre[0] - x, centre[1] - y), (centre[0] + x, centre[1] + y)
             arrow = FancyArrowPatch(*ends, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0, zorder=5)
@@ -96,8 +96,8 @@ def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: f
 
 
 def _draw_wall(axes: Axes, nearest: Vector, film: float, slid: float) -> None:
-    """The wall, at the right, with its film and the mark that the sphere met at initial contact."""
-    high = 1.6  # of R, as the frame's half_height
+    """Draw the wall at the right, its film, and a mark at the point of initial contact."""
+    high = 1.6  # in units of R; the same as in the frame's half_height
     left = nearest[0]
     axes.add_patch(Rectangle((left - film, -high), film, 2 * high, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
     solid = Rectangle((left, -high), 0.35, 2 * high, facecolor=SECOND, edgecolor=INK, linewidth=0.8, zorder=3)
@@ -109,10 +109,10 @@ def _draw_wall(axes: Axes, nearest: Vector, film: float, slid: float) -> None:
 
 
 def _neck(frame: Frame, place: float, half: float) -> np.ndarray:
-    """Outline of the liquid between the spheres: along one surface, and back along the other."""
+    """Outline of the liquid between the spheres: along one surface and back along the other."""
     rise = np.linspace(-half, half, 25)
     far = frame.distance / frame.radius
-    near = np.sqrt(1 - rise**2)  # from the first's centre
+    near = np.sqrt(1 - rise**2)  # measured from the centre of the first sphere
     other = frame.radii[1] / frame.radius
     back = np.full(rise.size, far) if frame.wall else far - np.sqrt(other**2 - rise**2)
     outline = np.concatenate([np.column_stack([near, rise]), np.column_stack([back, rise])[::-1]])

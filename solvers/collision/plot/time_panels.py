@@ -1,7 +1,6 @@
-"""Gap, velocity and rotation of a collision over time.
+"""Panels of gap, velocity and rotation of a collision over time.
 
-The approach takes a small part of a trajectory that rotates before it separates. Where it does, it has a column of its
-own.
+The approach takes a small part of the time of a pair that rotates before it separates; it then has a column of its own.
 """
 
 from __future__ import annotations
@@ -26,23 +25,23 @@ from .frames import Frame
 from .strip import INK
 
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#6E6E6E"  # Okabe-Ito
-_ZOOM = 5.0  # the approach has a column of its own if the trajectory is longer than this many of it
-_NEXT = 2.6  # ... which reaches up to the next event, if that comes within this many of it
-_DECADE = 10.0  # gaps that span more are drawn on a logarithmic axis
-_LETTER = 0.078  # inches of width per character of an event's label
-_MANY, _LABELS = 50, 6  # lines and labels of events in a column, at most
+_ZOOM = 5.0  # the approach has its own column if the collision lasts longer than this many approaches
+_NEXT = 2.6  # this column extends to the next event if that comes within this many approaches
+_DECADE = 10.0  # gaps whose largest and smallest values differ by more are drawn on a logarithmic axis
+_LETTER = 0.078  # width of a character of an event's label, inches
+_MANY, _LABELS = 50, 6  # most lines and labels of events in a column
 
 
 @dataclass(frozen=True)
 class Column:
-    """A stretch of time and its panels: gap, normal velocity and, oblique, rotation rates and angle."""
+    """An interval of time and its panels: gap, normal velocity and, if oblique, rotation rates and angle."""
 
     start: float
     end: float
     title: str
     panels: Sequence[Axes]
-    width: float  # inches, about
-    shaded: float = 0.0  # up to here another column shows more
+    width: float  # approximate, inches
+    shaded: float = 0.0  # until this time another column shows more detail
 
     @property
     def unit(self) -> tuple[float, str]:
@@ -50,12 +49,12 @@ class Column:
         return factor, micro(name + "s")
 
     def shows(self, time: float) -> bool:
-        """True if an event at `time` is labelled here."""
+        """True if an event at `time` is labelled in this column."""
         return (self.shaded < time or not self.shaded) and time <= self.end
 
 
 def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictures: Sequence[Frame]) -> None:
-    """Draw the trajectory into a cell of the figure's grid, `rows` panels high; `pictures` are marked on its angle."""
+    """Draw the trajectory into a cell of the figure's grid, `rows` panels high; mark the instants of `pictures`."""
     data = collision.trajectory
     assert data is not None
     time = np.asarray(data["time"])
@@ -77,7 +76,7 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
 
 
 def _zoom(collision: Outcome, duration: float) -> float | None:
-    """Where the approach's own column ends, s; None if the trajectory is no longer than it shows."""
+    """End of the approach's column, s; None if it would show the whole trajectory."""
     times = [event.time for event in collision.events if event.time > 0]
     if not times or duration < _ZOOM * times[0]:
         return None
@@ -89,7 +88,7 @@ def _zoom(collision: Outcome, duration: float) -> float | None:
 
 
 def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
-    """Draw the curves of a column; the last one has the right margin to itself."""
+    """Draw the curves of a column; only the last column has labels in the right margin."""
     data = collision.trajectory
     assert data is not None
     factor, unit = column.unit
@@ -111,7 +110,7 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
             rates.plot(time, data["spin_partner"], color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner")
         rates.axhline(0, color=GREY, linewidth=0.6)
         rates.set_ylabel(f"rotation\nrate{'s' * (not wall)} (rad/s)")
-        if wall:  # no line of centres turns; the sphere's centre moves along
+        if wall:  # a wall has no rotating line of centres; show the distance moved along it
             size, name = prefix(float(np.max(np.abs(data["sliding_velocity"]))))
             angle.plot(time, np.asarray(data["sliding_velocity"]) / size, color=INK)
             angle.set_ylabel(f"sliding\nvelocity ({micro(name + 'm/s')})")
@@ -133,7 +132,7 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
 
 
 def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Outcome, last: bool) -> None:
-    """The gap, and the gaps at which something changes."""
+    """Draw the gap, and lines at the gaps where the equations change."""
     scene = collision.scene
     factor, name = prefix(float(np.max(gap)))
     film, rupture = scene.liquid.film_thickness, scene.rupture_gap
@@ -160,7 +159,7 @@ def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Outcome, last
             text, (1, value / factor), (3, 0), xycoords=axes.get_yaxis_transform(), textcoords="offset points",
             color=BLUE, fontsize=8, va="center",
         )  # fmt: skip
-    if far and last:  # in the margin, where no curve comes
+    if far and last:  # in the margin, clear of the curves
         axes.annotate(
             f"$x_f$ ↑\n{written(rupture, 'm')}", (1, 1), (3, 2), xycoords="axes fraction",
             textcoords="offset points", color=BLUE, fontsize=8, va="bottom",
@@ -169,14 +168,14 @@ def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Outcome, last
 
 
 def _events(column: Column, collision: Outcome) -> None:
-    """Lines through all panels, and labels above, higher where they would overlap."""
+    """Draw lines of events through all panels and their labels above, raised where they would overlap."""
     factor, _ = column.unit
     span = (column.end - column.start) * 1.04
     marks = [(event.time, event.kind) for event in collision.events]
     if collision.outcome == "stick" and collision.until is not None and collision.certified:
         marks.append((collision.until, "proved to stick"))
     lines = [time for time, _ in marks if time <= column.end * (1 + 1e-9)]
-    if len(lines) > _MANY:  # of a chatter, one per place
+    if len(lines) > _MANY:  # repeated rebounds: one line where they coincide in the figure
         lines = list({round(200 * time / span): time for time in lines}.values())
     for time in lines:
         for panel in column.panels:
@@ -199,7 +198,7 @@ def _events(column: Column, collision: Outcome) -> None:
 
 
 def _grouped(marks: Sequence[tuple[float, str]], near: float) -> list[tuple[float, str]]:
-    """Events that fall on one spot share a label: what they are, and how often."""
+    """Labels of events; those closer than `near` share one, with kinds and counts."""
     groups: list[tuple[float, list[str]]] = []
     for time, kind in marks:
         if groups and time - groups[-1][0] < near:
@@ -214,14 +213,14 @@ def _grouped(marks: Sequence[tuple[float, str]], near: float) -> list[tuple[floa
 
 
 def _match(columns: Sequence[Column], time: np.ndarray, velocity: np.ndarray) -> None:
-    """One scale for both columns, but the velocity after the approach has its own: it is often much smaller."""
+    """Give both columns the same scales, except the velocity after the approach, which is often much smaller."""
     if len(columns[0].panels) > 2:
         columns[-1].panels[2].legend(fontsize=7.5, frameon=False, loc="best")
     if len(columns) == 1:
         return
     zoomed, whole = columns
     for row, panel in enumerate(zoomed.panels):
-        if row == 3:  # the angle has its own scale in each, too
+        if row == 3:  # the angle has its own scale in each column as well
             turned = np.asarray(panel.lines[0].get_ydata())[time <= zoomed.end * (1 + 1e-9)]
             panel.set_ylim(-0.08 * turned.max(), 1.12 * turned.max())
         elif row != 1:
@@ -236,7 +235,7 @@ def _match(columns: Sequence[Column], time: np.ndarray, velocity: np.ndarray) ->
 
 
 def letter(axes: Axes, text: str, offset: float) -> None:
-    """Panel letter at the upper left."""
+    """Draw the panel's letter at its upper left."""
     axes.annotate(
         f"({text})" if text else "", (0, 1), (offset, 2), xycoords="axes fraction", textcoords="offset points",
         fontweight="bold", fontsize=10, ha="left", va="bottom",
@@ -244,11 +243,11 @@ def letter(axes: Axes, text: str, offset: float) -> None:
 
 
 def micro(unit: str) -> str:
-    """The unit with a Greek letter for u."""
+    """The unit with µ for a leading u."""
     return "µ" + unit[1:] if unit.startswith("u") else unit
 
 
 def written(value: float, unit: str) -> str:
-    """A quantity as it is written in a figure."""
+    """A quantity with four digits and its prefixed unit, as text for a figure."""
     number, _, name = quantity(value, unit).partition(" ")
     return f"{number} {micro(name)}"

@@ -51,7 +51,7 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
             if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
                 raise KeyboardInterrupt from None
             raise IntegrationFailed(_reason(str(error))) from None
-    if "KeyboardInterrupt" in heard.getvalue():  # CVODES has taken it for a step to be tried again
+    if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES has treated as a failed step
         raise KeyboardInterrupt
     if not np.isfinite(found).all():
         raise IntegrationFailed("the state is not finite")

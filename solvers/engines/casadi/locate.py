@@ -49,7 +49,7 @@ class PhaseRun:
     Arguments:
         event: name of the event function to land on; None if the trajectory stops inside the phase.
         kinds: events reported at its end, in order.
-        reverses: the solids reverse the motion at its end.
+        rebounds: the doublet rebounds at its end.
         holds: the normal velocity is zero from here on, or until release.
     """
 
@@ -57,7 +57,7 @@ class PhaseRun:
     duration: float
     event: str | None
     kinds: tuple[str, ...]
-    reverses: bool = False
+    rebounds: bool = False
     holds: bool = False
 
 
@@ -71,12 +71,12 @@ class EventSequence:
     steps: list[PhaseRun] = field(default_factory=list)
     separated: bool = False
     certified: bool = False
-    ends: list[np.ndarray] = field(default_factory=list)  # state after each step, its reversal included
+    ends: list[np.ndarray] = field(default_factory=list)  # state after each step, its rebound included
     y: np.ndarray = field(default_factory=lambda: np.zeros(0))  # the last state, extras included
     time: float = 0.0  # of the last state
     smallest_gap: float = 1.0
     extras: tuple[str, ...] = ()
-    dry_loss: float = 0.0  # taken by reversals and rests, over m v0^2
+    dry_loss: float = 0.0  # taken by rebounds and rests, over m v0^2
 
     @property
     def kinds(self) -> list[str]:
@@ -129,7 +129,10 @@ class EventLocator:
     def run(self) -> EventSequence:
         """Follow the collision to separation, to a proof that it never separates, or to a cut-off."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
-            raise self._error("so oblique an impact turns within a rounding error of x0", "try a smaller angle")
+            raise self._error(
+                "at this angle the rotation reverses the approach within a rounding error of the film thickness",
+                "try a smaller angle",
+            )
         while True:
             if self._proved(0.0):
                 return self.path
@@ -137,7 +140,7 @@ class EventLocator:
                 return self.path
             criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
             if criterion:
-                self._reverse(criterion, 0.0)
+                self._rebound(criterion, 0.0)
             elif self._run_phase():
                 return self.path
             if self.path.separated:
@@ -164,10 +167,10 @@ class EventLocator:
         self.spent += max(steps, CALL)
         if self.spent > self.steps:
             phases = len(self.path.steps)
-            what = "this is chatter without end" if phases > CHATTER_PHASES else "it creeps beyond bounds"
+            why = "the doublet rebounds again and again" if phases > CHATTER_PHASES else "the gap changes too slowly"
             raise self._error(
                 f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
-                f"{what}: try a larger --rtol, or another impact",
+                f"{why}: try a larger --rtol, or another impact",
             )
 
     def _criterion_met(self) -> str | None:
@@ -217,7 +220,8 @@ class EventLocator:
                 stretch *= GROWTH
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
-            "it is within its tolerance of a boundary or creeps beyond bounds: try a smaller --rtol, or another impact",
+            "the outcome changes within the tolerance of this impact, or the gap changes too slowly: "
+            "try a smaller --rtol, or another impact",
         )
 
     def _first_stretch(self) -> float:
@@ -296,7 +300,7 @@ class EventLocator:
         word = self._word(event)
         for action in event.actions:
             if action == "reverse":
-                self._reverse(word, elapsed, event.name)
+                self._rebound(word, elapsed, event.name)
                 return False
             phase = self._done(action, phase)
         self._next(PhaseRun(before, elapsed, event.name, (word,)), phase)
@@ -349,19 +353,19 @@ class EventLocator:
         self._stop(step)
         self.phase = phase
 
-    def _reverse(self, kind: str, elapsed: float, event: str | None = None) -> None:
-        """Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left.
+    def _rebound(self, kind: str, elapsed: float, event: str | None = None) -> None:
+        """A rebound; one too weak to leave rests, one where the doublet ruptures has left.
 
         What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
         """
-        after = self.model.values("reversal", self.y, self.p)
-        self.path.dry_loss += self.model.values("reversal_loss", self.y, self.p)["dry_contact"]
+        after = self.model.values("rebound", self.y, self.p)
+        self.path.dry_loss += self.model.values("rebound_loss", self.y, self.p)["dry_contact"]
         self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
         kinds: tuple[str, ...] = (kind,)
         if self.y[0] >= self.rupture_gap:
             self.path.separated = True
             kinds += (KINDS[EventKind.RUPTURE],)
-            self._next(PhaseRun(self.phase, elapsed, event, kinds, reverses=True), self._opening(self.phase))
+            self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True), self._opening(self.phase))
             return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
         holds = inward > 0 and self._too_weak(after["normal_velocity"], inward)
@@ -372,7 +376,7 @@ class EventLocator:
             phase = self.phase.with_(resting=True, motion=OPENING)
         else:
             phase = self._opening(self.phase)
-        self._next(PhaseRun(self.phase, elapsed, event, kinds, reverses=True, holds=holds), phase)
+        self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds), phase)
 
     def _opening(self, phase: Phase) -> Phase:
         """The phase that opens from here; from initial contact, beyond the film at once."""

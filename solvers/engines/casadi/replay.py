@@ -93,9 +93,9 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
             replayed.time += duration
         replayed.events += [(kind, replayed.time) for kind in step.kinds]
         replayed.smallest_gap = min(replayed.smallest_gap, float(replayed.y[0]))
-        if step.reverses:
-            replayed.dry_loss += model.values("reversal_loss", replayed.y, p)["dry_contact"]
-            after = model.values("reversal", replayed.y, p)
+        if step.rebounds:
+            replayed.dry_loss += model.values("rebound_loss", replayed.y, p)["dry_contact"]
+            after = model.values("rebound", replayed.y, p)
             replayed.y = np.concatenate([list(after.values()), replayed.y[size:]])
         if step.holds:  # chatter takes what is left of the rebound
             replayed.dry_loss += float(replayed.y[1]) ** 2 / 2

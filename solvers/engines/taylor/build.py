@@ -204,7 +204,7 @@ def compile_all(variants: Collection[Variant]) -> None:
             threads.append(threading.get_ident())
             kernel(variant)
 
-        with ThreadPoolExecutor(usable_cores()) as pool:  # compilers are processes of their own
+        with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, as compilers are separate processes
             try:
                 list(pool.map(compiled_here, variants))
             except BaseException:

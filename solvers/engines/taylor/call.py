@@ -24,7 +24,7 @@ from .build import LARGEST_ORDER, Variant, kernel, supported
 from .endless import decide
 from .layout import ANSWER, Task, names
 
-_CHUNK = 4096  # collisions a thread takes at a time
+_CHUNK = 4096  # collisions in a block for a thread
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def _fill(
         for first in firsts:
             chunk(first)
     else:
-        with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
+        with ThreadPoolExecutor(threads) as pool:  # the kernel releases the interpreter's lock
             list(pool.map(chunk, firsts))
     return True
 

@@ -23,7 +23,7 @@ ANSWER = np.dtype(
         ("certified", "i4"),
         ("status", "i4"),
         ("steps", "i4"),
-        ("reversal", "i4"),  # the first criterion met; -1 for none
+        ("reversal", "i4"),  # the first rebound criterion met; -1 for none
         ("events", "i4"),  # those that the log had no room for as well
     ],
     align=True,

@@ -1,1 +1,1 @@
-"""The stress run: all engines held against each other on random scenes."""
+"""Stress test: comparison of all engines on random scenes."""

@@ -1,4 +1,4 @@
-"""What engines are asked, and what comes back."""
+"""Input and output of the engines in the stress test."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ class Impact:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a collision came to."""
+    """Result of a collision."""
 
     outcome: str
     restitution: float
 
 
 def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
-    """The numbers of a scene's collision."""
+    """Dimensionless groups of a scene's collision."""
     return nondimensionalise(scene, scene.speed_of(impact.stokes), impact.angle)
 
 
 def answer(path: EventSequence) -> Answer:
-    """What a located trajectory came to."""
+    """The answer of a located trajectory."""
     outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
     return Answer(path.outcome, outputs.get("restitution", 0.0))

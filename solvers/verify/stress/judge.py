@@ -1,4 +1,4 @@
-"""One case of the stress test: all engines on it, and what their answers say of each other."""
+"""One case of the stress test: computation by all engines, and comparison of the results."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ from .located import LocatedTrajectories
 from .scipy_engine import ScipyLocator
 from .verdict import CHATTER, FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
-SHARE = 1e3  # an engine's error is taken to stay below so many rtol, times the conditioning
-FLOOR = 1e-12  # and what rounding alone may come to, times the conditioning
-OPEN = 1e-5  # of the ledger's largest term, beyond which it is open
+SHARE = 1e3  # assumed bound of an engine's error in units of rtol, times the conditioning
+FLOOR = 1e-12  # assumed bound of rounding errors, times the conditioning
+OPEN = 1e-5  # largest residual, relative to the ledger's largest term
 DRIFT = 1e-6
-PATIENCE, GIVEN_UP = 0.5, "given up"  # s of CPU time for scipy's method
-_STEP = 1e-6  # relative, in St, over which the conditioning is measured
-_AUDIT = 100  # phases and stretches that a certified stick is continued for
-PEER = "LSODA"  # what it cannot do is no failure of ours
+PATIENCE, GIVEN_UP = 0.5, "given up"  # s of CPU time for a scipy method
+_STEP = 1e-6  # relative step in St for the conditioning
+_AUDIT = 100  # phases and intervals for which a certified stick is continued
+PEER = "LSODA"  # scipy's failures do not count as ours
 _LOCATED = LocatedTrajectories()
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
 
 
 def fast(scene: Scene, rtol: float) -> Found:
-    """By `collide_many`, with the fastest engine there is."""
+    """Result of `collide_many` with the fastest engine."""
     data = collide_many(scene, rtol=rtol, engine=FAST)
     outcome = int(data["outcome"].values[0])
     if outcome < 0:
@@ -50,12 +50,12 @@ def fast(scene: Scene, rtol: float) -> Found:
 
 
 def fast_kernel(scene: Scene) -> Variant:
-    """The kernel of a scene."""
+    """The kernel variant of a scene."""
     return variant(scene, select_model(scene, bool(scene.angle), fold=True), RTOL, rotation=False, few=True)
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
-    """As by `collide` with its ledger; located once for both engines, each charged with what that takes."""
+    """Result as by `collide` with its ledger; located once for both engines, with the cost charged to each."""
     n = dimensionless(scene, Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0)))
     spared = _LOCATED.spared
     one = by_casadi(scene, n, rtol, plugin, True, False, _LOCATED.find)
@@ -70,7 +70,7 @@ def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
 
 
 class Limited(ScipyLocator):
-    """A trajectory by scipy that is given up when it has taken PATIENCE."""
+    """A scipy locator that stops after PATIENCE seconds of CPU time."""
 
     def _integrated(self, rates: Any, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
         if not hasattr(self, "_until"):
@@ -85,13 +85,13 @@ class Limited(ScipyLocator):
 
 
 def by_scipy(scene: Scene, rtol: float, method: str = "LSODA") -> Found:
-    """By a method of scipy, with its own event location."""
+    """Result by a scipy method, with scipy's event location."""
     impact = Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0))
     n = dimensionless(scene, impact)
     path = Limited(load(select_model(scene, n.oblique)), n.groups, rtol, method).run()
     said = answer(path)
     if said.restitution < 0:
-        raise ComputationError(f"{method} takes the start for its end")  # a step below the rounding of x0
+        raise ComputationError(f"{method} takes the start for its end")  # a step smaller than the rounding of x0
     return Found(said.outcome, said.restitution, path.certified)
 
 
@@ -99,7 +99,7 @@ Run = Callable[[Scene, float], Found]
 
 
 def runs() -> dict[str, Run]:
-    """The engines that are held against each other; the first is the one under test."""
+    """The compared engines; the first is the one under test."""
     found: dict[str, Run] = {FAST: fast}
     if FAST != "rosenbrock":
         found["rosenbrock"] = lambda scene, rtol: chained(scene, rtol, "rosenbrock")
@@ -109,16 +109,16 @@ def runs() -> dict[str, Run]:
 
 
 def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
-    """Run every engine on a case and judge what comes out.
+    """Run every engine on a case and compare the results.
 
     Arguments:
-        engines: by name, the one under test first; `runs()` if None.
+        engines: engines by name, the one under test first; `runs()` if None.
     """
     from .lines import judge_lines
 
     _LOCATED.forget()
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ModelWarning)  # counted, and said once for all cases
+        warnings.simplefilter("ignore", ModelWarning)  # counted, and reported once for all cases
         verdict = judge_lines(case) if case.angles else _judged(case, runs() if engines is None else engines)
     return replace(verdict, remarks=tuple(_PARTICULAR.sub(" ", each).strip() for each in remarks(case.scene)))
 
@@ -128,7 +128,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     for name, run in engines.items():
         found[name] = _timed(run, case.scene, RTOL)
         if CHATTER in found[name].failure:
-            break  # the rules that find it are shared: the others would chatter on just as well
+            break  # the others share the rules of the event location and would chatter too
     issues: list[Issue] = [
         Issue("peer" if name == PEER else "failure", (name,), each.failure, _physical(each.failure, name, case))
         for name, each in found.items()
@@ -168,7 +168,7 @@ def _timed(run: Run, scene: Scene, rtol: float) -> Found:
 
 
 def _physical(failure: str, engine: str, case: Case) -> str:
-    """The physical reason of a failure; empty if it has none. The engine under test has to pass every boundary."""
+    """The physical reason of a failure; empty if there is none. The engine under test must not fail near a boundary."""
     if engine != FAST and case.distance is not None and case.distance <= SHARE * RTOL:
         return f"within {SHARE * RTOL:.0e} of a boundary, where the trajectory passes a saddle or a graze"
     return physical_reason(failure)
@@ -179,7 +179,7 @@ def _at(scene: Scene, factor: float) -> Scene:
 
 
 def _conditioning(run: Run, scene: Scene, here: Found) -> float:
-    """|d e_n/d ln St| over a small step, the larger of both sides; at least 1. Infinite where the outcome changes."""
+    """|d e_n/d ln St| over a small step, the larger of both sides; at least 1. inf where the outcome changes."""
     largest = 1.0
     for factor in (1 - _STEP, 1 + _STEP):
         there = _timed(run, _at(scene, factor), RTOL)
@@ -193,7 +193,7 @@ def _conditioning(run: Run, scene: Scene, here: Found) -> float:
 
 def _compared(case: Case, engines: dict[str, Run], first: str, name: str, there: dict[str, Found],
               slope: float) -> list[Issue]:  # fmt: skip
-    """Whether two values of e_n differ by more than their stated errors; if so, which of them tightening moves."""
+    """Issue if two values of e_n differ by more than their bounds; states which of them changes with the tolerance."""
     difference = abs(there[first].restitution - there[name].restitution)
     if difference <= SHARE * RTOL * slope + FLOOR * slope:
         return []
@@ -202,9 +202,9 @@ def _compared(case: Case, engines: dict[str, Run], first: str, name: str, there:
 
 
 def _beside(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
-    """Why two engines may disagree: a change within their stated error, by either one; empty if there is none.
+    """Explanation of a disagreement: a change of outcome within the error bound of either engine; else empty.
 
-    Both are asked again within that error in St; then at a tolerance a thousand times as tight.
+    Both engines are run again within that error in St, then at a tolerance a thousand times smaller.
     """
     reach = SHARE * RTOL
     for who in (first, name):
@@ -219,7 +219,7 @@ def _beside(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
 
 
 def _sides(case: Case, there: dict[str, Found]) -> list[Issue]:
-    """Beside a boundary: whether each engine finds the outcome of its side, once it is further off than its error."""
+    """Issues of engines that miss the expected outcome beside a boundary at a distance larger than their error."""
     if case.expected is None or case.distance is None or case.distance <= SHARE * RTOL:
         return []
     return [
@@ -230,7 +230,7 @@ def _sides(case: Case, there: dict[str, Found]) -> list[Issue]:
 
 
 def _ledger(name: str, each: Found, case: Case) -> list[Issue]:
-    """An energy ledger that does not close; angular momentum that is not conserved where it should be."""
+    """Issues of an energy ledger that does not close, or of angular momentum that is not conserved."""
     issues = []
     if each.more.get("residual", 0.0) > OPEN:
         issues.append(Issue("ledger", (name,), f"{name}'s ledger is open by {each.more['residual']:.1e}"))
@@ -240,7 +240,7 @@ def _ledger(name: str, each: Found, case: Case) -> list[Issue]:
 
 
 class Audit(NoCertificate):
-    """No certificate: a trajectory is followed until nothing happens any more, or for long."""
+    """A locator without certificates, which integrates until no event is left or for a long time."""
 
     def __init__(self) -> None:
         self._phase: Phase | None = None
@@ -253,9 +253,9 @@ class Audit(NoCertificate):
 
 
 def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
-    """A certified stick continued without its certificate, from where it was proved: it must not separate.
+    """Issues of a certified stick that separates when continued without certificate from the certified state.
 
-    A trajectory that does not get there has another outcome, which its error beside a boundary may explain.
+    A trajectory that does not reach that state has another outcome, which its error near a boundary may explain.
     """
     n = dimensionless(case.scene, Impact(float(case.scene.stokes or 0.0), float(case.scene.angle or 0.0)))
     try:
@@ -265,7 +265,7 @@ def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
         locator.watch = replace(locator.watch, certificate=None)
         path = locator.run() if proved else locator.path
     except ComputationError:
-        return []  # it went on until the integrator gave up
+        return []  # it continued until the integrator failed
     if not path.separated:
         return []
     said = f"certified by {first}, but continued it ends as {path.outcome}"

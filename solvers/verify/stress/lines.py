@@ -1,4 +1,4 @@
-"""Traced boundaries against collisions: scenes about the presets, every line held against a dense scan of outcomes."""
+"""Comparison of traced boundaries with a dense scan of outcomes, on scenes derived from the presets."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
 from .verdict import FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
-SPAN = (2e-3, 30.0)  # of the Stokes number
-SAMPLES = 700  # of a line
+SPAN = (2e-3, 30.0)  # range of the Stokes number
+SAMPLES = 700  # samples of a line
 _ANGLES = 3  # lines of a scene
-_ABOUT = 10.0  # entries are scaled by up to this factor, either way
+_ABOUT = 10.0  # entries are scaled by up to this factor, up or down
 _ASIDE = 3e-6  # relative distance from a change at which outcomes are compared
-_BY_ROSENBROCK, _SOME = 10, 24  # one scene in so many, at so many Stokes numbers a line
+_BY_ROSENBROCK, _SOME = 10, 24  # every so many scenes, at so many Stokes numbers of a line
 _PRESETS = ("granulation", "granulation", "pendulum", "granulation-dry-bridge")
 _PLAIN = {
     "particles.dry_restitution": (0.1, 1.0),
@@ -33,10 +33,10 @@ Model = dict[str, str]
 
 
 def drawn(count: int, models: int, seed: int) -> Iterator[Case]:
-    """Scenes about the presets with three angles each, head-on ones among them; the same for the same arguments.
+    """Random scenes derived from the presets, with three angles each, some head-on; deterministic.
 
     Arguments:
-        models: how many combinations of preset, laws and partner they share.
+        models: number of combinations of preset, laws and partner.
     """
     random = np.random.default_rng(seed)
     kinds = [_model(random) for _ in range(max(1, models))]
@@ -47,7 +47,7 @@ def drawn(count: int, models: int, seed: int) -> Iterator[Case]:
         try:
             scene = _scene(f"line-{seed}-{made}", kind, random)
         except InputError:
-            continue  # a film thicker than its bridge, or the like: no scene
+            continue  # an impossible scene, such as a film thicker than its bridge
         steep = [
             float(random.choice([0.0, random.uniform(0.0, 1.5), random.uniform(0.0, 1.55)])) for _ in range(_ANGLES)
         ]
@@ -73,7 +73,7 @@ def _model(random: np.random.Generator) -> Model:
 
 
 def _scene(name: str, model: Model, random: np.random.Generator) -> Scene:
-    """A preset with its numbers scaled; InputError where they do not go together."""
+    """A preset with scaled entries; InputError where these contradict each other."""
     preset = Scene.load(model["preset"])
 
     def scaled() -> float:
@@ -104,7 +104,7 @@ def _scene(name: str, model: Model, random: np.random.Generator) -> Scene:
 
 
 def judge_lines(case: Case) -> Verdict:
-    """Trace the lines of a case and look at what collisions say of them."""
+    """Trace the lines of a case and compare them with collisions."""
     issues: list[Issue] = []
     start = time.process_time()
     found = boundary(case.scene, angle=np.array(case.angles), stokes=SPAN, rtol=RTOL)
@@ -126,14 +126,14 @@ def judge_lines(case: Case) -> Verdict:
 
 
 def _apart(at: np.ndarray) -> bool:
-    """Whether no two changes are so near that a look beside one is a look beyond the other."""
+    """True if no two changes are closer than the distance at which outcomes are compared."""
     return at.size < 2 or bool(np.min(np.diff(np.log(at))) > 4 * _ASIDE)
 
 
 def _denied(
     scene: Scene, angle: float, at: np.ndarray, outcomes: Sequence[str] | None, engine: str, stokes: np.ndarray
 ) -> list[Issue]:
-    """Collisions of a line whose outcome is not the one that the changes below them say: the first of them."""
+    """The first collision of a line whose outcome contradicts the changes below it, as text."""
     seen = collide_many(scene, stokes=stokes, angle=angle, rtol=max(RTOL, SHARPEST), engine=engine)["outcome"].values
     if outcomes is None:
         outcomes = [OUTCOMES[max(int(seen.max()), 0)]]
@@ -150,5 +150,5 @@ def _denied(
 
 
 def number_of(name: str) -> int:
-    """The number that a case's name ends with."""
+    """The number at the end of a case's name."""
     return int(name.rpartition("-")[2])

@@ -1,4 +1,4 @@
-"""Located trajectories of one case, for all that ask for them."""
+"""Cache of the located trajectories of one case."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from ...model.model import Model
 
 
 class LocatedTrajectories:
-    """Trajectories that several engines, and the audit, ask for: located once, as nothing in it is left to chance."""
+    """Trajectories used by several engines and the audit, located once; event location is deterministic."""
 
     def __init__(self) -> None:
         self._known: dict[Any, tuple[EventLocator, ComputationError | None, float]] = {}
-        self.spared = 0.0  # s of CPU time that were not spent again
+        self.spared = 0.0  # s of CPU time saved by the cache
 
     def forget(self) -> None:
-        """A new case."""
+        """Clear the cache for a new case."""
         self._known.clear()
 
     def find(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
-        """What `locate` does."""
+        """The located trajectory, as `locate` returns it."""
         return self._located(model, groups, rtol, extras).path
 
     def handed_out(self, model: Model, groups: dict[str, float], rtol: float) -> EventLocator:
-        """A located trajectory, for its taker to continue: nobody is given it again."""
+        """Remove and return a located trajectory, which the caller may continue."""
         located = self._located(model, groups, rtol)
         self.forget()
         return located

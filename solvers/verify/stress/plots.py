@@ -1,4 +1,4 @@
-"""The stress test as pictures: error and cost over Stokes number and angle, cost beside a boundary."""
+"""Figures of the stress test: error and cost over Stokes number and angle, and cost beside a boundary."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 
 
 def draw(found: Stress, folder: Path) -> list[Path]:
-    """Draw stress-map.png and stress-near.png; returns their files."""
+    """Draw stress-map.png and stress-near.png; returns their paths."""
     files = []
     with rc_context(_RC):
         for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
@@ -35,7 +35,7 @@ def draw(found: Stress, folder: Path) -> list[Path]:
 
 
 def over_impacts(found: Stress) -> Figure:
-    """Difference of e_n between engines, and cost of the fast one, a point a sampled scene."""
+    """Draw the difference of e_n between engines and the cost of the fast one, a point for each sampled scene."""
     figure = Figure(figsize=(10.4, 5.0), layout="constrained")
     left, right = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
     sampled = [one for one in found.verdicts if one.case.kind == "sampled"]
@@ -49,14 +49,14 @@ def over_impacts(found: Stress) -> Figure:
         shown: Any = None
         for outcome, marker in _MARKERS.items():
             here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.found.values())]
-            here.sort(key=lambda k: values[k])  # used at once; the worst on top
+            here.sort(key=lambda k: values[k])  # the worst on top
             style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
             coloured = [values[k] for k in here]
             drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
             axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
         bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
-        if ends[1] < 1e3 * ends[0]:  # powers of ten alone would be too few
+        if ends[1] < 1e3 * ends[0]:  # powers of ten alone would be too few ticks
             plain(bar.ax.yaxis)
         _marked(axes, found)
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
@@ -68,7 +68,7 @@ def over_impacts(found: Stress) -> Figure:
 
 
 def _size(count: int) -> float:
-    """Area of a mark: smaller where there are many."""
+    """Area of a mark, smaller for many points."""
     return float(np.clip(9000.0 / max(count, 1), 2.0, 20.0))
 
 
@@ -78,7 +78,7 @@ def _places(sampled: list[Any], here: list[int]) -> tuple[list[float], list[floa
 
 
 def _ends(values: list[float]) -> tuple[float, float]:
-    """Colours for all but the outermost hundredths."""
+    """Ends of the colour scale: the 1 and 99 % quantiles."""
     there = np.array([value for value in values if np.isfinite(value) and value > 0])
     if there.size < 2:
         return 0.1, 10.0
@@ -87,7 +87,7 @@ def _ends(values: list[float]) -> tuple[float, float]:
 
 
 def _marked(axes: Axes, found: Stress) -> None:
-    """Failures and unexplained disagreements, as crosses over everything."""
+    """Draw failures and unexplained disagreements as crosses on top."""
     failed = {id(one): one for one, issue in found.issues("failure") if one.case.kind == "sampled"}
     strange = {id(one): one for one, _ in found.unexplained if one.case.kind == "sampled"}
     for which, colour, marker, label in ((failed, "#D55E00", "x", "failure"), (strange, "#D00000", "+", "unexplained")):
@@ -99,7 +99,7 @@ def _marked(axes: Axes, found: Stress) -> None:
 
 
 def near(found: Stress) -> Figure:
-    """CPU time of every engine against the relative distance from an escape: medians, and all points faint."""
+    """Draw CPU time of every engine against the relative distance from an escape: medians, and all points faintly."""
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
     axes = figure.add_subplot()
     beside = [one for one in found.verdicts if one.case.distance and one.case.change != GRAZE]

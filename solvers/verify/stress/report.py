@@ -1,4 +1,4 @@
-"""The stress test on paper: tables in Markdown, the worst cases as scene files, two pictures."""
+"""Report of the stress test: tables in Markdown, the worst cases as scene files, two figures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .verdict import Issue, Verdict
 
 
 def write(found: Stress, folder: Path) -> list[Path]:
-    """Write stress.json, stress.md, the pictures and the worst cases as scene files; returns the files."""
+    """Write stress.json, stress.md, the figures and the worst cases as scene files; returns their paths."""
     from .plots import draw
 
     folder.mkdir(parents=True, exist_ok=True)
@@ -30,7 +30,7 @@ def write(found: Stress, folder: Path) -> list[Path]:
 
 
 def tables(found: Stress) -> dict[str, str]:
-    """The report's tables by name, for pages that are made from the record."""
+    """The report's tables by name, also used for documentation pages."""
     return {
         "disagreements": _listed(found, DISAGREEMENTS),
         "failures": _failures(found),
@@ -42,7 +42,7 @@ def tables(found: Stress) -> dict[str, str]:
 
 
 def worst(found: Stress, folder: Path) -> list[Path]:
-    """Scene files, ready to run, of every unexplained disagreement, then failure, then the largest errors and costs."""
+    """Scene files of all unexplained disagreements, then failures, then the largest errors and costs."""
     picked: dict[str, tuple[Verdict, str]] = {}
 
     def take(sort: str, cases: list[tuple[Verdict, str]]) -> None:
@@ -75,7 +75,7 @@ def _dearest(one: Verdict) -> str:
 
 
 def report(found: Stress, scenes: list[Path]) -> str:
-    """`stress.md`."""
+    """Text of `stress.md`."""
     parts = ["# wetdoublet verify --stress", f"**{found.summary()}**", rate(found), _surroundings(found)]
     parts += ["## Disagreements", _listed(found, DISAGREEMENTS)]
     parts += ["## Failures", _failures(found)]
@@ -91,7 +91,7 @@ def report(found: Stress, scenes: list[Path]) -> str:
 
 
 def rate(found: Stress) -> str:
-    """How long it took, and what the default would take at that rate."""
+    """Run time, and estimated run time of the default number of scenes."""
     cores, each = found.where["cores"], found.wall / max(len(found.verdicts), 1)
     return (
         f"{1 / each:.1f} scenes a second on {cores} cores, start-up and compilation included: "
@@ -114,7 +114,7 @@ def _listed(found: Stress, kinds: tuple[str, ...]) -> str:
 
 
 def _kind(issue: Issue) -> str:
-    """A failure without its numbers."""
+    """The text of a failure without its numbers, to group failures."""
     words = re.split(r" in phase | at t = |; state|: the collision", issue.said)[0]
     return re.sub(r"[-+]?\d[\d.e+-]*", "#", words)
 

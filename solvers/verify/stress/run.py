@@ -1,4 +1,4 @@
-"""The stress test: every engine on a quasi-random sample of all that may be asked, over all cores."""
+"""The stress test: every engine on a quasi-random sample of the space of scenes, on all cores."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ from .sample import SEED, sample
 from .verdict import FAST, RTOL, Case, Issue, Verdict
 
 DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary")
-_BLOCK = 12  # cases a worker takes at a time
-_ALONE = 40  # fewer are not worth starting workers for
-WORST = 20  # cases that are kept as scene files, of each sort
+_BLOCK = 12  # cases in a block for a worker
+_ALONE = 40  # fewest cases for which starting workers pays
+WORST = 20  # cases written as scene files, of each sort
 
 Tell = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
 class Stress:
-    """What a stress test found.
+    """The result of a stress test.
 
     Arguments:
-        verdicts: in the order of the sample, as far as it got.
-        wall: s.
-        wanted: cases there would have been.
+        verdicts: verdicts in the order of the sample, incomplete if interrupted.
+        wall: wall-clock time, s.
+        wanted: requested number of cases.
     """
 
     verdicts: tuple[Verdict, ...]
@@ -49,7 +49,7 @@ class Stress:
 
     @property
     def unexplained(self) -> list[tuple[Verdict, Issue]]:
-        """Disagreements without an explanation: what makes a stress test fail."""
+        """Disagreements without an explanation; any of these makes the stress test fail."""
         return [(one, issue) for one, issue in self.issues(*DISAGREEMENTS) if not issue.explained]
 
     @property
@@ -58,11 +58,11 @@ class Stress:
 
     @property
     def remarks(self) -> Counter[str]:
-        """How many scenes leave the range of a law, by law and entry."""
+        """Number of scenes outside a law's range of validity, by law and entry."""
         return Counter(remark for one in self.verdicts for remark in one.remarks)
 
     def summary(self) -> str:
-        """One line."""
+        """Summary in one line."""
         failed = self.issues("failure")
         strange = sum(not issue.explained for _, issue in failed)
         explained = len(self.issues(*DISAGREEMENTS)) - len(self.unexplained)
@@ -77,13 +77,13 @@ class Stress:
 
 
 def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None) -> Stress:
-    """Judge `count` cases on all cores.
+    """Run `count` cases on all cores.
 
     Arguments:
-        tell: is told of (done, total).
+        tell: called with (done, total).
 
     Raises:
-        InputError: scipy, whose quasi-random sequence this is, is not installed.
+        InputError: scipy, which provides the quasi-random sequence, is not installed.
     """
     start, where = time.perf_counter(), environment()
     tell(0, count)
@@ -101,8 +101,8 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
 
 
 def _prepared(count: int, seed: int) -> list[Case]:
-    """The sample, with all kernels that it asks for: each is compiled once, while boundaries are traced."""
-    compiling = ThreadPoolExecutor(usable_cores())  # compilers are processes of their own
+    """The sample, with its kernels compiled once each while boundaries are traced."""
+    compiling = ThreadPoolExecutor(usable_cores())  # threads suffice, as compilers are separate processes
 
     def compile_for(cases: Sequence[Case]) -> None:
         if FAST == "taylor":
@@ -120,14 +120,14 @@ def _prepared(count: int, seed: int) -> list[Case]:
 
 
 def _kernel_of(case: Case) -> Variant:
-    """The kernel that a case asks for first."""
+    """The first kernel that a case needs."""
     if case.angles:
         return variant(case.scene, select_model(case.scene, True), RTOL, True, trajectory=True)
     return fast_kernel(case.scene)
 
 
 def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
-    """Blocks of cases by number, and their verdicts, as they are finished."""
+    """Indices of blocks of cases and their verdicts, in the order in which they finish."""
     blocks = _blocks(cases)
     cores = usable_cores()
     if len(cases) < _ALONE or cores == 1:
@@ -136,7 +136,7 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
         return
     from concurrent.futures import as_completed
 
-    alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # threads of numpy's would only get in the way
+    alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # numpy's threads would compete with the workers
     with workers(cores, alone) as pool:
         with undisturbed():
             waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
@@ -145,7 +145,7 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
 
 
 def _blocks(cases: Sequence[Case]) -> list[list[int]]:
-    """Cases that share structure and laws go to one worker, which builds and compiles for them once."""
+    """Blocks of cases; those with one structure and laws go to one worker, which builds and compiles for them once."""
     alike: dict[Any, list[int]] = {}
     for k, case in enumerate(cases):
         alike.setdefault(select_model(case.scene, bool(case.scene.angle)), []).append(k)
@@ -157,7 +157,7 @@ def _block(cases: Sequence[Case]) -> list[Verdict]:
 
 
 def record(found: Stress) -> dict[str, Any]:
-    """What `stress.json` holds."""
+    """Content of `stress.json`."""
     return {
         "environment": found.where,
         "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
@@ -179,7 +179,7 @@ def _case(one: Verdict) -> dict[str, Any]:
         "kind": one.case.kind,
         "distance": one.case.distance,
         "change": one.case.change,
-        "scene": one.case.scene.to_dict() if one.issues else None,  # the others are drawn again by seed and number
+        "scene": one.case.scene.to_dict() if one.issues else None,  # the others can be reproduced from seed and number
         "stokes": one.case.scene.stokes,
         "angle": one.case.scene.angle,
         "angles": list(one.case.angles),

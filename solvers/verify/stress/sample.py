@@ -1,4 +1,4 @@
-"""Scenes that cover what may be asked for: a quasi-random sample of everything, and points set beside boundaries."""
+"""Sample of the stress test: a quasi-random sample of all scenes, and points close to boundaries."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from ...scene.schema import BRIDGE_LAWS
 from .verdict import Case
 
 SEED = 20121
-DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative, in St, of points beside a boundary
+DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative distances in St of points beside a boundary
 PER_CHANGE = 2 * len(DISTANCES)
-_BESIDE = 0.2  # of a sample that is set beside boundaries
-_LINES = 0.05  # of a sample: scenes whose boundaries are traced
-_PER_LINE_MODEL = 400  # of a sample, for each combination of laws of those: each compiles kernels of its own
-_PER_MODEL, _MODELS = 25, (8, 120)  # scenes that share structure and laws; fewest and most of those
+_BESIDE = 0.2  # part of a sample that lies beside boundaries
+_LINES = 0.05  # part of a sample whose boundaries are traced
+_PER_LINE_MODEL = 400  # sample size per combination of laws of traced scenes; each combination compiles its own kernels
+_PER_MODEL, _MODELS = 25, (8, 120)  # scenes per structure and laws; fewest and most such models
 _NUMBERS = 19  # dimensions of a point
 
 
 def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:
-    """`count` cases, the same for the same count and seed. InputError without scipy, whose sequence it is.
+    """`count` cases, deterministic for a count and seed. InputError without scipy, which provides the sequence.
 
     Arguments:
-        drawn: is told of the drawn ones before boundaries are traced for the others, which takes longer.
+        drawn: called with the random cases before boundaries are traced for the others, which takes longer.
     """
     from .lines import drawn as lines
 
@@ -37,16 +37,16 @@ def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = l
     cases = list(_drawn(count - beside - traced, seed))
     drawn(cases)
     found = [*lines(traced, count // _PER_LINE_MODEL, seed), *_limited(beside), *cases]
-    return [*found, *islice(_drawn(count, seed + 1), count - len(found))]  # where there are too few boundaries
+    return [*found, *islice(_drawn(count, seed + 1), count - len(found))]  # fill up if there are too few boundaries
 
 
 def _wanted(count: int) -> int:
-    """How many of `count` cases lie beside boundaries."""
+    """Number of the `count` cases that lie beside boundaries."""
     return max(1, int(_BESIDE * count)) if count else 0
 
 
 def _drawn(count: int, seed: int) -> Iterator[Case]:
-    """Valid scenes along a Halton sequence; those that the rules of a scene refuse are passed over."""
+    """Valid scenes along a Halton sequence; invalid ones are skipped."""
     from scipy.stats import qmc
 
     models = list(_models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
@@ -56,7 +56,7 @@ def _drawn(count: int, seed: int) -> Iterator[Case]:
             try:
                 scene = _scene(f"stress-{seed}-{taken}", models[taken % len(models)], point)
             except InputError:
-                continue  # a film thicker than its bridge, or the like: no scene
+                continue  # an impossible scene, such as a film thicker than its bridge
             yield Case(scene.name, scene)
             taken += 1
             if taken == count:
@@ -67,7 +67,7 @@ Model = dict[str, str]
 
 
 def _models(count: int, seed: int) -> Iterator[Model]:
-    """Structures and laws, few enough that what an engine builds for one serves several scenes."""
+    """Combinations of structure and laws, few enough that several scenes share what an engine builds."""
     from scipy.stats import qmc
 
     for k, point in enumerate(qmc.Halton(5, seed=seed + 1).random(count)):
@@ -83,7 +83,7 @@ def _models(count: int, seed: int) -> Iterator[Model]:
 
 
 def _scene(name: str, model: Model, point: Sequence[float]) -> Scene:
-    """The scene of a point in the unit cube; InputError where its entries do not go together."""
+    """The scene of a point in the unit cube; InputError where its entries contradict each other."""
     at = iter(point)
 
     def log(low: float, high: float) -> float:
@@ -127,12 +127,12 @@ def _scene(name: str, model: Model, point: Sequence[float]) -> Scene:
 
 
 def _ends(share: float) -> float:
-    """0 to 1 with a part of the draws at either end."""
+    """A number in 0 to 1, with a part of the draws at each end."""
     return min(max(share, 0.0), 1.0)
 
 
 def _limited(wanted: int) -> Iterator[Case]:
-    """So many points beside boundaries."""
+    """`count` points beside boundaries."""
     made = 0
     for name, scene, stokes, before, after, change in _changes(math.ceil(wanted / PER_CHANGE)):
         for distance in DISTANCES:
@@ -147,7 +147,7 @@ def _limited(wanted: int) -> Iterator[Case]:
 
 
 def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str, str]]:
-    """Changes of outcome of the presets and some of their variants, traced at angles that spread with their number."""
+    """Changes of outcome of the presets and some variants, traced at angles that fill the range."""
     variants: tuple[tuple[str, dict[str, Any]], ...] = (
         ("granulation", {}),
         ("pendulum", {}),

@@ -1,9 +1,9 @@
-"""Collisions by scipy's integrators: the same equations, events, stop rule and certificate as our engines.
+"""Collisions by scipy's integrators, with the same equations, events, stopping rule and certificates as our engines.
 
-`solve_ivp` is used as its documentation asks: terminal events with a direction, an analytic Jacobian for the implicit
-methods, our tolerances. What a practised user would add is here as well: parameters bound once, all event functions of
-a step in one call, one call of `solve_ivp` from event to event, and grazing minima looked for afterwards on the steps
-that were taken (as events of their own they double LSODA's time).
+`solve_ivp` is used as documented: terminal events with a direction, an analytic Jacobian for implicit methods, our
+tolerances. Optimisations of an experienced user are included: parameters bound once, all guards of a step in one call,
+one call of `solve_ivp` from event to event, and grazing minima searched afterwards on the steps taken (as events of
+their own they double LSODA's time).
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
 
 IMPLICIT = ("LSODA", "Radau")  # methods that take a Jacobian
-_SPANS = (1e4, 1e8, 1e16)  # x0/v0: a trajectory is given up after their sum
-_TIGHTEST = 2.3e-14  # relative tolerance that scipy takes without a warning
-_UNREACHABLE = -1e30  # a level of energy
+_SPANS = (1e4, 1e8, 1e16)  # x0/v0; a trajectory fails after their sum
+_TIGHTEST = 2.3e-14  # smallest relative tolerance that scipy accepts without a warning
+_UNREACHABLE = -1e30  # a certificate's level
 
 
 class _Table:
-    """All event functions of a step, evaluated once."""
+    """All guard functions of a step, evaluated once."""
 
     def __init__(self, evaluate: Bound) -> None:
         self.evaluate = evaluate
@@ -34,7 +34,7 @@ class _Table:
         self._values: list[float] = []
 
     def event(self, index: int) -> Callable[[float, np.ndarray], float]:
-        """One event as `solve_ivp` takes it: it ends the integration where its function falls through zero."""
+        """One event for `solve_ivp`, terminal where its guard decreases through zero."""
 
         def value(t: float, y: np.ndarray) -> float:
             if t != self._time or y is not self._y:
@@ -47,7 +47,7 @@ class _Table:
 
 
 class ScipyLocator(EventLocator):
-    """A collision by one of scipy's methods; rules, phases and proofs are those of our own engines.
+    """A locator with a scipy method; rules, phases and certificates are those of our engines.
 
     Arguments:
         method: a method of `solve_ivp`.
@@ -60,7 +60,7 @@ class ScipyLocator(EventLocator):
         self.options: dict[str, Any] = {"method": method, "rtol": max(told.relative, _TIGHTEST), "atol": told.absolute}
 
     def _run_phase(self) -> bool:
-        """As `EventLocator._fly`, with one long call where that goes by stretches."""
+        """Integrate a phase as `EventLocator._run_phase` does, with few long calls instead of short intervals."""
         found, elapsed = equations(self._flow(), self.watch), 0.0
         for span in _SPANS:
             level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
@@ -104,10 +104,9 @@ class ScipyLocator(EventLocator):
         return solution
 
     def _grazed(self, found: Equations, solution: Any, rates: Bound, table: Bound) -> EventHit | None:
-        """The first crossing that a step has hidden: below zero and back between its ends.
+        """The first crossing hidden within a step, where a guard becomes negative and returns.
 
-        Values and slopes at the ends say by a cubic where that may be; there the step is integrated again and looked
-        at.
+        A cubic through values and slopes at the ends shows candidates; there the step is integrated again and searched.
         """
         times, states = solution.t, solution.y
         values = np.array([table(0.0, y) for y in states.T])
@@ -139,12 +138,12 @@ def _lowest(g: np.ndarray, slope: np.ndarray, times: np.ndarray, k: int) -> floa
 
 
 def _bisected(below: Callable[[float], bool], before: float, after: float) -> float:
-    """Where `below` becomes true, to the last bit."""
+    """Time at which `below` becomes true, to machine precision."""
     while before < (middle := 0.5 * (before + after)) < after:
         before, after = (before, middle) if below(middle) else (middle, after)
     return after
 
 
 def locate_by_scipy(model: Model, groups: dict[str, float], rtol: float, method: str) -> EventSequence:
-    """The trajectory of a collision by a scipy method. ComputationError if it does not come to an end."""
+    """The trajectory of a collision by a scipy method. ComputationError if it does not reach an end."""
     return ScipyLocator(model, groups, rtol, method).run()

@@ -1,4 +1,4 @@
-"""One case of the stress test, what engines answered, and what is said of it."""
+"""Data of one case of the stress test: scene, results of the engines, issues."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from ...settings import ENGINES
 
 RTOL = 1e-9
 FAST = "taylor" if "taylor" in ENGINES else "rosenbrock"
-CHATTER = "this is chatter without end"
-_REASONS = {  # what an engine may say, and the physics behind it
-    "so oblique an impact": "turns within a rounding error of x0",
-    CHATTER: "an attraction closes the gap again after every reversal, beyond any count: a cycle of the model",
+CHATTER = "the doublet rebounds again and again"
+_REASONS = {  # physical explanations of engine failures, by pattern of the message
+    "the rotation reverses the approach": "turns within a rounding error of x0",
+    CHATTER: "an attraction closes the gap again after every rebound, beyond any count: a cycle of the model",
 }
 
 
@@ -22,9 +22,9 @@ class Case:
 
     Arguments:
         kind: "sampled", "beside" a boundary, or "lines" at `angles` (rad) along which boundaries are traced.
-        distance: relative distance in St from the boundary; None where none is known.
-        expected: outcome on this side of it, as the tracing of the boundary has it.
-        change: what happens at the boundary, as `changes.Change.kind`.
+        distance: relative distance in St from the boundary; None if none is known.
+        expected: outcome on this side of the boundary, according to its tracing.
+        change: kind of the boundary, as in `changes.Change.kind`.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Case:
 
 @dataclass
 class Found:
-    """What an engine found: outcome or failure, e_n, CPU seconds."""
+    """Result of an engine: outcome or failure, e_n, CPU seconds."""
 
     outcome: str = ""
     restitution: float = 0.0
@@ -50,13 +50,13 @@ class Found:
 
 @dataclass(frozen=True)
 class Issue:
-    """Something that does not go together.
+    """A disagreement or failure.
 
     Arguments:
         kind: "outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary" or "failure".
-        between: the engines it is about.
-        said: in words.
-        explained: the reason it may be so; empty if there is none.
+        between: the engines concerned.
+        said: description.
+        explained: the explanation; empty if there is none.
     """
 
     kind: str
@@ -67,16 +67,16 @@ class Issue:
 
 @dataclass(frozen=True)
 class Verdict:
-    """A case with all that was found of it."""
+    """A case with its results and issues."""
 
     case: Case
     found: dict[str, Found]
     issues: tuple[Issue, ...]
-    error: float | None  # largest difference in e_n between engines, where they agree on the outcome
+    error: float | None  # largest difference in e_n between engines that agree on the outcome
     conditioning: float | None  # |d e_n/d ln St|, at least 1
-    remarks: tuple[str, ...] = ()  # where the scene leaves the range of a law
+    remarks: tuple[str, ...] = ()  # laws used outside their range of validity
 
 
 def physical_reason(failure: str) -> str:
-    """The physics behind what an engine says of a failure; empty if there is none."""
+    """The physical explanation of an engine's failure message; empty if there is none."""
     return next((reason for words, reason in _REASONS.items() if words in failure), "")

@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers.engines.taylor.call import Impacts
-from wetdoublet.solvers.formatting.markdown import table, us
+from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.sensitivity.by_kernel import gradients_by_kernel
 from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
 
+from .digits import us
 from .gradient_task import COUNT, Gradients
 from .peers.diffrax_gradient import MISSING as NO_DIFFRAX
 from .peers.diffrax_gradient import TOLERANCES as DIFFRAX

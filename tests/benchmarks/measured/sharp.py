@@ -40,7 +40,7 @@ class _Trajectory:
     def callback(self, event: str) -> Callable[..., bool]:
         """What heyoka calls at an event; False ends the trajectory."""
 
-        def reverses(ta: Any, _: int) -> bool:
+        def rebounds(ta: Any, _: int) -> bool:
             ta.state[1] *= -self.dry
             return True
 
@@ -52,7 +52,7 @@ class _Trajectory:
             self.restitution = ta.state[1] if event == "rupture" else None
             return False
 
-        return reverses if event in CRITERIA else edge if event == "film_edge" else ends
+        return rebounds if event in CRITERIA else edge if event == "film_edge" else ends
 
 
 def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float) -> np.ndarray:

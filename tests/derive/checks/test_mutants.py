@@ -17,7 +17,7 @@ from wetdoublet.derive.checks.dissipation import (
     arms,
     bridge_does_work,
     film_dissipates,
-    reversal_dissipates,
+    rebound_dissipates,
 )
 from wetdoublet.derive.checks.groups import (
     centrifugal_number,
@@ -34,7 +34,7 @@ from wetdoublet.derive.checks.limits import reduced_is_full
 from wetdoublet.derive.checks.mechanics import inertia_is_rigid_rotation, strings_are_conservative
 from wetdoublet.derive.checks.restitution import ceiling_is_the_published
 from wetdoublet.derive.equations import observables
-from wetdoublet.derive.equations.events import reversal, reversal_loss
+from wetdoublet.derive.equations.events import rebound, rebound_loss
 from wetdoublet.derive.equations.intermediates import CENTRIFUGAL_FORCE, intermediates
 from wetdoublet.derive.physics import forces
 from wetdoublet.derive.physics.laws import LAWS, Law
@@ -169,21 +169,21 @@ def test_shear_in_rigid_rotation(mutate: Mutate, healthy: Healthy):
     caught(rigid_rotation_is_free(), healthy, "rigid rotation")
 
 
-def test_a_reversal_that_gains_energy(mutate: Mutate, healthy: Healthy):
+def test_a_rebound_that_gains_energy(mutate: Mutate, healthy: Healthy):
     """U -> -(2 - e) u gains what it is charged as a loss; if the gain is booked, the booking is negative."""
     wrong = {True: -(2 - q.e_dry) * q.normal_velocity}
-    mutate(reversal, lambda states: {s: wrong.get(s == q.normal_velocity, s) for s in states})
-    caught(reversal_dissipates(), healthy, "reversal's energy")
+    mutate(rebound, lambda states: {s: wrong.get(s == q.normal_velocity, s) for s in states})
+    caught(rebound_dissipates(), healthy, "rebound's energy")
 
 
-def test_a_reversal_that_books_its_gain(mutate: Mutate, healthy: Healthy):
+def test_a_rebound_that_books_its_gain(mutate: Mutate, healthy: Healthy):
     """A gain that the ledger knows of balances, and is still a gain."""
     mutate(
-        reversal,
+        rebound,
         lambda states: {s: -(2 - q.e_dry) * q.normal_velocity if s == q.normal_velocity else s for s in states},
     )
-    mutate(reversal_loss, lambda *_: q.normal_velocity**2 * (1 - (2 - q.e_dry) ** 2) / 2)
-    caught(reversal_dissipates(), healthy, "reversal dissipates")
+    mutate(rebound_loss, lambda *_: q.normal_velocity**2 * (1 - (2 - q.e_dry) ** 2) / 2)
+    caught(rebound_dissipates(), healthy, "rebound dissipates")
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from wetdoublet.derive.checks.margins import margins, margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
 from wetdoublet.derive.equations import events, observables, rates
 from wetdoublet.derive.equations.certificates import pendulum
-from wetdoublet.derive.equations.events import reversal_loss
+from wetdoublet.derive.equations.events import rebound_loss
 from wetdoublet.derive.physics.laws import slot_call
 from wetdoublet.derive.physics.mechanics import F_t
 from wetdoublet.derive.physics.structure import Structure
@@ -154,5 +154,5 @@ def test_a_decomposition_with_half_the_shear(mutate: Mutate, healthy: Healthy):
 
 def test_a_decomposition_with_another_dry_loss(mutate: Mutate, healthy: Healthy):
     """A reversal charged with half its loss leaves the other half unaccounted for."""
-    mutate(reversal_loss, lambda: q.normal_velocity**2 * (1 - q.e_dry**2) / 4)
+    mutate(rebound_loss, lambda: q.normal_velocity**2 * (1 - q.e_dry**2) / 4)
     caught(decomposition(), healthy, "decomposition of e_n^2 - 1")

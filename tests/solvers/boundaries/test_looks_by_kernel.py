@@ -38,13 +38,13 @@ def test_the_approach(name: str):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("reversed_", [False, True])
+@pytest.mark.parametrize("rebound", [False, True])
 @pytest.mark.parametrize("name", PRESETS)
-def test_the_escape(name: str, reversed_: bool):
+def test_the_escape(name: str, rebound: bool):
     """Whether a doublet separates, with the solids and without; its value has that sign."""
     kernel, other = lines(name)
     for stokes in LINES[name][1] * np.geomspace(0.5, 30, 12):
-        mine, theirs = (line.escape(stokes, reversed_) for line in (kernel, other))
+        mine, theirs = (line.escape(stokes, rebound) for line in (kernel, other))
         assert mine.separates == theirs.separates, stokes
         if mine.value is not None:
             assert (mine.value > 0) == mine.separates

@@ -16,7 +16,7 @@ X0, X_B, E_DRY = 8e-6, 2e-7, 0.9
 
 
 def alone(film, **changes):
-    """Granulation with a film only, reversed by roughness only."""
+    """Granulation with a film only, rebounding by roughness only."""
     preset = Scene.load("granulation-dry-bridge")
     given = {name: value for name, value in preset.given if "young" not in name and "poiss" not in name}
     given = {name: value for name, value in given.items() if not name.startswith("bridge")}

@@ -34,8 +34,8 @@ def dry_scene(**entries: object) -> Scene:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_head_on_roughness_reversal_has_a_closed_form(engine: str) -> None:
-    """Film only, head-on, reversed by roughness: e_n = e_dry (1 - Lf/St) - Lf/St."""
+def test_head_on_roughness_rebound_has_a_closed_form(engine: str) -> None:
+    """Film only, head-on, rebound by roughness: e_n = e_dry (1 - Lf/St) - Lf/St."""
     scene = dry_scene(**RIGID)
     stokes = 3.0
     loss = film_loss(0.1) / stokes
@@ -47,7 +47,7 @@ def test_head_on_roughness_reversal_has_a_closed_form(engine: str) -> None:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_head_on_glass_reversal_has_a_closed_form(engine: str) -> None:
+def test_head_on_glass_rebound_has_a_closed_form(engine: str) -> None:
     """Film only, head-on, reversed where (1 - Lf(s)/St)/s^2 first reaches the glass number."""
     scene, stokes = dry_scene(), 0.2
     a, mu, x0, p_gt = 50e-6, 2.0, 8e-6, 20e6
@@ -71,7 +71,7 @@ def test_critical_stokes_of_the_film_alone() -> None:
     assert below.until is not None
 
 
-def test_reversal_at_first_touch_without_a_bridge_ruptures_at_once() -> None:
+def test_rebound_at_initial_contact_without_a_bridge_ruptures_at_once() -> None:
     """Glass already met at x0, no bridge: e_n = e_dry, no contact time, no rotation."""
     found = collide(dry_scene(), stokes=0.3, angle="70 deg")
     assert (found.outcome, found.reversal) == ("bounce", "glass")

@@ -49,14 +49,14 @@ def test_fits_a_terminal(collisions, name):
 @pytest.mark.parametrize(
     ("name", "outcome", "why"),
     [
-        ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no criterion met"),
-        ("bounces", "bounce", "reversed by the glass criterion"),
+        ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no rebound criterion met"),
+        ("bounces", "bounce", "rebound by the glass criterion"),
         ("sticks at touch", "stick", "proved at contact: energy below the barrier"),
         ("sticks later", "stick", "proved: energy below the barrier (certificate)"),
         ("half turn", "stick", "cut off after 767.4 ms: half a turn"),
         ("rotation reverses", "stick", "cut off after 450.7 ms: the strings turn the rotation back"),
         ("pendulum", "stick", "proved: the strings hold it for good"),
-        ("reversed, sticks", "stick", "the glass criterion had reversed it on the way"),
+        ("reversed, sticks", "stick", "the glass criterion had made it rebound on the way"),
         ("film alone", "stick", "proved at contact: the film stops it"),
     ],
 )

@@ -100,7 +100,7 @@ def test_without_elastic_constants_nothing_is_elastic(stokes: float) -> None:
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("dry", [0.99, 0.5, 0.0])
-def test_reversal_at_first_touch_with_a_bridge(engine: str, dry: float) -> None:
+def test_rebound_at_initial_contact_with_a_bridge(engine: str, dry: float) -> None:
     """Glass at initial contact with a bridge: the doublet goes on, beyond the film, from e_dry v0 (0 included)."""
     scene = Scene.load("granulation").with_entries({"particles.dry_restitution": dry})
     found = collide(scene, stokes=0.3, angle="70 deg", rtol=1e-11, engine=engine)

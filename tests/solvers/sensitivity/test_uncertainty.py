@@ -77,7 +77,7 @@ def test_along_a_trajectory(trajectory: xr.Dataset) -> None:
             assert slope == pytest.approx((high - low) / (2 * h), abs=5e-5 * np.abs(slope).max())
 
 
-def test_saltation_at_the_reversal(trajectory: xr.Dataset) -> None:
+def test_saltation_at_the_rebound(trajectory: xr.Dataset) -> None:
     """du/dp jumps where u jumps: from the state before and after, and the move of the event's time, in closed form.
 
     At fixed t, du+ = -e_dry (du- + a- dt) - a+ dt with dt the move of the event and a the accelerations.

@@ -122,7 +122,7 @@ def test_failures_are_told_apart() -> None:
 
         return run
 
-    engines = checking.runs() | {FAST: failing("20 phases: this is chatter without end")}
+    engines = checking.runs() | {FAST: failing("20 phases: the doublet rebounds again and again")}
     (chatter,) = judge(Case("one", scene), engines).issues
     assert chatter.kind == "failure"
     assert chatter.explained

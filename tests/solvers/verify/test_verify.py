@@ -265,5 +265,5 @@ def test_what_finds_nothing_to_look_at_says_so() -> None:
     ]
     found = {finding.name: finding for finding in findings}
     for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
-        assert (found[law].ok, found[law].figure) == (None, "no trajectory lasts: all reverse at initial contact")
+        assert (found[law].ok, found[law].figure) == (None, "no trajectory lasts: all rebound at initial contact")
     assert found["angular momentum"].ok is None and "torque" in found["angular momentum"].figure

@@ -127,7 +127,7 @@ static void unend(retreat *r, const struct tape *t, const taped_note *note)
     r->active[lane] = -1;
 }
 
-static void unreverse(retreat *r, const taped_note *note)
+static void undo_rebound(retreat *r, const taped_note *note)
 {
     int lane = note->lane;
     vec y[STATES], at[STATES], behind[STATES], found[STATES];
@@ -138,7 +138,7 @@ static void unreverse(retreat *r, const taped_note *note)
         if (by < STATES)
             at[by] = splat(1.0);
         memcpy(behind, at, sizeof behind);
-        reversal_along(&r->f.c, y, at, by < STATES ? GROUPS : by - STATES, behind);
+        rebound_along(&r->f.c, y, at, by < STATES ? GROUPS : by - STATES, behind);
         vec sum = splat(0.0);
         for (int state = 0; state < STATES; state++)
             sum += r->of[state]*behind[state];
@@ -180,8 +180,8 @@ static void take_back(const queue *q, retreat *r)
             const taped_note *own = &t->notes[note];
             if (own->kind == ENDED)
                 unend(r, t, own);
-            else if (r->active[own->lane] && own->kind == REVERSED)
-                unreverse(r, own);
+            else if (r->active[own->lane] && own->kind == REBOUND)
+                undo_rebound(r, own);
             else if (r->active[own->lane])
                 unbegin(r, q, own);
         }

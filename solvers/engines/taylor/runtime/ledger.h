@@ -1,5 +1,5 @@
 /* The energy ledger of a trajectory, in m v0^2: energies from the states at initial contact and at the end, losses and works as
- * integrals along the trajectory, and what reversals took. Nothing is made to close: what is left over is the trajectory's error.
+ * integrals along the trajectory, and what rebounds took. Nothing is made to close: what is left over is the trajectory's error.
  */
 #pragma once
 
@@ -7,10 +7,10 @@
 #include "model.h"
 
 #if WITH_LEDGER
-/* What a reversal from this state takes. */
-static void book_reversal(ledger *book, const constants *c, const vec *y, int lane)
+/* What a rebound from this state takes. */
+static void book_rebound(ledger *book, const constants *c, const vec *y, int lane)
 {
-    book->dry += reversal_loss(c, y)[lane];
+    book->dry += rebound_loss(c, y)[lane];
 }
 
 /* Contact takes what is left of a rebound that rests. */

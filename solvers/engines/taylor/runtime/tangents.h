@@ -48,7 +48,7 @@ static void along_near(carried *a, int lane, double measure, int boundary)
 }
 
 #if BACKWARD
-enum { BEGUN, REVERSED, ENDED }; /* what a tape notes of a lane between steps */
+enum { BEGUN, REBOUND, ENDED }; /* what a tape notes of a lane between steps */
 
 static void along_start(carried *a, int lane)
 {
@@ -81,13 +81,13 @@ static void along_start(carried *a, const constants *v, int lane)
     a->boundary[lane] = FAR;
 }
 
-/* The jump at a reversal, before it is done to the states. */
-static void along_reversed(carried *a, const constants *v, const vec *y, int lane)
+/* The jump at a rebound, before it is applied to the states. */
+static void along_rebound(carried *a, const constants *v, const vec *y, int lane)
 {
     vec after[STATES];
     for (int group = 0; group < GROUPS; group++) {
         memcpy(after, a->t[group], sizeof after);
-        reversal_along(v, y, a->t[group], group, after);
+        rebound_along(v, y, a->t[group], group, after);
         for (int state = 0; state < STATES; state++) {
             a->t[group][state][lane] = after[state][lane];
             a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;

@@ -33,19 +33,19 @@ static void new_phase(lanes *l, int lane)
     l->fresh[lane] = -1;
 }
 
-/* Reversal by the solids; a rebound too weak to leave rests, one where the doublet ruptures has left. */
+/* A rebound; one too weak to leave rests, one where the doublet ruptures has left. */
 static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
     vec after[STATES];
 #if WITH_LEDGER
-    book_reversal(q->books + l->index[lane], &f->c, l->y, lane);
+    book_rebound(q->books + l->index[lane], &f->c, l->y, lane);
 #endif
     memcpy(after, l->y, sizeof after);
-    reversal(&f->c, l->y, after);
+    rebound(&f->c, l->y, after);
 #if BACKWARD
-    note_on_tape(q, REVERSED, l->index[lane], lane, l->y, f);
+    note_on_tape(q, REBOUND, l->index[lane], lane, l->y, f);
 #elif GRADIENTS
-    along_reversed(&l->along, &f->c, l->y, lane);
+    along_rebound(&l->along, &f->c, l->y, lane);
 #endif
     l->y[NORMAL_VELOCITY][lane] = after[NORMAL_VELOCITY][lane];
     if (l->reversal[lane] < 0)
@@ -56,13 +56,13 @@ static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
         separated(q, l, f, lane);
         return;
     }
-    double rebound = l->y[NORMAL_VELOCITY][lane], inward = inward_force(&f->c, l->y)[lane];
+    double left = l->y[NORMAL_VELOCITY][lane], inward = inward_force(&f->c, l->y)[lane];
     double allowed = q->rtol*l->y[GAP][lane];
-    if (!TURNS && rebound == 0.0 && inward == 0.0) { /* nothing moves it */
+    if (!TURNS && left == 0.0 && inward == 0.0) { /* nothing moves it */
         finish(q, l, f, lane, DECIDED, STICK, 1);
         return;
     }
-    if (inward > 0.0 && (rebound < REST_SPEED || rebound*rebound/(2.0*inward) < allowed)) {
+    if (inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < allowed)) {
         note(q, l->index[lane], KIND_RESTS, l->time[lane]);
 #if GRADIENTS
         along_near(&l->along, lane, 0.0, CHATTERS);

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from wetdoublet.solvers.formatting.markdown import ms, table, us
+from wetdoublet.solvers.formatting.markdown import ms, table
 
 from ..cold import first_table
+from ..digits import us
 from ..features import FEATURES, TOGETHER
 from ..gradient_work import gradient_work_text
 from ..lines import line_table

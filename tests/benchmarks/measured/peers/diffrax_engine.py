@@ -37,11 +37,11 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     names = tuple(trajectories[0].model.groups)
     begun = starts(trajectories, numbers, names)
     states, parameters = (np.array([getattr(each, name) for each in begun]) for name in ("state", "parameters"))
-    reversed_ = np.array([each.reversed for each in begun])
+    rebound = np.array([each.reversed for each in begun])
     run = jax.jit(jax.vmap(trajectory(choice, names, trajectories[0].watch.certificate, rtol)))
 
     def every() -> list[np.ndarray]:
-        return [np.asarray(each) for each in run(states, parameters, reversed_)]
+        return [np.asarray(each) for each in run(states, parameters, rebound)]
 
     def read(found: list[np.ndarray]) -> list[Answer | str]:
         ended, e_n, met = found
@@ -117,18 +117,18 @@ def trajectory(choice: Any, names: tuple[str, ...], proved: str | None, rtol: fl
         )  # fmt: skip
         y = found.ys[0]
         hit = dict(zip(known, found.event_mask))
-        reverses = hit["glass"] | hit["contact"]
-        speed = jnp.where(reverses, -dict(zip(names, args))["dry_restitution"] * y[1], y[1])
+        rebounds = hit["glass"] | hit["contact"]
+        speed = jnp.where(rebounds, -dict(zip(names, args))["dry_restitution"] * y[1], y[1])
         y = y.at[1].set(speed)
         if bridge:
             args = args.at[len(names)].set(jnp.where(hit["film_edge"], 1 - args[len(names)], args[len(names)]))
         stuck = hit.get("half_turn", False) | hit.get("unwinding", False) | hit.get("certified", False)
         if proved:
-            stuck = stuck | (reverses & (events(y, args)["certified"] < 0))
+            stuck = stuck | (rebounds & (events(y, args)["certified"] < 0))
         any_hit = jnp.any(jnp.stack(list(hit.values())))
         ended = jnp.where(hit["rupture"], SEPARATED, jnp.where(stuck, _STUCK, jnp.where(any_hit, _RUNNING, _FAILED)))
         args = args.at[-2].set(jnp.where(ended == _RUNNING, 1.0, 0.0))
-        return y, args, met | reverses, ended, count + 1
+        return y, args, met | rebounds, ended, count + 1
 
     def whole(y: Any, args: Any, met: Any) -> Any:
         going = lambda carry: (carry[3] == _RUNNING) & (carry[4] < _PHASES)  # noqa: E731 # as jax asks for it

@@ -47,7 +47,7 @@ def prepare(
     names = tuple(load(choice).groups)
     begun = starts([EventLocator(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers], numbers, names)
     parameters = np.array([each.parameters for each in begun])
-    reversed_ = np.array([each.reversed for each in begun])
+    rebound = np.array([each.reversed for each in begun])
     structure, laws = translated(choice, lambda word: getattr(jnp, word))
     integrate = trajectory(choice, names, None, rtol)  # no stick is to be proved
 
@@ -64,7 +64,7 @@ def prepare(
     at = np.zeros(slopes.shape[2])
 
     def run() -> np.ndarray:
-        found, ended = (np.asarray(each) for each in columns(at, parameters, slopes, reversed_))
+        found, ended = (np.asarray(each) for each in columns(at, parameters, slopes, rebound))
         return np.where(ended[:, None] == SEPARATED, found, np.nan)
 
     return run

@@ -191,7 +191,7 @@ class Batch:
     def callback(self, event: str) -> Callable[[Any, int, int], bool]:
         """What heyoka calls when an event happens in a lane; False ends the whole batch."""
 
-        def reverses(ta: Any, _: int, lane: int) -> bool:
+        def rebounds(ta: Any, _: int, lane: int) -> bool:
             ta.state[1, lane] *= -self.dry
             self.lanes[lane].reversed = True
             # the loss may jump over the level, which then is no crossing
@@ -209,7 +209,7 @@ class Batch:
             return self.ended(lane, False) if self._proved(lane) else True
 
         if event in ("glass", "elastic", "rough"):
-            return reverses
+            return rebounds
         if event == "inside":
             return inside
         if event == "film_edge":
@@ -283,20 +283,20 @@ def _below(start: Start) -> float:
 def starts(
     locators: Sequence[EventLocator], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
 ) -> list[Start]:
-    """State and parameters at initial contact; a criterion that is met there reverses there.
+    """State and parameters at initial contact; one that meets a criterion there rebounds there.
 
     Parameters are the groups named, then film, active and level.
     """
     found = []
     for locator, each in zip(locators, numbers):
-        y, film, reversed_ = locator.y, 1.0, False
+        y, film, rebound = locator.y, 1.0, False
         values = locator.model.values("events", y, locator.p)
         if min(values[name] for name in CRITERIA) <= 0:
-            after = locator.model.values("reversal", y, locator.p)
-            y, film, reversed_ = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
+            after = locator.model.values("rebound", y, locator.p)
+            y, film, rebound = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
         level = locator.proof.level(y, locator.phase) if locator.watch.certificate else None
         parameters = [*(each.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
-        found.append(Start(y, np.array(parameters), reversed_, locator))
+        found.append(Start(y, np.array(parameters), rebound, locator))
     return found
 
 

@@ -42,7 +42,7 @@ class Variational:
         smooth: groups that the rates depend on: the first columns. Two more follow, for the criterion and for the dry
             restitution.
         jumps: by criterion, the state and its columns behind the reversal as a compiled function of those before it.
-        begin: the state and its columns at initial contact; with `reversed_`, behind a reversal there.
+        begin: the state and its columns at initial contact; with `rebound`, after a rebound there.
         end: e_n's derivatives in the columns and in the rupture gap, of the state and its columns at the rupture.
     """
 
@@ -140,10 +140,10 @@ class _Jump:
         rows = [behind[name][k] - flow[name] * later[k] for name in self.y for k in range(len(own))]
         return self._compiled([*after.values(), *rows])
 
-    def start(self, reversed_: bool) -> Any:
+    def start(self, rebound: bool) -> Any:
         """Initial contact, whose time is given."""
         first = self.structure.start(self.y, self.groups, self.laws)
-        if reversed_:
+        if rebound:
             first = self.structure.reversal(first, self.groups, self.laws)
         none = {name: [as_expression(0.0)] * (len(self.smooth) + 2) for name in self.y}
         rows = [
@@ -203,7 +203,7 @@ class Gradients(Batch):
         assert self.equations is not None
         jump = self.equations.jumps[event]
 
-        def reverses(ta: Any, _: int, lane: int) -> bool:
+        def rebounds(ta: Any, _: int, lane: int) -> bool:
             collision = self.lanes[lane].collision
             before = self.criteria[collision]
             if before not in (None, event):
@@ -213,7 +213,7 @@ class Gradients(Batch):
             self.lanes[lane].reversed = True
             return True
 
-        return reverses
+        return rebounds
 
     def _landed(self) -> np.ndarray:
         """The columns of all collisions landed on the rupture, put to their groups, and led to the parameters."""
@@ -284,12 +284,12 @@ def prepare(
 
 
 def _begin(equations: Variational, locator: EventLocator, numbers: DimensionlessGroups) -> Start:
-    """At initial contact; a criterion that is met there reverses there, at a moment that nothing moves."""
+    """At initial contact; one that meets a criterion there rebounds there, at a moment that nothing moves."""
     values = locator.model.values("events", locator.y, locator.p)
-    reversed_ = min(values[name] for name in CRITERIA) <= 0
-    film = 0.0 if reversed_ else 1.0
+    rebound = min(values[name] for name in CRITERIA) <= 0
+    film = 0.0 if rebound else 1.0
     parameters = np.array([*(numbers.groups[name] for name in equations.groups), film, 1.0])
     count = len(locator.model.state)
-    first = equations.begin[reversed_]
+    first = equations.begin[rebound]
     state = first(np.zeros(count * (1 + equations.columns)), pars=parameters[: first.nparams])
-    return Start(np.array(state), parameters, reversed_, locator)
+    return Start(np.array(state), parameters, rebound, locator)

@@ -1,4 +1,4 @@
-"""Where an approach is reversed by the solids: elastic length and roughness (the glass criterion is its own law)."""
+"""Where the solids make an approach rebound: elastic length and roughness (the glass criterion is its own law)."""
 
 from __future__ import annotations
 
