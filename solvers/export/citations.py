@@ -13,7 +13,7 @@ from ..scene.scene import Scene
 _LATEX = str.maketrans(
     {"&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "$": r"\$", "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}",
      "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\n": " ",
-     "ä": r'{\"a}', "ö": r'{\"o}', "ü": r'{\"u}', "é": r"{\'e}"}
+     "ä": r'{\"a}', "ö": r'{\"o}', "ü": r'{\"u}', "é": r"{\'e}", "–": "--"}
 )  # fmt: skip
 
 
@@ -84,7 +84,6 @@ def _entry(key: str, one: Reference) -> str:
     }  # fmt: skip
     written = {name: text.translate(_LATEX) for name, text in fields.items()}
     written["title"] = f"{{{written['title']}}}"  # capitals as they are
-    written["pages"] = written["pages"].replace("-", "--")
     if one.doi:
         written["doi"] = one.doi
     return _bibtex("article", key, written)

@@ -12,7 +12,7 @@ from .modules import _PROVENANCE
 _DOC = "Where the equations and the laws are published."
 _FIELDS = {
     "authors": "tuple[str, ...]  # family, initials", "title": "str", "journal": "str", "volume": "str",
-    "pages": "str  # first-last, or the number of the article", "year": "int", "doi": 'str  # "" where it is not known',
+    "pages": "str  # first–last, or the number of the article", "year": "int", "doi": 'str  # "" where it is not known',
 }  # fmt: skip
 
 

@@ -48,7 +48,7 @@ def test_the_source_of_a_law_names_what_is_cited() -> None:
                 one = REFERENCES[key]
                 family = one.authors[0].split(",")[0].replace("é", "e")
                 assert family in law.source
-                assert f"{one.volume}, {one.pages.split('-')[0]} ({one.year})" in law.source
+                assert f"{one.volume}, {one.pages.split('–')[0]} ({one.year})" in law.source
 
 
 def test_the_paper_comes_first_and_each_publication_once() -> None:
@@ -95,7 +95,7 @@ def test_bibtex_says_what_json_says() -> None:
         fields = read[each["key"]]
         names = " and ".join(each["authors"]).replace("é", r"{\'e}")
         assert (fields["author"], fields["title"]) == (names, f"{{{each['title']}}}")
-        assert fields["pages"].replace("--", "-") == each["pages"]
+        assert fields["pages"].replace("--", "–") == each["pages"]
         assert (fields["volume"], int(fields["year"]), fields.get("doi", "")) == (
             each["volume"], each["year"], each["doi"],
         )  # fmt: skip
