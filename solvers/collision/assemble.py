@@ -24,6 +24,7 @@ class Finding:
         outputs: the model's outputs at separation, by name; empty for a stick.
         rotation: angle turned by the line of centres until the end, rad.
         time: end of the trajectory: separation, or for a stick the end of integration.
+        rtol: relative tolerance that was asked for.
         drift: |L/L(0) - 1| at the end; None where the angular momentum L is not conserved.
     """
 
@@ -37,6 +38,7 @@ class Finding:
     events: Sequence[tuple[str, float]]
     engine: str
     steps: int
+    rtol: float
     energy: Energy | None = None
     drift: float | None = None
     trajectory: xarray.Dataset | None = None
@@ -77,6 +79,7 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
         angular_momentum_drift=found.drift,
         engine=found.engine,
         steps=found.steps,
+        rtol=found.rtol,
         scene=scene,
         trajectory=found.trajectory,
     )

@@ -47,7 +47,7 @@ def by_casadi(
         replay: integrates the located phases.
     """
     found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, replay)
-    return _result(scene, n, *found, trajectory)
+    return _result(scene, n, *found, trajectory, rtol)
 
 
 def _compute(
@@ -116,6 +116,7 @@ def _result(
     plugin: str,
     rtol: float,
     trajectory: bool,
+    asked: float,
 ) -> Collision:
     model, separated = flow.model, path.separated
     p = model.group_values(n.groups)
@@ -133,6 +134,7 @@ def _result(
         events=replayed.events,
         engine=plugin,
         steps=replayed.steps,
+        rtol=asked,
         energy=energy,
         drift=_drift(model, replayed, p) if "normal_lubrication" in flow.extras else None,
         trajectory=_trajectory(scene, path, replayed, model, n, plugin, rtol) if trajectory else None,
