@@ -15,8 +15,8 @@ UNITS = {
     "restitution": "1", "tangential_restitution": "1", "rotation": "rad", "contact_time": "s", "smallest_gap": "m",
     "final_spin": "rad/s", "final_spin_partner": "rad/s", "final_rotation_rate": "rad/s", "stokes": "1",
     "centrifugal": "1", "generalised_centrifugal": "1", "capillary": "1", "reynolds": "1", "speed": "m/s",
-    "angle": "rad", "until": "s", "events": "s", "energy": "J", "angular_momentum_drift": "1", "steps": "1",
-    "rtol": "1",
+    "angle": "rad", "until": "s", "decided": "s", "events": "s", "energy": "J", "angular_momentum_drift": "1",
+    "steps": "1", "rtol": "1",
 }  # fmt: skip
 """Units of what a collision's JSON object holds, by key; of `events` that of their times."""
 
@@ -90,6 +90,7 @@ class Outcome:
         final_spin_partner: spin of the partner, rad/s; None without a [partner].
         rotation: angle turned by the line of centres until separation, rad.
         until: for a stick, the time at which integration stopped, s.
+        decided: for a stick, the time at which it was certain, s: `until`, unless it was followed on.
         certified: True if a certificate proves the stick.
         reversal: the first rebound criterion met, if any.
         warnings: one sentence for each law used outside its range of validity.
@@ -114,6 +115,7 @@ class Outcome:
     reversal: str | None
     certified: bool
     until: float | None
+    decided: float | None
     events: tuple[Event, ...]
     energy: Energy | None
     angular_momentum_drift: float | None
@@ -131,7 +133,7 @@ class Outcome:
         plain = (
             "outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap",
             "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
-            "reversal", "certified", "until",
+            "reversal", "certified", "until", "decided",
         )  # fmt: skip
         result: dict[str, Any] = {name: getattr(self, name) for name in plain}
         if self.scene.partner is not None:
