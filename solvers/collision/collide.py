@@ -73,7 +73,7 @@ def collide(
 def _by_kernel(
     scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool, until: float | None
 ) -> Collision:
-    """By the Taylor kernel; by Rosenbrock where the kernel does not complete the collision, and for a stick followed on."""
+    """By the Taylor kernel; by Rosenbrock where it does not complete the collision, and for a stick followed on."""
     found = collision(scene, n, rtol, ledger, trajectory)
     if found is not None and (until is None or found.outcome != STICK):
         return found

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...physics.laws import LAWS
+from ...physics.laws.rebound import ELASTIC
 from ...physics.laws.references import PAPER, Reference
-from ...physics.laws.reversal import ELASTIC
 from ...physics.laws.rupture import COMMON
 from ...physics.partners import PUBLISHED
 from .modules import _PROVENANCE
