@@ -127,6 +127,7 @@ def sensitivities(
         method=method,
         engine=plugin,
         hold=hold,
+        rtol=rtol,
         near=near,
         scene=loaded,
     )
