@@ -22,6 +22,7 @@ def collide(
     stokes: float | str | None = None,
     speed: float | str | None = None,
     angle: float | str | None = None,
+    relative_speed: float | str | None = None,
     rtol: float = 1e-9,
     engine: str | None = None,
     ledger: bool = True,
@@ -33,7 +34,8 @@ def collide(
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name.
         stokes: Stokes number of the impact; or
-        speed: its normal speed, m/s or a string with its unit. Either overrides the scene's.
+        speed: its normal speed, m/s or a string with its unit; or
+        relative_speed: the magnitude of the relative velocity. Each overrides whichever the scene has.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None
@@ -61,7 +63,7 @@ def collide(
     rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     last = None if until is None else UNTIL.number(until)
-    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     said = warn(loaded)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ CUT_OFFS = {
     KINDS[EventKind.ROTATION_REVERSES]: "the strings turn the rotation back",
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+_POWER = re.compile(r"[A-Za-z]+\^")
 _MANY = 40  # events; a longer list consists of repeated rebounds
 _LABEL = 24  # width of the names on the left, characters
 _FIRST, _LAST = 9, 3  # events shown of a longer list
@@ -38,7 +40,7 @@ def quantity(value: float | None, unit: str) -> str:
     """Return a number with four digits and its prefixed unit; a dash for None."""
     if value is None:
         return "-"
-    factor, name = prefix(value)
+    factor, name = (1.0, "") if _POWER.match(unit) else prefix(value)  # a prefix would be raised with its unit
     return f"{value / factor:.4g} {name}{unit}"
 
 
@@ -250,7 +252,8 @@ def _exponent(value: float, digits: int) -> str:
 
 def _model(scene: Scene) -> list[str]:
     """Lines that name the laws used, wrapped to the width of the table."""
-    used = {"arm": scene.model.arm, "tangential": scene.model.tangential, "glass": scene.model.glass}
+    used = {"arm": scene.model.arm, "tangential": scene.model.tangential}
+    used |= {"glass": scene.model.glass} if scene.liquid.glass_transition_pressure is not None else {}
     used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
     if scene.bridge is not None:
         used["bridge"] = scene.bridge.law

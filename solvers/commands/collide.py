@@ -27,6 +27,7 @@ def command(
     source: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
@@ -44,7 +45,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, model=model).scene()
+    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     scene.need_impact()
 
     from ..collision.collide import collide

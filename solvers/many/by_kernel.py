@@ -12,7 +12,7 @@ from ...generated.automaton import LAST_ANSWER
 from ..engines.taylor.call import Impacts, run_kernel
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
-from ..scene.quantities import quantities
+from ..scene.quantities import NO_GLASS, quantities
 from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Batch
@@ -80,11 +80,8 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
 def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Quantities of every collision where entries vary, and a mask of those that certainly satisfy the entry rules."""
     scene = request.scene
-    entries: dict[str, Any] = {name: value for name, value in scene.si if not isinstance(value, str)}
-    if scene.pendulum is not None:
-        entries["pendulum.gravity"] = scene.pendulum.gravity
-    entries = {name: value for name, value in entries.items() if not name.startswith("impact.")}
-    found = quantities(entries | dict(request.vary), scene.wall)
+    entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
+    found = quantities(entries | dict(request.vary), scene.ways)
     values = {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
     return values, _sound(scene, values)
 
@@ -101,8 +98,12 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
         rupture = gap * film
     if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    if scene.attraction is not None and scene.particles.youngs_modulus is None:
-        sound &= values["roughness"] > 0  # bounds the attraction, which diverges at zero gap
+    if (
+        scene.particles.youngs_modulus is None
+    ):  # attraction diverges at zero gap, and without glass criterion nothing stops the approach
+        sound &= (values["roughness"] > 0) | (scene.attraction is None) & (
+            values["glass_transition_pressure"] < NO_GLASS
+        )
     for ratio in ("radius_ratio", "mass_ratio"):
         if scene.partner is not None and ratio in values:
             sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))

@@ -47,6 +47,7 @@ def collide_many(
     stokes: Any = None,
     speed: Any = None,
     angle: Any = None,
+    relative_speed: Any = None,
     vary: Mapping[str, Any] | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
@@ -56,7 +57,8 @@ def collide_many(
 
     Arguments:
         scene: a Scene, a path or a preset's name.
-        stokes, speed: Stokes numbers, or normal speeds in m/s: 1-D or a single number; default the scene's.
+        stokes, speed, relative_speed: Stokes numbers, normal speeds in m/s, or magnitudes of the relative velocity in
+            m/s: 1-D or a single number; default the scene's.
         angle: impact angles in rad, 1-D or a single number; default the scene's.
         vary: other entries by dotted name (SI numbers), 1-D of the same length.
         rtol: relative tolerance, 1e-13..1e-3.
@@ -75,7 +77,8 @@ def collide_many(
         >>> collide_many("granulation", stokes=[0.01, 0.02], angle=1.3).outcome.values
         array([0, 1], dtype=int8)
     """
-    request = validated_batch(scene, stokes, speed, angle, {} if vary is None else vary, rtol, engine, of)
+    impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+    request = validated_batch(scene, impact, {} if vary is None else vary, rtol, engine, of)
     warn(request.scene)
     results = empty(request.size, request.of)
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))

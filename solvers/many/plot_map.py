@@ -20,7 +20,7 @@ from ..collision.text import name_of, quantity
 from ..formatting import ticks
 from ..scene.scene import Scene
 from .collide_many import FAILED
-from .regime_map import scene_of
+from .regime_map import IMPACTS, impact_axis, scene_of
 
 if TYPE_CHECKING:
     import xarray
@@ -41,7 +41,7 @@ _LEVELS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 def draw_map(data: xarray.Dataset) -> Figure:
     """Draw a regime map as returned by `regime_map` or read from a file; a panel for each value of a further entry."""
     scene = scene_of(data)
-    varied = [name for name in data["outcome"].dims if name not in ("angle", "stokes", "speed")]
+    varied = [name for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
     if varied:
         figure, notes = _multiples(data, varied)
     else:
@@ -59,7 +59,8 @@ def draw_map(data: xarray.Dataset) -> Figure:
 def _variant(scene: Scene) -> str:
     """The names of the laws used, as a note for the figure."""
     model = scene.model
-    parts = [f"{model.arm} lever arm", f"{model.tangential} tangential force", f"{model.glass} glass criterion"]
+    parts = [f"{model.arm} lever arm", f"{model.tangential} tangential force"]
+    parts += [f"{model.glass} glass criterion"] if scene.liquid.glass_transition_pressure is not None else []
     parts.append("no capillary force" if scene.bridge is None else f"capillary force by {scene.bridge.law}")
     if scene.pendulum is not None:
         parts.append(f"strings of {quantity(scene.pendulum.length, 'm')}, {scene.pendulum.law}")
@@ -143,11 +144,7 @@ def _value(part: xarray.Dataset, name: str) -> str:
 
 def _upright(data: xarray.Dataset, name: str) -> np.ndarray:
     """A variable as a 2-D array, with a row for each Stokes number or speed."""
-    return np.asarray(data[name].transpose(_impact(data), "angle").values)
-
-
-def _impact(data: xarray.Dataset) -> str:
-    return "stokes" if "stokes" in data["outcome"].dims else "speed"
+    return np.asarray(data[name].transpose(impact_axis(data), "angle").values)
 
 
 def _restitution(data: xarray.Dataset) -> np.ndarray:
@@ -164,14 +161,14 @@ def _outcomes(axes: Axes, data: xarray.Dataset) -> None:
 def _failed(axes: Axes, data: xarray.Dataset) -> None:
     rows, columns = np.nonzero(_upright(data, "outcome") == FAILED)
     if rows.size:
-        x, y = np.degrees(data["angle"].values)[columns], data[_impact(data)].values[rows]
+        x, y = np.degrees(data["angle"].values)[columns], data[impact_axis(data)].values[rows]
         axes.plot(x, y, clip_on=False, zorder=5, **_CROSS)
 
 
 def _letters(axes: Axes, data: xarray.Dataset) -> None:
     """Write the name of each region where it is widest."""
     outcome = _upright(data, "outcome")
-    angles, values = np.degrees(data["angle"].values), data[_impact(data)].values
+    angles, values = np.degrees(data["angle"].values), data[impact_axis(data)].values
     for k, letter in enumerate(LETTERS):
         inside = np.pad(outcome == k, 1)
         depth = np.zeros(inside.shape)
@@ -190,7 +187,7 @@ def _letters(axes: Axes, data: xarray.Dataset) -> None:
 def _contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float], colour: str = "black") -> None:
     """Draw labelled lines of equal restitution, for each outcome separately because it jumps between them."""
     outcome, restitution = _upright(data, "outcome"), _upright(data, "restitution")
-    x, y = np.degrees(data["angle"].values), data[_impact(data)].values
+    x, y = np.degrees(data["angle"].values), data[impact_axis(data)].values
     for k in (1, 2):
         values = np.ma.masked_where(outcome != k, restitution)
         if min(values.shape) < 2 or values.count() < 4:
@@ -205,7 +202,7 @@ def _contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float], colour:
 
 def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = True) -> None:
     """Set scales, ticks and labels."""
-    name = _impact(data)
+    name = impact_axis(data)
     if _logarithmic(data[name].values):
         axes.set_yscale("log")
         ticks.plain(axes.yaxis)
@@ -218,7 +215,11 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
     if lowest:
         axes.set_xlabel("impact angle $\\theta_0$ (deg)", fontsize=9)
     if left_most:
-        labels: Mapping[str, str] = {"stokes": "Stokes number $St_n$", "speed": "normal approach speed $v_0$ (m/s)"}
+        labels: Mapping[str, str] = {
+            "stokes": "Stokes number $St_n$",
+            "speed": "normal approach speed $v_0$ (m/s)",
+            "relative_speed": r"relative speed $v_0/\cos\theta_0$ (m/s)",
+        }
         axes.set_ylabel(labels[name], fontsize=9)
 
 
@@ -234,7 +235,7 @@ def _handles(data: xarray.Dataset) -> list[Any]:
 
 def _edges(data: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Edges of the cells in both directions: midway between points, and the first and last point."""
-    values = data[_impact(data)].values
+    values = data[impact_axis(data)].values
     up = np.exp(_between(np.log(values))) if _logarithmic(values) else _between(values)
     return _between(np.degrees(data["angle"].values)), up
 

@@ -11,7 +11,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
 from .collide_many import FAILED
-from .regime_map import scene_of
+from .regime_map import IMPACTS, impact_axis, scene_of
 
 if TYPE_CHECKING:
     import xarray
@@ -24,7 +24,7 @@ _TICK = 10  # distance between labels of the angle, characters
 
 def table(data: xarray.Dataset) -> str:
     """The map as text, subsampled where it is too large; one map for each value of a further entry."""
-    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", "stokes", "speed")]
+    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
     legend = "   ".join(f"{letter} {name}" for letter, name in zip(CHARACTERS, (*OUTCOMES, "failed"), strict=True))
     lines = [f"{name_of(scene_of(data))}: {data['outcome'].size} collisions", legend]
     sizes = [data.sizes[name] for name in varied]
@@ -38,7 +38,7 @@ def table(data: xarray.Dataset) -> str:
 
 
 def _map(data: xarray.Dataset) -> list[str]:
-    impact = "stokes" if "stokes" in data["outcome"].dims else "speed"
+    impact = impact_axis(data)
     outcome = data["outcome"].transpose(impact, "angle").values
     rows, columns = _some(outcome.shape[0], _ROWS), _some(outcome.shape[1], WIDTH - _LABEL)
     values, angles = data[impact].values, np.degrees(data["angle"].values)
@@ -70,7 +70,7 @@ def _value(part: xarray.Dataset, name: str) -> str:
 
 
 def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
-    impact = "stokes" if "stokes" in data["outcome"].dims else "speed"
+    impact = impact_axis(data)
     parts = []
     for count, size, what in (
         (min(data.sizes[impact], _ROWS), data.sizes[impact], "rows"),

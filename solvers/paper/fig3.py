@@ -38,7 +38,7 @@ def make(desk: Desk, folder: Path) -> Part:
             used,
             f"a criterion is met from {number(met)} on; up to {number(escapes)} the doublet is reversed and still "
             f"sticks. The printed number lies between; it is reached with p_gt = {fitted} in place of "
-            f"the printed {scene.liquid.glass_transition_pressure / 1e6:.3g} MPa, which was fitted to a measured St*",
+            f"the printed {tune.printed_pressure(scene) / 1e6:.3g} MPa, which was fitted to a measured St*",
             beside=f"(escapes), {number(met)} (a criterion is met)",
         ),
         Comparison(

@@ -98,7 +98,7 @@ def _compared(
     only_head_on: bool,
 ) -> tuple[Comparison, ...]:
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
-    pressure, fitted = scene.liquid.glass_transition_pressure, tune.pressure_for(desk, scene, PRINTED["stokes_4"].value)
+    pressure, fitted = tune.printed_pressure(scene), tune.pressure_for(desk, scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
     found = _spread(desk.detail.critical, criticals)
     leading = _spread(

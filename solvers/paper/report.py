@@ -64,7 +64,7 @@ def inputs(parts: Iterable[Part]) -> Table:
     """Table of the entries of the presets used, with assumed values marked."""
     presets = dict.fromkeys(name for part in parts for name in part.scenes)
     scenes = [Scene.load(name) for name in presets]
-    guesses = {(scene.name, name) for scene in scenes for name, _ in scene.comments}
+    guesses = {(scene.name, name) for scene in scenes for name, _ in scene.guesses}
     names = dict.fromkeys(name for scene in scenes for name, _ in scene.given if not name.startswith("impact."))
     rows = []
     for name in names:

@@ -15,12 +15,12 @@ from ..boundaries.found import STOKES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
 from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
 from .result import Row
 
-_TRACED = ("impact.speed", "impact.stokes")
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
 
@@ -144,10 +144,10 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
     """The requested parameters; InputError for one that the scene does not have, and for speed and Stokes number."""
     names = check_wrt(scene, wrt, label)
     for name in names:
-        if wrt is not None and name in _TRACED:
-            accepted = ", ".join(one for one in check_wrt(scene, None) if one not in _TRACED)
+        if wrt is not None and name in SPEEDS:
+            accepted = ", ".join(one for one in check_wrt(scene, None) if one not in SPEEDS)
             raise InputError(label, name, accepted, "is what a boundary is followed in")
-    return tuple(name for name in names if name not in _TRACED)
+    return tuple(name for name in names if name not in SPEEDS)
 
 
 def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float = RTOL) -> Moving:

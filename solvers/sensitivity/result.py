@@ -123,7 +123,11 @@ class Sensitivities:
     def __str__(self) -> str:
         names = list(self.value)
         blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
-        held = {"speed": "the impact's speed", "stokes": "the Stokes number"}[self.hold]
+        held = {
+            "speed": "the impact's speed",
+            "stokes": "the Stokes number",
+            "relative_speed": "the relative speed",
+        }[self.hold]
         notes = [f"{self.outcome}; {self.method} derivatives by {self.engine}; {held} held"]
         rows = [row.values() for row in self.elasticity.values()]
         if any(value == 0 for row in rows for value in row):

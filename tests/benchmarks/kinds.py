@@ -63,7 +63,9 @@ def measured(kind: str, scene: Scene) -> dict[str, Any]:
 
     def request(rtol: float, engine: str, repeats: int = 1) -> Batch:
         of = ("outcome", "restitution")
-        return validated_batch(scene, np.tile(stokes, repeats), None, np.tile(angle, repeats), {}, rtol, engine, of)
+        return validated_batch(
+            scene, {"stokes": np.tile(stokes, repeats), "angle": np.tile(angle, repeats)}, {}, rtol, engine, of
+        )
 
     def kernel() -> many.Block:
         repeated = request(RTOL, "taylor", REPEATS)
