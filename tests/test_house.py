@@ -20,7 +20,7 @@ ORDER = (
     "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
     "solvers.settings", "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.boundaries", "solvers.sensitivity", "solvers.verify", "solvers.export", "solvers.paper",
-    "solvers.commands", "solvers", "solvers.__main__",
+    "solvers.commands", "solvers", "solvers.package", "solvers.__main__",
 )  # fmt: skip
 
 

@@ -55,7 +55,7 @@ LAW = [  # an entry of BRIDGES, and its name among the scene's
     (
         "derive/physics/laws/bridge.py",
         "def _rabinovich() -> Law:",
-        'def _halved() -> Law:\n    return _law("halved", "half as much", "none", sp.cos(phi), falls=True)\n\n\n{}',
+        'def _halved() -> Law:\n    return _law("halved", "half as much", LAMBERT, sp.cos(phi), falls=True)\n\n\n{}',
     ),
     ("derive/physics/laws/bridge.py", "_rabinovich()", "{}, _halved()"),
     ("solvers/scene/schema.py", '    "constant",\n', '{}    "halved",\n'),
@@ -95,6 +95,8 @@ class Tree:
         for folder in ("derive", "solvers"):
             shutil.copytree(ROOT / folder, self.package / folder, ignore=shutil.ignore_patterns("__pycache__"))
         (self.package / "generated").mkdir()
+        # a package without __init__ would give way to the installed one, which has it
+        shutil.copy(ROOT / "solvers" / "package" / "__init__.py", self.package)
         for path, old, new in (*ENTRY, *GROUP, *CRITERION, *LAW, *RESULT, *COMMAND):
             file = self.package / path
             before, found, after = file.read_text().rpartition(old)

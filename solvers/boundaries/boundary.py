@@ -107,6 +107,7 @@ def boundary(
         whole.resolution,
         loaded,
         (low, high),
+        rtol,
     )
 
 

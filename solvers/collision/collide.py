@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path as FilePath
 
+from ...generated.automaton import STICK
 from ..host.arguments import check_flag
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import check_engine, check_rtol
+from ..settings import UNTIL, check_engine, check_rtol
 from .by_casadi import by_casadi
 from .by_kernel import collision
 from .result import Collision
@@ -26,6 +27,7 @@ def collide(
     engine: str | None = None,
     ledger: bool = True,
     trajectory: bool = False,
+    until: float | str | None = None,
 ) -> Collision:
     """Collide two wet particles.
 
@@ -40,6 +42,8 @@ def collide(
             chooses (cvodes for one collision).
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
+        until: time after initial contact, s or a string with its unit, to which a stick that is certain before is
+            followed on; the outcome stands, events and energy run up to there.
 
     Returns:
         The Collision.
@@ -58,18 +62,21 @@ def collide(
     """
     rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
+    last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     said = warn(loaded)
     by = _by_kernel if plugin == "taylor" else by_casadi
-    result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory)
+    result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
     return replace(result, warnings=said) if said else result
 
 
 def _by_kernel(
-    scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool
+    scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool, until: float | None
 ) -> Collision:
-    """By the Taylor kernel; by Rosenbrock where the kernel does not complete the collision."""
+    """By the Taylor kernel; by Rosenbrock where it does not complete the collision, and for a stick followed on."""
     found = collision(scene, n, rtol, ledger, trajectory)
-    return found or by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)
+    if found is not None and (until is None or found.outcome != STICK):
+        return found
+    return by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory, until=until)

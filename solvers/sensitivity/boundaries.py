@@ -60,7 +60,10 @@ class BoundarySensitivities:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --wrt NAMES --json`."""
-        return {"angles": list(self.angles), "changes": [[one.to_dict() for one in line] for line in self.changes]}
+        changes = [[one.to_dict() for one in line] for line in self.changes]
+        scene = self.boundaries.scene
+        units = {name: scene.fields[name].unit or "1" for name in self.parameters} if scene else {}
+        return {"angles": list(self.angles), "changes": changes} | self.boundaries.origin(angles="rad", **units)
 
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])

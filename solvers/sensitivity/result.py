@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..scene.origin import origin
 from .results import QUANTITIES
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ class Sensitivities:
         outcome: outcome of the collision.
         reference: values of the parameters.
         near: the nearest boundary found from the trajectory, None if there is none.
+        rtol: relative tolerance that was asked for.
     """
 
     value: Mapping[str, float | None]
@@ -54,6 +56,7 @@ class Sensitivities:
     method: str
     engine: str
     hold: str
+    rtol: float
     near: Near | None = None
     hessian: Mapping[str, Mapping[str, Row]] | None = None
     hessian_times: Mapping[str, Row] | None = None
@@ -83,6 +86,10 @@ class Sensitivities:
             "engine": self.engine,
             "hold": self.hold,
             "nearest": near,
+            "rtol": self.rtol,
+            "units": {name: QUANTITIES[name].unit for name in self.value}
+            | {name: self.scene.fields[name].unit or "1" for name in self.parameters},
+            **origin(self.scene),
         }
 
     def to_dataset(self) -> xarray.Dataset:

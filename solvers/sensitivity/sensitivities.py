@@ -130,6 +130,7 @@ def sensitivities(
         method=method,
         engine=plugin,
         hold=held,
+        rtol=rtol,
         near=near,
         scene=loaded,
     )

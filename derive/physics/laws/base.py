@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .references import Reference
+
 Definition = tuple[sp.Symbol, sp.Expr]
 
 
@@ -17,6 +19,7 @@ class LawFunction:
 
     `for_proof`: only a stick certificate asks for it; without it collisions have no such certificate.
     `falls`: it never grows with its first argument (proved in `checks`), which a certificate needs to know.
+    `references`: where it is published, if elsewhere than the law.
     """
 
     name: str
@@ -26,6 +29,7 @@ class LawFunction:
     definitions: tuple[Definition, ...] = ()
     for_proof: bool = False
     falls: bool = False
+    references: tuple[Reference, ...] = ()
 
     def __post_init__(self) -> None:
         known = set(self.arguments)
@@ -63,7 +67,9 @@ class Law:
     """A selectable law: fills the slot `slot` under the name that scene files use.
 
     Arguments:
+        source: where it is from, as text.
         validity: where it holds, if that is known.
+        references: where it is published.
     """
 
     slot: str
@@ -72,6 +78,7 @@ class Law:
     source: str
     functions: tuple[LawFunction, ...]
     validity: Validity | None = None
+    references: tuple[Reference, ...] = ()
 
     @property
     def module(self) -> str:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ...vocabulary.quantities import E, a, mu, nu, v0
+from .references import RAGER, SERAYSSOL
 
-ELASTIC_SOURCE = "Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002), after Davis, Serayssol & Hinch (1986)"
+ELASTIC = (RAGER, SERAYSSOL)  # where the elastic length is published
 
 
 def elastic_compliance() -> sp.Expr:
@@ -17,6 +18,6 @@ def elastic_compliance() -> sp.Expr:
 
 def elastic_length() -> sp.Expr:
     """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which the film's pressure has stored the motion as
-    elastic energy (ELASTIC_SOURCE).
+    elastic energy (Davis, Rager & Good 2002, after Davis, Serayssol & Hinch 1986).
     """
     return (3 * sp.pi * elastic_compliance() * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from ..outcome import Outcome
-from ..text import name_of, prefix, reason, stopped
+from ..text import is_followed_on, name_of, prefix, reason, stopped
 from .frames import Frame, frames
 from .strip import draw_strip, strip_size
 from .time_panels import GREY, letter, micro, time_panels
@@ -66,7 +66,7 @@ def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     elif pictures[-1].free:
         strings = ", strings left out" if collision.scene.pendulum is not None else ""
         text += f"\nLast picture: drawn on after rupture along straight lines{strings}."
-    elif collision.certified:
+    elif collision.certified and not is_followed_on(collision):
         text += "\nThe outcome is certain from the last picture on: the trajectory was not followed further."
     return text
 

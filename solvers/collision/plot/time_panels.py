@@ -172,8 +172,8 @@ def _events(column: Column, collision: Outcome) -> None:
     factor, _ = column.unit
     span = (column.end - column.start) * 1.04
     marks = [(event.time, event.kind) for event in collision.events]
-    if collision.outcome == "stick" and collision.until is not None and collision.certified:
-        marks.append((collision.until, "proved to stick"))
+    if collision.decided is not None and collision.certified:
+        marks.append((collision.decided, "proved to stick"))
     lines = [time for time, _ in marks if time <= column.end * (1 + 1e-9)]
     if len(lines) > _MANY:  # repeated rebounds: one line where they coincide in the figure
         lines = list({round(200 * time / span): time for time in lines}.values())

@@ -71,6 +71,12 @@ class Variant:
     ledger: bool = False
     trajectory: bool = False
 
+    def __post_init__(self) -> None:
+        """Drop what has no effect, so that equal kernels are compiled once."""
+        structure = self.choice.structure
+        if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
+            object.__setattr__(self, "rotation", False)
+
 
 @cache
 def lanes() -> int:
