@@ -15,7 +15,7 @@ _LONG = 6  # most columns of panels
 _NAMES = {
     "impact.speed": "impact speed, Stokes",
     "impact.angle": "impact angle",
-    "bridge.volume": "bridge volume $V/R^3$",
+    "bridge.volume": "bridge volume",
     "particles.youngs_modulus": "Young's modulus",
     "particles.poisson_ratio": "Poisson's ratio",
 }
