@@ -16,7 +16,7 @@ SOLID, EDGE, LIQUID, INK, RED, BLUE = "#d9d4c7", "#6b665a", "#bfdcec", "#222222"
 def write(folder: Path) -> None:
     """Write every drawing as SVG."""
     folder.mkdir(parents=True, exist_ok=True)
-    style = {"svg.hashsalt": "wetdoublet", "font.size": 12, "mathtext.fontset": "cm"}
+    style = {"svg.hashsalt": "wetdoublet", "font.size": 13, "mathtext.fontset": "cm"}
     with mpl.rc_context(style):
         for draw in (coatings, impact, doublet, film, pendulum, barrier):
             draw().savefig(folder / f"{draw.__name__}.svg", metadata={"Date": None})

@@ -77,7 +77,7 @@ def _page(slot: str, law: Law) -> str:
     notes = [each.note for each in equations if each.note and each.note != law.source]
     lines += [f"* {_capital(note)}" for note in dict.fromkeys(notes)] + [""]
     lines += ["## Parameters", "", "| symbol | meaning | unit |", "|---|---|---|"]
-    lines += [f"| ${q.latex}$ | {q.meaning.replace('|', ' ')} | {q.unit} |" for q in _quantities(equations)]
+    lines += [f"| ${q.latex}$ | {q.meaning.replace('|', ' ')} | {q.unit} |" for q in _quantities(law, equations)]
     lines += ["", "## Range", "", _range(law), "", "## Source", "", f"{_capital(law.source)}.", ""]
     if any(each.name == "rupture_distance" for each in law.functions):
         lines += [_rupture(law), ""]
@@ -112,9 +112,11 @@ def _equations(law: Law) -> list[Equation]:
     return [line for line in lines if picked(line)]
 
 
-def _quantities(equations: list[Equation]) -> list[Any]:
+def _quantities(law: Law, equations: list[Equation]) -> list[Any]:
+    """What the equations take from outside: neither intermediates of the law nor left sides."""
+    inside = {symbol.name for function in law.functions for symbol, _ in function.definitions}
     names = dict.fromkeys(s.name for e in equations for s in sorted(e.expression.free_symbols, key=str))
-    return [VOCABULARY[name] for name in names if name in VOCABULARY]
+    return [VOCABULARY[name] for name in names if name in VOCABULARY and name not in inside]
 
 
 def _range(law: Law) -> str:
@@ -139,7 +141,9 @@ def _rupture(law: Law) -> str:
 
     function = law["rupture_distance"]
     source = function.doc.rpartition("Source: ")[2].rstrip(".")
-    return f'Rupture distance with `bridge.rupture = "own"`: $x_f/R = {latex(function.result)}$ ({source}).'
+    printed = {n: sp.Float(str(float(n))) for n in function.result.atoms(sp.Rational) if n.q >= 50}
+    distance = latex(function.result.xreplace(printed))
+    return f'Rupture distance with `bridge.rupture = "own"`: $x_f/R = {distance}$ ({source}).'
 
 
 def _caption(slot: str) -> str:

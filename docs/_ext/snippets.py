@@ -2,9 +2,9 @@
 
     python docs/_ext/snippets.py [PAGE ...]
 
-Blocks of `python` on a page run one after another in one process; blocks of `console` and `sh` line by line. A command whose
-line ends in `# exit status N` has to leave with that. Notebooks are executed when the site is built; commands beside their
-cells run here.
+Blocks of `python` on a page run one after another in one process; blocks of `console` and `sh` line by line. A command
+whose line ends in `# exit status N` has to leave with that. Notebooks are executed when the site is built; commands
+beside their cells run here.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 MADE = ("_build", "_emitted", "auto_gallery", "api", "laws")
 SET_UP = re.compile(r"^\s*(python3 -m venv|test -d|\.venv/bin/pip|pip install|python -m (pip|pytest|sphinx|tests))")
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
+LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress")
+"""Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do."""
 
 
 def pages() -> list[Path]:
@@ -34,8 +36,7 @@ def blocks(page: Path) -> list[tuple[str, str]]:
     found = re.findall(
         r"^```(python|console|sh)\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
     )
-    shown = [(language, text) for language, text in found if "from wetdoublet.derive.user import" not in text]
-    return shown
+    return [(language, text) for language, text in found if "from wetdoublet.derive.user import" not in text]
 
 
 def commands(text: str, language: str) -> list[str]:
@@ -43,7 +44,7 @@ def commands(text: str, language: str) -> list[str]:
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     if language == "console":
         lines = [line.removeprefix("$ ") for line in lines if line.startswith("$ ")]
-    return [line for line in lines if not SET_UP.match(line)]
+    return [line for line in lines if not SET_UP.match(line) and not LONG.search(line)]
 
 
 def run(page: Path) -> list[str]:

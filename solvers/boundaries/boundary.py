@@ -42,7 +42,7 @@ class Boundaries(Lines):
     """
 
     def to_dataset(self) -> xarray.Dataset:
-        """Dataset over `line` and `change`, with units in attributes, padded with NaN (see docs/reference/results.md)."""
+        """Dataset over `line` and `change`, with units in attributes, padded with NaN."""
         from .labelled import dataset
 
         return dataset(self)
