@@ -16,6 +16,7 @@ project = "wetdoublet"
 author = "The wetdoublet developers"
 release = version = version_of("wetdoublet")
 language = "en"
+smartquotes = False  # two dashes of an option stay two
 
 extensions = [
     "pages",
