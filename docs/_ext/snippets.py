@@ -77,6 +77,8 @@ def _prepare(files: list[Path], folder: str, environment: dict[str, str]) -> Non
     for path, command in zip(files, ("scenes granulation", "scenes granulation", "generate --template"), strict=True):
         text = subprocess.run(["wetdoublet", *command.split()], env=environment, capture_output=True, check=True).stdout
         path.write_bytes(text)
+    wrong = files[-1].read_text(encoding="utf-8").replace("stress * neck", "stress * R")
+    files[-1].with_name("bad.py").write_text(wrong, encoding="utf-8")
     made = ["wetdoublet", "generate", "mine.py", "--out", "mine"]
     subprocess.run(made, cwd=folder, env=environment, check=True, capture_output=True)
 
