@@ -1,4 +1,4 @@
-"""Recipes of docs/architecture.md, "Where things go", followed in a copy of the tree: the edits are all it takes."""
+"""Recipes of the architecture page, "Where things go", followed in a copy of the tree: the edits are all it takes."""
 
 from __future__ import annotations
 

@@ -48,7 +48,14 @@ class Moving:
 
 @dataclass(frozen=True)
 class BoundarySensitivities:
-    """The changes of outcome at each angle (rad), ascending in St, with their derivatives."""
+    """The changes of outcome at each angle (rad), ascending in St, with their derivatives.
+
+    Example:
+        >>> from wetdoublet.solvers import boundary_sensitivities
+        >>> found = boundary_sensitivities("granulation", angle=0.785, wrt=["liquid.viscosity"])
+        >>> found.parameters
+        ('liquid.viscosity',)
+    """
 
     boundaries: Boundaries
     changes: tuple[tuple[Moving, ...], ...]

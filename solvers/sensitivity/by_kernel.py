@@ -33,7 +33,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
 }
 KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
-DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/kernel.md)
+DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 

@@ -46,6 +46,12 @@ class Sensitivities:
         reference: values of the parameters.
         near: the nearest boundary found from the trajectory, None if there is none.
         rtol: relative tolerance that was asked for.
+
+    Example:
+        >>> from wetdoublet.solvers import sensitivities
+        >>> found = sensitivities("granulation", wrt=["liquid.viscosity"], stokes=0.02, angle="75 deg")
+        >>> round(found.elasticity["restitution"]["liquid.viscosity"], 3)
+        -0.003
     """
 
     value: Mapping[str, float | None]

@@ -70,6 +70,12 @@ def trajectory_sensitivities(
     Raises:
         InputError: a name or option is not acceptable.
         ComputationError: as for `sensitivities`. For a stick, the trajectory ends where the outcome is decided.
+
+    Example:
+        >>> from wetdoublet.solvers import trajectory_sensitivities
+        >>> found = trajectory_sensitivities("granulation", ["liquid.viscosity"], stokes=0.02, angle="75 deg")
+        >>> found.d_gap.dims
+        ('time', 'parameter')
     """
     import xarray as xr
 

@@ -111,6 +111,12 @@ def band(
     Raises:
         InputError: an invalid name or value.
         ComputationError: scipy is not installed.
+
+    Example:
+        >>> from wetdoublet.solvers import band
+        >>> found = band("granulation", {"impact.angle": "1 deg"}, "impact.stokes", [0.05], samples=4)
+        >>> bool(found.low[0] < found.restitution[0] < found.high[0])
+        True
     """
     import xarray as xr
 

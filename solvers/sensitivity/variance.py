@@ -46,6 +46,13 @@ def sobol_indices(
     Raises:
         InputError: an invalid name or range.
         ComputationError: SALib is not installed, a collision failed, or the result is not defined over the whole box.
+
+    Example:
+        >>> from wetdoublet.solvers import sobol_indices
+        >>> box = {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s"), "impact.angle": ("65 deg", "70 deg")}
+        >>> found = sobol_indices("granulation", box, samples=4)  # needs wetdoublet[global]
+        >>> found.first.dims
+        ('parameter',)
     """
     import xarray as xr
 

@@ -91,8 +91,8 @@ class Tolerance:
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
 
-# CVODES' global error at a given tolerance is 20 to 600 times Rosenbrock's (docs/performance.md): it is given a tighter
-# one, so that rtol means about the same for both.
+# CVODES' global error at a given tolerance is 20 to 600 times Rosenbrock's (measured in docs/engineering): it is
+# given a tighter one, so that rtol means about the same for both.
 _CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
 
 

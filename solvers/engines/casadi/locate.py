@@ -386,7 +386,7 @@ class EventLocator:
     def _rebound(self, kind: str, elapsed: float, event: str | None = None) -> None:
         """A rebound; one too weak to leave rests, one where the doublet ruptures has left.
 
-        What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/physics.md).
+        What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/explanation/events.md).
         """
         after = self.model.values("rebound", self.y, self.p)
         self.path.dry_loss += self.model.values("rebound_loss", self.y, self.p)["dry_contact"]

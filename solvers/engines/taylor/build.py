@@ -39,7 +39,7 @@ FLAGS = (
     "-std=gnu11",
     "-w",
 )
-# For a few collisions: compiled in half the time, the same arithmetic, some 5 % slower (docs/kernel.md).
+# For a few collisions: compiled in half the time, the same arithmetic, some 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 LARGEST_ORDER = 16
 _ONCE = "#pragma once"

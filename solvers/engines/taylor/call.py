@@ -46,7 +46,7 @@ RunKernel = Callable[[Impacts, np.ndarray], None]
 
 
 def order_for(rtol: float) -> int:
-    """Order of the series that is cheapest for a tolerance (docs/kernel.md)."""
+    """Order of the series that is cheapest for a tolerance (docs/engineering/kernel.md)."""
     return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
 
 

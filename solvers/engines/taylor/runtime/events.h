@@ -149,6 +149,7 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
     /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
+    edge &= ~(closing & (f->contact >= 1.0)); /* soft solids meet before the film is reached */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
     mask event = (edge & splat_mask(AT_FILM_EDGE)) |
                  (~edge & ((closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE))));
