@@ -60,5 +60,5 @@ def _default(table: str, key: str) -> object:
     kind = next(kind for kind in vars(tables).values() if getattr(kind, "name", None) == table)
     for field in fields(kind):
         if field.name == key and field.default is not MISSING and field.default is not None:
-            return "9.81 m/s^2" if key == "gravity" else field.default
+            return {"gravity": "9.81 m/s^2", "contact_angle": "0 deg"}.get(key, field.default)
     return None
