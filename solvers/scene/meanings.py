@@ -44,8 +44,8 @@ ENTRIES = {
     "attraction.hamaker": "Hamaker constant $A$ of the two spheres across the liquid",
     "partner.radius": "radius of the partner; 1e-4 to 1e4 of the sphere's",
     "partner.diameter": "diameter of the partner",
-    "partner.coating_thickness": "coating on the partner, with `liquid.coating_thickness`; another sphere is coated as the "
-    'first if it is left out, of a wall it must be given (`"0 um"`: dry)',
+    "partner.coating_thickness": "coating on the partner, beside `liquid.coating_thickness`; by default that of the "
+    'first sphere; beside a wall it must be given (`"0 um"`: dry)',
     "partner.mass": "mass of the partner; 1e-4 to 1e4 of the sphere's",
     "partner.density": "density of the partner; its mass follows from it",
     "partner.wall": "the partner is a flat wall at rest",
