@@ -20,6 +20,7 @@ TABLES = {
 ENTRIES = {
     "particles.reduced_radius": "reduced radius $a = R/2$ of either sphere",
     "particles.radius": "radius $R$ of one sphere",
+    "particles.diameter": "diameter $2R$ of one sphere",
     "particles.reduced_mass": "reduced mass $m = M/2$ of either sphere",
     "particles.mass": "mass $M$ of one sphere",
     "particles.density": "density of the spheres; the mass follows from it",
@@ -29,15 +30,21 @@ ENTRIES = {
     "particles.poisson_ratio": r"$\nu$ of the spheres; goes with `youngs_modulus`",
     "liquid.viscosity": r"viscosity $\mu$",
     "liquid.film_thickness": "$x_0$, the gap at initial contact: the sum of both coatings",
-    "liquid.glass_transition_pressure": "$p_{gt}$, film pressure at which the liquid turns solid: the spheres rebound",
+    "liquid.coating_thickness": "coating on each sphere; $x_0$ is twice that, or the sum with the partner's",
+    "liquid.glass_transition_pressure": "$p_{gt}$, film pressure at which the liquid turns solid and the spheres "
+    "rebound; without it there is no such criterion, and a roughness or elastic constants must stop the approach",
     "liquid.density": "density of the liquid; only reports the Reynolds number of the film",
     "bridge.surface_tension": r"surface tension $\sigma$",
-    "bridge.volume": "volume of the bridge over $R^3$, with $R = 2a$",
+    "bridge.volume": 'volume of the bridge over $R^3$, $R = 2a$; or with its unit, `"5e-5 mm^3"`; or `"from coating"`',
+    "bridge.coating_fraction": 'with `"from coating"`: the part of either coating that flows into the bridge',
     "bridge.contact_angle": r"contact angle $\phi$",
     "bridge.law": "fit of the capillary force",
     "bridge.rupture": "where the bridge ruptures",
     "attraction.hamaker": "Hamaker constant $A$ of the two spheres across the liquid",
     "partner.radius": "radius of the partner; 1e-4 to 1e4 of the sphere's",
+    "partner.diameter": "diameter $2R$ of the partner",
+    "partner.coating_thickness": "coating on the partner; another sphere is coated as the first if nothing is said; "
+    'beside a wall it must be said (`"0 um"`: dry)',
     "partner.mass": "mass of the partner; 1e-4 to 1e4 of the sphere's",
     "partner.density": "density of the partner; its mass follows from it",
     "partner.wall": "the partner is a flat wall at rest",
@@ -50,6 +57,7 @@ ENTRIES = {
     "model.film": "normal lubrication force",
     "impact.stokes": r"normal Stokes number $St = m v_0/(6 \pi \mu a^2)$",
     "impact.speed": "$v_0$, the *normal* component of the approach velocity",
+    "impact.relative_speed": r"magnitude of the relative velocity, $v_0/\cos\theta_0$",
     "impact.angle": r"$\theta_0$ between the relative velocity and the line of centres; 0 is head-on",
 }
 """Dotted name -> what the entry is."""
