@@ -58,7 +58,10 @@ def _kind(field: Field) -> str:
 def _default(table: str, key: str) -> object:
     """The default of an entry, if it has one of its own."""
     kind = next(kind for kind in vars(tables).values() if getattr(kind, "name", None) == table)
+    number = FIELDS[f"{table}.{key}"].default
+    if number is not None:
+        return {"contact_angle": "0 deg", "gravity": "9.81 m/s^2"}.get(key, number)
     for field in fields(kind):
         if field.name == key and field.default is not MISSING and field.default is not None:
-            return {"gravity": "9.81 m/s^2", "contact_angle": "0 deg"}.get(key, field.default)
+            return field.default
     return None

@@ -57,6 +57,9 @@ def run(page: Path) -> list[str]:
         lines = [line for language, text in blocks(page) if language != "python" for line in commands(text, language)]
         if any(path.name in line for path in prepared for line in lines) or "--model mine" in " ".join(lines):
             _prepare(prepared, folder, environment)
+        for path in prepared:
+            if f"--new {path.stem} " in " ".join(lines):
+                path.unlink(missing_ok=True)  # the page makes it
         for line in lines:
             failures += _one(page, line, folder, environment)
         if python:

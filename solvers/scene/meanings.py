@@ -31,21 +31,20 @@ ENTRIES = {
     "liquid.viscosity": r"viscosity $\mu$",
     "liquid.film_thickness": "$x_0$, the gap at initial contact: the sum of both coatings",
     "liquid.coating_thickness": "coating on each sphere; $x_0$ is twice that, or the sum with the partner's",
-    "liquid.glass_transition_pressure": "$p_{gt}$, film pressure at which the liquid turns solid: the spheres rebound; "
-    "without it there is no glass criterion, and a roughness above 0 or elastic constants must stop the approach",
+    "liquid.glass_transition_pressure": "$p_{gt}$, film pressure at which the liquid turns solid and the spheres "
+    "rebound; without it there is no such criterion, and a roughness or elastic constants must stop the approach",
     "liquid.density": "density of the liquid; only reports the Reynolds number of the film",
     "bridge.surface_tension": r"surface tension $\sigma$",
-    "bridge.volume": "volume of the bridge over $R^3$, with $R = 2a$; or the volume itself with its unit, as "
-    '`"5e-5 mm^3"`; or `"from coating"`, which is described below',
-    "bridge.coating_fraction": 'with `"from coating"`: part of either coating that flows into the bridge',
+    "bridge.volume": 'volume of the bridge over $R^3$, $R = 2a$; or with its unit, `"5e-5 mm^3"`; or `"from coating"`',
+    "bridge.coating_fraction": 'with `"from coating"`: the part of either coating that flows into the bridge',
     "bridge.contact_angle": r"contact angle $\phi$",
     "bridge.law": "fit of the capillary force",
     "bridge.rupture": "where the bridge ruptures",
     "attraction.hamaker": "Hamaker constant $A$ of the two spheres across the liquid",
     "partner.radius": "radius of the partner; 1e-4 to 1e4 of the sphere's",
-    "partner.diameter": "diameter of the partner",
-    "partner.coating_thickness": "coating on the partner, beside `liquid.coating_thickness`; by default that of the "
-    'first sphere; beside a wall it must be given (`"0 um"`: dry)',
+    "partner.diameter": "diameter $2R$ of the partner",
+    "partner.coating_thickness": "coating on the partner; another sphere is coated as the first if nothing is said; "
+    'beside a wall it must be said (`"0 um"`: dry)',
     "partner.mass": "mass of the partner; 1e-4 to 1e4 of the sphere's",
     "partner.density": "density of the partner; its mass follows from it",
     "partner.wall": "the partner is a flat wall at rest",
