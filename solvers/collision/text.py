@@ -133,7 +133,7 @@ def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
-    remarks = [line for said in collision.warnings for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    remarks = [line for said in collision.validity for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
     return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene), *remarks])
 
 
