@@ -89,7 +89,7 @@ def _radii(values: Values) -> tuple[Any, Any]:
 
 
 def _liquid(scene: Scene, values: Values) -> Any:
-    """Volume of the bridge over that of the liquid on both spheres, a coating of x0/2 on each; a wall has any amount."""
+    """Volume of the bridge over that of a coating x0/2 on each sphere; a wall has any amount of liquid."""
     if scene.bridge is None or scene.wall:
         return math.nan
     coating = values["film_thickness"] / 2
@@ -151,7 +151,7 @@ LIMITS: tuple[Limit, ...] = (
     Limit(
         "film_gap",
         _film_gap,
-        lambda n: f"x0/a = {n:.3g} is above {_FILM_GAP:g}: lubrication theory takes a film much thinner than the radius",
+        lambda n: f"x0/a = {n:.3g} is above {_FILM_GAP:g}: lubrication theory takes a film thin beside the radius",
         most=_FILM_GAP,
     ),
     Limit(
@@ -189,7 +189,7 @@ LIMITS: tuple[Limit, ...] = (
     Limit(
         "cavitating_film",
         _cavitating,
-        lambda n: f"{_partner(n)}: the film cavitating ignores the pressure that rolling makes between unequal surfaces",
+        lambda n: f"{_partner(n)}: the film cavitating ignores the pressure of rolling between unequal surfaces",
         most=1.0,
     ),
     Limit(
@@ -246,6 +246,25 @@ def flag_attributes() -> dict[str, Any]:
         "flag_masks": np.array([1 << bit for bit in range(len(FLAGS))], dtype=np.int16),
         "flag_meanings": " ".join(FLAGS),
     }
+
+
+def counted(mask: np.ndarray) -> list[tuple[str, int]]:
+    """How many collisions have passed each limit, in words: those that any has."""
+    counts = [int(np.count_nonzero(mask & (1 << bit))) for bit in range(len(FLAGS))]
+    return [(_WORDS.get(flag, flag), count) for flag, count in zip(FLAGS, counts, strict=True) if count]
+
+
+_WORDS = {
+    "film_reynolds": f"Re > {_REYNOLDS:g}",
+    "film_gap": f"x0/a > {_FILM_GAP:g}",
+    "rupture_gap": f"x_f/a > {_RUPTURE_GAP:g}",
+    "bridge_liquid": "bridge larger than the coatings",
+    "fly_by": "fly-by",
+    "wall_coupling": "spin beside the wall",
+    "cavitating_film": "cavitating between unequal surfaces",
+    "own_rupture": "own rupture of unequal spheres",
+    LAW_RANGE: "range of the bridge law",
+}
 
 
 # ---- the ranges of laws, which stand with the emitted laws (`VALIDITY`) as far as their sources give them
