@@ -62,6 +62,13 @@ def name_of(scene: Scene, longest: int = 32) -> str:
     return _cut(scene.name, longest) or "unnamed scene"
 
 
+def against(scene: Scene) -> str:
+    """Return what the sphere meets, for a title; nothing if it is its equal."""
+    if scene.partner is None:
+        return ""
+    return " against a wall" if scene.wall else f" against a sphere of {plain(scene.radius_ratio)} times the radius"
+
+
 def _cut(text: str, longest: int) -> str:
     """Return a text on one line without control characters, shortened to `longest` characters."""
     text = " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
