@@ -21,7 +21,7 @@ _LINES = 5  # seed lines of constant angle; the lattice of the atlas finds the c
 
 
 def map_curves(data: xarray.Dataset) -> dict[int, list[Curve]]:
-    """The boundaries of each panel of a map: angles (rad) and Stokes numbers, or speeds (m/s) as the map has them, of every curve.
+    """The boundaries of each panel of a map: angles (rad) of every curve, and Stokes numbers or speeds (m/s).
 
     Nothing for a panel of one angle or one Stokes number, of a scene that the kernel does not support (one by one the
     thousands of collisions would take minutes), or that cannot be.

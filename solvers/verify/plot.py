@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +17,6 @@ from matplotlib.ticker import MaxNLocator
 from ..boundaries.on_map import map_curves
 from ..collision.text import name_of
 from ..engines.taylor.build import supported
-from ..errors import ModelWarning
 from ..formatting import ticks
 from ..formatting.style import INK, NOTHING, picture, plain_text
 from ..host.files import save
@@ -114,14 +112,8 @@ def _fine(data: xarray.Dataset) -> xarray.Dataset:
     angle, stokes = data["angle"].values, data["stokes"].values
     if not supported(scene) or min(angle.size, stokes.size) < 2:
         return data
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ModelWarning)  # issued with the budget
-        return regime_map(
-            scene,
-            stokes=np.geomspace(stokes[0], stokes[-1], _FINE),
-            angle=np.linspace(angle[0], angle[-1], _FINE),
-            of=("restitution",),
-        )
+    across, up = np.linspace(angle[0], angle[-1], _FINE), np.geomspace(stokes[0], stokes[-1], _FINE)
+    return regime_map(scene, stokes=up, angle=across, of=("restitution",))
 
 
 def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
