@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
@@ -66,10 +65,9 @@ def collide(
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
-    said = warn(loaded)
+    warn(loaded)
     by = _by_kernel if plugin == "taylor" else by_casadi
-    result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
-    return replace(result, warnings=said) if said else result
+    return by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
 
 
 def _by_kernel(

@@ -189,10 +189,11 @@ def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None
     from ..many.text_map import failures, table
 
     if picture is not None:
+        from ..boundaries.on_map import map_curves
         from ..host.files import save
         from ..many.plot_map import draw_map
 
-        save(draw_map(data), picture, dpi=150)
+        save(draw_map(data, map_curves(data)), picture, dpi=150)
     if file is None and picture is None:
         click.echo(table(data))
     failed = failures(data)

@@ -14,6 +14,7 @@ import numpy as np
 from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
+from ..model.validity import NEEDS
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
@@ -28,6 +29,8 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "contact_time": ("s", "time from initial contact to separation"),
     "smallest_gap": ("m", "smallest gap until separation"),
 }
+VALIDITY = "validity"
+"""Name of the variable that says where the model leaves its range."""
 
 
 @dataclass(frozen=True)
@@ -120,8 +123,9 @@ def validated_batch(
 
 
 def check_outputs(of: Sequence[str]) -> tuple[str, ...]:
-    """The quantities to keep; InputError for an unknown one."""
-    return check_names(of, (*QUANTITIES, "outcome", "certified", "reason"), "of")
+    """The quantities to keep, with those that the limits of the model need; InputError for an unknown one."""
+    kept = check_names(of, (*QUANTITIES, "outcome", "certified", "reason", VALIDITY), "of")
+    return tuple(dict.fromkeys((*kept, *NEEDS))) if VALIDITY in kept else kept
 
 
 def checked_impact(scene: Scene, impact: Mapping[str, Any]) -> dict[str, np.ndarray]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -12,10 +11,11 @@ from ...generated.automaton import LAST_ANSWER
 from ..engines.taylor.call import Impacts, run_kernel
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
-from ..scene.quantities import NO_GLASS, quantities
+from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Batch
+from .columns import varied_columns
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
@@ -57,7 +57,8 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
     values: dict[str, np.ndarray] = {}
     with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
-            values, sound = _columns(request)
+            values = varied_columns(request)
+            sound = _sound(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
         else:
             sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
@@ -75,15 +76,6 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     most = 1e200 if name in _NEVER else _MOST
     usual: np.ndarray = (size == 0) | ((size >= 1 / _MOST) & (size <= most))
     return usual
-
-
-def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Quantities of every collision where entries vary, and a mask of those that certainly satisfy the entry rules."""
-    scene = request.scene
-    entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
-    found = quantities(entries | dict(request.vary), scene.ways)
-    values = {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
-    return values, _sound(scene, values)
 
 
 def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:

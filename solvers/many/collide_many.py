@@ -22,11 +22,12 @@ from ..host.cores import usable_cores
 from ..host.workers import undisturbed, workers
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
-from ..model.validity import warn
+from ..model.validity import flag_attributes, flags, warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL
-from .batch import QUANTITIES, Batch, validated_batch
+from .batch import QUANTITIES, VALIDITY, Batch, validated_batch
 from .by_kernel import collided
+from .columns import with_impacts
 
 if TYPE_CHECKING:
     import xarray
@@ -63,7 +64,8 @@ def collide_many(
         vary: other entries by dotted name (SI numbers), 1-D of the same length.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: quantities to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap.
+        of: quantities to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap;
+            validity (flags of where the model leaves its range, with the results that these need).
 
     Returns:
         Dataset over `collision`: outcome (int8: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 failed), restitution,
@@ -238,6 +240,8 @@ def as_dataset(request: Batch, results: Block) -> xarray.Dataset:
     for name, (unit, meaning) in QUANTITIES.items():
         if name in results:
             variables[name] = along, results[name], {"units": unit, "long_name": meaning}
+    if VALIDITY in request.of:
+        variables[VALIDITY] = along, validity(request, results), flag_attributes()
     attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
     if request.scene.package is not None:
         attributes["model"] = request.scene.package.text
@@ -250,6 +254,12 @@ def as_text(results: Block) -> np.ndarray:
     if not failed.any():
         return np.zeros(failed.size, "<U1")
     return np.where(failed, results["reason"], "").astype(str)
+
+
+def validity(request: Batch, results: Block) -> np.ndarray:
+    """Flags of where each collision leaves the model's range; none of one that failed."""
+    found = flags(request.scene, with_impacts(request) | results, request.size)
+    return np.where(results["outcome"] == FAILED, np.int16(0), found)
 
 
 def outcome_attributes() -> dict[str, Any]:

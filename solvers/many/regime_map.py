@@ -18,7 +18,7 @@ from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
-from ..model.validity import warn
+from ..model.validity import flag_attributes, warn
 from ..scene.groups import si_values
 from ..scene.quantities import normal_speed
 from ..scene.ranges import MOST
@@ -26,8 +26,8 @@ from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import QUANTITIES, Batch, check_outputs, check_some_scene, checked_impact, checked_vary
-from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
+from .batch import QUANTITIES, VALIDITY, Batch, check_outputs, check_some_scene, checked_impact, checked_vary
+from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes, validity
 from .journal import Journal
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def regime_map(
     vary: Mapping[str, Any] | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
-    of: Sequence[str] = tuple(QUANTITIES),
+    of: Sequence[str] = (*QUANTITIES, VALIDITY),
     progress: Progress | None = None,
     journal: str | Path | Journal | None = None,
     slow: Slow = lambda _count: None,
@@ -109,7 +109,8 @@ def regime_map(
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: restitution, tangential_restitution, rotation, contact_time, smallest_gap; by default all.
+        of: restitution, tangential_restitution, rotation, contact_time, smallest_gap, and validity (flags of where
+            the model leaves its range); by default all.
         progress: called with (collisions done, collisions in all) after every block.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
@@ -229,6 +230,8 @@ def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
     for name, (unit, meaning) in QUANTITIES.items():
         if name in results:
             variables[name] = (grid.dims, shaped(results[name]), {"units": unit, "long_name": meaning})
+    if VALIDITY in request.of:
+        variables[VALIDITY] = grid.dims, shaped(validity(request, results)), flag_attributes()
     attributes = {
         "Conventions": "CF-1.11",
         "title": f"Outcomes of oblique wet collisions: {grid.scene.name or 'unnamed scene'}",
