@@ -11,13 +11,14 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import ComputationError
+from ..formatting.style import INK
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, outcomes, shown
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED
-from .style import ANGLE, BLUE, COLUMN, GREY, INK, ORANGE, STOKES, panel, sheet
+from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, panel, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge

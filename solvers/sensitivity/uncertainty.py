@@ -233,6 +233,12 @@ def draw(found: xarray.Dataset) -> Any:
     Returns:
         The matplotlib Figure.
     """
+    from ..formatting.style import picture
+
+    return picture(_drawn)(found)
+
+
+def _drawn(found: xarray.Dataset) -> Any:
     from matplotlib.figure import Figure
 
     over = str(next(iter(found.dims)))
@@ -256,7 +262,7 @@ def draw(found: xarray.Dataset) -> Any:
     unit = found[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
     axis.set_xlabel({"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "St"))
-    axis.set_title(found.attrs["uncertainty"], fontsize=9)
+    axis.set_title(found.attrs["uncertainty"])
     axis.spines[["top", "right"]].set_visible(False)
-    axis.legend(frameon=False, fontsize=8)
+    axis.legend()
     return figure
