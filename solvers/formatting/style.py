@@ -17,8 +17,8 @@ from matplotlib.patheffects import withStroke
 from ...generated.automaton import OUTCOMES
 
 # Of rising lightness, so that they differ in grey as well; black and the contours' labels are legible on each.
-FILLS = dict(zip(OUTCOMES, ("#7FB2DC", "#F5BE6A", "#FCF6D5"), strict=True))
-EDGES = dict(zip(OUTCOMES, ("#7FB2DC", "#C9861B", "#FCF6D5"), strict=True))
+FILLS = dict(zip(OUTCOMES, ("#75A9D8", "#F5BE6A", "#FCF6D5"), strict=True))
+EDGES = dict(zip(OUTCOMES, ("#75A9D8", "#C9861B", "#FCF6D5"), strict=True))
 """Colours of the hatches."""
 HATCHES: dict[str, str | None] = dict(zip(OUTCOMES, (None, "///", None), strict=True))
 LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
