@@ -17,7 +17,7 @@ from matplotlib.ticker import MaxNLocator, NullLocator
 
 from ....generated.automaton import CRITERIA
 from ...formatting import ticks
-from ...model.contact import GAPS
+from ...scene.contact import GAPS
 from ...scene.groups import scaled
 from ..outcome import Outcome
 from ..text import prefix, quantity
