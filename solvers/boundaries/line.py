@@ -21,10 +21,10 @@ from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocat
 from ..engines.taylor.build import compile_all, supported
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
-from ..model.contact import GAPS, NEVER_MET, contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow
+from ..scene.contact import GAPS, NEVER_MET, contact_gap
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import RTOL

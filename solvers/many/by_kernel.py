@@ -9,6 +9,7 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import LAST_ANSWER
 from ..engines.taylor.call import Impacts, run_kernel
+from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
 from ..scene.quantities import NO_GLASS
@@ -81,7 +82,9 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
 def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     """Mask of collisions that satisfy `scene.entry_rules` with a margin; the scene itself validates the others."""
     film = values["film_thickness"]
-    sound = values["roughness"] < film * (1 - _NEAR)
+    sound = np.ones(film.shape, bool)
+    for word in AT_ANY_SPEED:
+        sound &= gap_at_any_speed(word, values) < 1 - _NEAR
     rupture = film
     if scene.bridge is not None:
         formula, arguments = formulas(scene)["rupture_gap"]
@@ -90,12 +93,9 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
         rupture = gap * film
     if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    if (
-        scene.particles.youngs_modulus is None
-    ):  # attraction diverges at zero gap, and without glass criterion nothing stops the approach
-        sound &= (values["roughness"] > 0) | (scene.attraction is None) & (
-            values["glass_transition_pressure"] < NO_GLASS
-        )
+    # attraction diverges at zero gap, and without glass criterion nothing stops the approach
+    stopped = (scene.attraction is None) & (values["glass_transition_pressure"] < NO_GLASS)
+    sound &= ~np.asarray(never_touching(values)) | stopped
     for ratio in ("radius_ratio", "mass_ratio"):
         if scene.partner is not None and ratio in values:
             sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))

@@ -18,7 +18,7 @@ from matplotlib.transforms import blended_transform_factory
 
 from ....generated.automaton import CRITERIA
 from ...formatting import ticks
-from ...model.contact import GAPS
+from ...scene.contact import GAPS
 from ...scene.groups import scaled
 from ..outcome import Outcome
 from ..text import prefix, quantity
