@@ -57,7 +57,8 @@ def command(
 ) -> None:
     """Outcomes and restitution of SCENE over impact angle, Stokes number and further varied entries.
 
-    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end.
+    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end. The
+    picture has the exact boundaries over the cells, and hatches those where the model leaves its range.
 
     \b
     Example:
