@@ -19,8 +19,8 @@ from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of, quantity
 from ..formatting import ticks
 from ..scene.scene import Scene
-from .collide_many import FAILED
 from .regime_map import IMPACTS, impact_axis, scene_of
+from .results import FAILED
 
 if TYPE_CHECKING:
     import xarray

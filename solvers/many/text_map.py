@@ -10,8 +10,8 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
-from .collide_many import FAILED
 from .regime_map import IMPACTS, impact_axis, scene_of
+from .results import FAILED
 
 if TYPE_CHECKING:
     import xarray

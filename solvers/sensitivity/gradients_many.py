@@ -18,7 +18,7 @@ from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
 from ..many.batch import validated_batch
-from ..many.collide_many import FAILED, outcome_attributes
+from ..many.results import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS

@@ -12,9 +12,9 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
-from ..many.batch import QUANTITIES as MANY
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
+from ..many.results import QUANTITIES as MANY
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, SPEEDS, Field

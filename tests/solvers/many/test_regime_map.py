@@ -12,6 +12,7 @@ from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
+from wetdoublet.solvers.many.results import QUANTITIES
 from wetdoublet.solvers.many.text_map import failures, table
 
 from ...helpers.command import run
@@ -49,9 +50,9 @@ def test_the_grid(data):
             stokes=STOKES[j],
             angle=ANGLE[i],
             vary={"liquid.viscosity": [1.0, 2.0][k]},
-            of=tuple(many.QUANTITIES),
+            of=tuple(QUANTITIES),
         )
-        for name in ("outcome", "certified", "reason", *many.QUANTITIES):
+        for name in ("outcome", "certified", "reason", *QUANTITIES):
             np.testing.assert_array_equal(cell[name].values, one[name].values[0])
     sticks = data.outcome == 0
     assert bool((data.restitution.where(sticks, 0.0) == 0).all())
