@@ -184,18 +184,6 @@ def test_every_result_is_that_of_collide(preset, engine):
             assert data[name].values[k] == pytest.approx(value, rel=1e-6, abs=1e-12, nan_ok=True), name
 
 
-def test_spin_of_an_unequal_partner():
-    """Beside another sphere both spins are those of `collide`, by the kernel that also keeps its ledger."""
-    pair = {"partner.radius": "30 um", "partner.mass": "1e-10 kg"}
-    scene = Scene.load("granulation").with_entries(pair)
-    names = ("final_spin", "final_spin_partner", "final_rotation_rate")
-    asked = (*names, "energy.initial")
-    data = collide_many(scene, stokes=0.4, angle=1.0, of=asked, engine="taylor", vary={"liquid.viscosity": [1.0, 2.0]})
-    for k, viscosity in enumerate((1.0, 2.0)):
-        one = collide(scene.with_entries({"liquid.viscosity": viscosity}), stokes=0.4, angle=1.0)
-        assert [data[name].values[k] for name in names] == pytest.approx([getattr(one, name) for name in names])
-
-
 def test_arrays_are_broadcast():
     """A column against a row is their grid, as numpy has it, each result where its impact is."""
     stokes, angle = np.array([[0.02], [0.05]]), np.array([0.2, 1.0, 1.3])
