@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 WIDTH = 100
 _MARKS = {True: "ok", False: "FAIL", None: "note"}
 _MARK = 6  # width of the mark on the left, characters
+_LONGEST = 200  # characters of the failure in the first line
 _ABOUT = 4  # the same for details of a finding
 _BESIDE = 26  # width of value and bound, so that places are aligned
 
@@ -24,6 +25,7 @@ class Finding:
         ok: None for a value that is reported without a bound.
         where: the place of the worst case (Stokes number, angle, engine, event).
         about: further lines (a table, intervals), shown verbatim.
+        kept: True if it was computed by an earlier run, from the same equations.
     """
 
     group: str
@@ -34,6 +36,7 @@ class Finding:
     ok: bool | None
     where: str = ""
     about: tuple[str, ...] = ()
+    kept: bool = False
 
     @property
     def line(self) -> str:
@@ -70,7 +73,7 @@ class Report:
         return tuple(finding for finding in self.findings if finding.ok is False)
 
     def __str__(self) -> str:
-        lines: list[str] = []
+        lines: list[str] = [self.headline, ""]
         if self.failed:
             lines += _section("Failed", list(self.failed), told=True)
         for group, members in self._groups().items():
@@ -79,7 +82,7 @@ class Report:
 
     def to_markdown(self) -> str:
         """The report as a Markdown page, failures first."""
-        lines = ["# wetdoublet verify", "", self.summary, ""]
+        lines = ["# wetdoublet verify", "", self.headline, ""]
         sections = {"Failed": list(self.failed)} if self.failed else {}
         for group, members in (sections | self._groups()).items():
             lines += [
@@ -100,15 +103,28 @@ class Report:
         return "\n".join(lines).rstrip("\n")
 
     @property
+    def headline(self) -> str:
+        """The first line: that all checks hold, or what failed and why."""
+        if self.ok:
+            return self._counted
+        line = self.failed[0].line
+        more = f"; and {len(self.failed) - 1} more" if len(self.failed) > 1 else ""
+        return f"{self._counted}: {line if len(line) <= _LONGEST else line[:_LONGEST] + ' ...'}{more}"
+
+    @property
     def summary(self) -> str:
-        """The last line: number of passed checks, and names of failed ones."""
+        """The last line: number of passed checks, names of failed ones, and how many are from an earlier run."""
+        names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
+        kept = sum(finding.kept for finding in self.findings)
+        earlier = f" ({kept} verdicts kept from an earlier run on the same equations)" if kept else ""
+        return f"{self._counted}{': ' if names else ''}{names}{earlier}"
+
+    @property
+    def _counted(self) -> str:
         held = sum(finding.ok is not None for finding in self.findings)
         notes = len(self.findings) - held
         told = f", {notes} note{'s' * (notes != 1)}" if notes else ""
-        if self.ok:
-            return f"{held} checks hold{told}"
-        names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
-        return f"{len(self.failed)} of {held} checks FAIL{told}: {names}"
+        return f"{held} checks hold{told}" if self.ok else f"{len(self.failed)} of {held} checks FAIL{told}"
 
     def _groups(self) -> dict[str, list[Finding]]:
         groups: dict[str, list[Finding]] = {}
