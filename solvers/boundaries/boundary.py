@@ -47,6 +47,11 @@ class Boundaries(Lines):
 
         return dataset(self)
 
+    def _repr_html_(self) -> str:
+        from .notebook import html
+
+        return html(self)
+
     def plot(self, file: str | FilePath) -> None:
         """Draw a figure (.png, .pdf or .svg): the regions of each outcome, the curves and their meeting points."""
         from .plot import plot

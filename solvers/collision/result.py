@@ -25,6 +25,11 @@ class Collision(Outcome):
 
         return table(self)
 
+    def _repr_html_(self) -> str:
+        from .notebook import html
+
+        return html(self)
+
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw gap and velocity, the rotation, and the doublet at a few instants; returns the matplotlib Figure.
 

@@ -81,7 +81,7 @@ def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
             parts.append(f"{count} of {size} {what}")
     if not parts:
         return []
-    return ["", f"shown: {', '.join(parts)}", "-o FILE.nc keeps all, --plot FILE.png draws them"]
+    return ["", f"shown: {', '.join(parts)}", "-o FILE.nc or .csv keeps all, --plot FILE.png draws them"]
 
 
 def failures(data: xarray.Dataset) -> str | None:

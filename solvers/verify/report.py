@@ -64,6 +64,16 @@ class Report:
     findings: tuple[Finding, ...]
     budget: xarray.Dataset | None = field(default=None, repr=False, compare=False)
 
+    def _repr_html_(self) -> str:
+        """The first line, the failures, and how each group fares."""
+        from ..formatting.notebook import view
+
+        rows = [("FAIL", f"{one.group}: {one.name}", one.statement, one.figure, one.where) for one in self.failed]
+        for group, members in self._groups().items():
+            held = [one.ok for one in members if one.ok is not None]
+            rows.append((_MARKS[all(held)], group, f"{sum(map(bool, held))} of {len(held)} checks hold", "", ""))
+        return view(self.headline, rows)
+
     @property
     def ok(self) -> bool:
         return not self.failed

@@ -62,8 +62,11 @@ def over_impacts(found: Stress) -> Figure:
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
         axes.set_yticks(range(0, 91, 15))
     left.set_ylabel("impact angle (deg)")
+    left.set_title("agreement between engines")
+    right.set_title("cost of one collision")
+    figure.suptitle(f"{len(sampled)} randomly sampled scenes, computed by every engine", fontsize=11)
     handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=5, frameon=False)
+    figure.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False)
     return figure
 
 
@@ -116,6 +119,7 @@ def near(found: Stress) -> Figure:
         xlabel="relative distance from where a doublet begins to escape, in St",
         ylabel="CPU time (ms)",
     )
+    figure.suptitle("CPU time of a collision beside a boundary of escape", fontsize=11)
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     if beside:
         axes.invert_xaxis()
