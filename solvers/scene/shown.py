@@ -4,18 +4,28 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import Protocol
 
 from ..formatting.notebook import view
-
-if TYPE_CHECKING:
-    from .scene import Scene
+from .schema import Field
+from .system import System
 
 _WIDTH = 100  # characters of a line
 _VALUE = 16  # at least, of a value
 
 Row = tuple[str, str, str]
+
+
+class Scene(System, Protocol):
+    """What is shown of a `Scene`."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def comments(self) -> tuple[tuple[str, str], ...]: ...
+    @property
+    def fields(self) -> Mapping[str, Field]: ...
 
 
 def entries(scene: Scene) -> list[Row]:

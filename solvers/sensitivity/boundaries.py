@@ -19,7 +19,7 @@ from ..scene.schema import SPEEDS
 from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
-from .result import Row
+from .results import Row
 
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ...generated.automaton import STICK
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
-from .results import QUANTITIES
+from .results import QUANTITIES, Row
 
 if TYPE_CHECKING:
     import xarray
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
     from .boundaries import BoundarySensitivities
 
-Row = Mapping[str, float | None]
 _OF_A_STICK = (
     "a stick: its restitution is 0, and nothing else of it is defined, up to the boundary of sticking;",
     "that boundary and its sensitivities: `wetdoublet boundary SCENE --wrt NAMES`, or .boundary() in Python",
