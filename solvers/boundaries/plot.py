@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,8 +18,6 @@ from ...generated.automaton import OUTCOMES
 from ..collision.text import degrees, name_of, prefix
 from ..errors import InputError
 from ..formatting import ticks
-from ..host.files import save
-from ..host.outputs import PICTURES, check_file
 from ..many.plot_map import COLOURS
 from ..settings import RTOL
 from .atlas_curves import LINES, curves_of
@@ -34,7 +31,6 @@ if TYPE_CHECKING:
 _PALE = 0.45  # darker variants of the map's colours, for lines and text
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _INK, _NOTE = "#202020", "#6E6E6E"
-_DPI = 150
 _LETTERS = ("S", "SRS", "B")
 _MARKS = {
     "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "corner": "D", "criterion change": "D",
@@ -43,16 +39,11 @@ _MARKS = {
 _MOST_DOTS = 60  # most lines whose changes are marked
 
 
-def plot(found: Lines, file: str | Path) -> None:
-    """Write the figure of boundaries: .png, .pdf or .svg.
-
-    Raises:
-        InputError: another kind of file, or boundaries without their scene.
-    """
-    check_file(file, "file", PICTURES)
+def plot(found: Lines) -> Figure:
+    """The picture of boundaries; InputError if they do not say whose they are."""
     if found.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
-    save(draw(found.scene, found), file, dpi=_DPI)
+    return draw(found.scene, found)
 
 
 def draw(scene: Scene, found: Lines) -> Figure:

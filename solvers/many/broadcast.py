@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
+from ..host.pictures import register
 from .results import RESULTS
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ class Layout:
         """The Dataset of flat columns: variables over all dimensions, coordinates over those that they have."""
         import xarray as xr
 
+        register()
         named: dict[str, Any] = {}
         for label, (_, flat, said) in coordinates.items():
             name = label if "." in label else f"impact.{label}"

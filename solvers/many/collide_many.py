@@ -20,6 +20,7 @@ from ..errors import ComputationError, InputError, WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
+from ..host.pictures import register
 from ..host.workers import undisturbed, workers
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
@@ -296,6 +297,7 @@ def as_dataset(
         layout: how they are laid out; None: over `collision`.
         engine: which answered, if it is not the request's.
     """
+    register()
     along = ("collision",)
     coordinates: dict[str, Column] = {}
     if request.stokes is not None:

@@ -18,6 +18,7 @@ from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
+from ..host.pictures import register
 from ..model.validity import warn
 from ..scene.groups import si_values
 from ..scene.quantities import normal_speed
@@ -219,6 +220,8 @@ def _version() -> str:
 
 def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
     import xarray as xr
+
+    register()
 
     def shaped(values: np.ndarray) -> np.ndarray:
         return values.reshape(grid.shape)

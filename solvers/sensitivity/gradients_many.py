@@ -17,6 +17,7 @@ from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
+from ..host.pictures import register
 from ..many.batch import validated_batch
 from ..many.results import FAILED, outcome_attributes
 from ..model.validity import warn
@@ -290,6 +291,7 @@ def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
 
 
 def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
+    register()
     reference = asked.reference()
     with np.errstate(divide="ignore", invalid="ignore"):
         elasticity = asked.gradient * reference / asked.value[:, :, None]

@@ -13,6 +13,7 @@ from ..scene.schema import SPEEDS
 from .results import QUANTITIES, Row
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray
 
     from ..scene.scene import Scene
@@ -154,6 +155,22 @@ class Sensitivities:
         attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
         return xr.Dataset(variables, coordinates, attributes)
 
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each result and parameter: value, gradient, elasticity and the parameter's own value."""
+        from ..formatting.frames import frame
+
+        pairs = [(name, p) for name in self.value for p in self.parameters]
+        return frame(
+            {
+                "quantity": [name for name, _ in pairs],
+                "parameter": [p for _, p in pairs],
+                "value": [self.value[name] for name, _ in pairs],
+                "gradient": [self.gradient[name][p] for name, p in pairs],
+                "elasticity": [self.elasticity[name][p] for name, p in pairs],
+                "reference": [self.reference[p] for _, p in pairs],
+            }
+        )
+
     def __str__(self) -> str:
         names = list(self.value)
         blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
@@ -227,15 +244,10 @@ class Sensitivities:
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
-        from ..host.files import save
-        from ..host.outputs import PICTURES, check_file
+        from ..host.pictures import saved
         from .tornado import draw
 
-        file = None if path is None else check_file(path, "path", PICTURES)
-        figure = draw(self)
-        if file is not None:
-            save(figure, file, dpi=150)
-        return figure
+        return saved(lambda: draw(self), path)
 
 
 def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
+from ..host.pictures import register
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
 from ..many.results import QUANTITIES as MANY
@@ -120,6 +121,7 @@ def band(
     """
     import xarray as xr
 
+    register()
     over, of = check_name(over, _OVER, "over"), check_name(of, tuple(MANY), "of")
     loaded = Scene.load(scene)
     check_mapping(uncertainty, "uncertainty", "standard deviations by dotted name")

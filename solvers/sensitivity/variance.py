@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
+from ..host.pictures import register
 from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..many.results import QUANTITIES as MANY
@@ -57,6 +58,7 @@ def sobol_indices(
     """
     import xarray as xr
 
+    register()
     loaded = Scene.load(scene)
     names = check_wrt(loaded, tuple(check_mapping(ranges, "ranges", "(low, high) by dotted name")), "ranges")
     rtol, of, samples, seed = (

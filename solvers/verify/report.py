@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray
 
 WIDTH = 100
+_COLUMNS = ("group", "name", "statement", "figure", "bound", "ok", "where")
 _MARKS = {True: "ok", False: "FAIL", None: "note"}
 _MARK = 6  # width of the mark on the left, characters
 _LONGEST = 200  # characters of the failure in the first line
@@ -73,6 +78,39 @@ class Report:
             held = [one.ok for one in members if one.ok is not None]
             rows.append((_MARKS[all(held)], group, f"{sum(map(bool, held))} of {len(held)} checks hold", "", ""))
         return view(self.headline, rows)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Whether all checks hold, and every finding by its attributes."""
+        return {"ok": self.ok, "summary": self.headline, "findings": [asdict(one) for one in self.findings]}
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each finding: group, name, statement, figure, bound, ok, where."""
+        from ..formatting.frames import frame
+
+        return frame({name: [getattr(one, name) for one in self.findings] for name in _COLUMNS})
+
+    def to_dataset(self) -> xarray.Dataset:
+        """The findings over `check`; `ok` is 1, 0, or -1 for a note."""
+        import xarray as xr
+
+        texts = {name: ("check", [getattr(one, name) for one in self.findings]) for name in _COLUMNS if name != "ok"}
+        held = [-1 if one.ok is None else int(one.ok) for one in self.findings]
+        return xr.Dataset({**texts, "ok": ("check", held)})
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw what e_n^2 - 1 is made of; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+
+        Raises:
+            InputError: the report is of all presets, and of no one scene.
+        """
+        from ..host.pictures import plot
+
+        if self.budget is None:
+            raise InputError("scene", None, "the report on one scene", "is missing: there is no one budget to draw")
+        return plot(self.budget, path)
 
     @property
     def ok(self) -> bool:
