@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
-from ..scene.ranges import parse_range
 from ..scene.schema import FIELDS
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
@@ -134,7 +133,7 @@ def command(
 
 
 def _trajectory(
-    scene: Scene, wrt: str | None, rtol: float, engine: str | None, hold: str
+    scene: Scene, wrt: str | None, rtol: float, engine: str | None, hold: str | None
 ) -> tuple[xarray.Dataset, str]:
     """Sensitivities over time, and a table of how the events move."""
     from ..sensitivity.parameters import check_wrt
@@ -160,30 +159,24 @@ def _band(
 
     name, equals, text = over.partition("=")
     name = name.strip().removeprefix("impact.")
-    accepted = "stokes=RANGE, speed=RANGE or angle=RANGE"
-    if not equals or name not in ("stokes", "speed", "angle"):
-        raise InputError("--over", over, accepted)
+    units = {"stokes": "", "speed": " (m/s)", "relative_speed": " (m/s)", "angle": " (deg)"}
+    if not equals or name not in units:
+        raise InputError("--over", over, ", ".join(f"{each}=RANGE" for each in units))
     if not uncertain:
         raise InputError("--uncertainty", None, 'NAME=VALUE, such as liquid.viscosity="5 %", with --over')
     if len(of) != 1:
         raise InputError("--of", ",".join(of), "one result with --over")
     entry = FIELDS[f"impact.{name}"]
-    values = (
-        options.angles(text, "--over")
-        if name == "angle"
-        else parse_range(text, "--over", lambda end: entry.number(end, label="--over"))
-    )
+    values = options.entry_range(entry, text, "--over")
     more: Any = {} if rtol is None else {"rtol": rtol}
     found = band(scene, _assigned(uncertain), entry.name, values, of=of[0], **more)
-    unit = {"angle": "deg", "speed": "m/s", "stokes": "1"}[name]
-    lines = [
-        f"{name + f' ({unit})' * (unit != '1'):<14} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"
-    ]
+    label = f"{name.replace('_', ' ')}{units[name]}"
+    lines = [f"{label:<20} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"]
     columns = (found[of[0]], found.first_order, found.low, found.high)
     for k, value in enumerate(values):
         cells = [f"{float(column[k]):.6g}" for column in columns]
         shown = math.degrees(value) if name == "angle" else value
-        lines.append(f"{shown:<14.6g} {cells[0]:>16} {cells[1]:>16} {cells[2]:>12} {cells[3]:>12}")
+        lines.append(f"{shown:<20.6g} {cells[0]:>16} {cells[1]:>16} {cells[2]:>12} {cells[3]:>12}")
     return found, "\n".join(lines)
 
 

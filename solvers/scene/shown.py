@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator, Mapping
+from textwrap import shorten
 from typing import Protocol
 
 from ..formatting.notebook import view
@@ -52,8 +53,12 @@ def text(scene: Scene) -> str:
     lines = [scene.name or "unnamed scene"]
     for rows in blocks:
         lines.append("")
-        lines += [f"  {row[0]:<{name}}  {row[1]:<{value}}  {row[2]}".rstrip()[:_WIDTH] for row in rows]
+        lines += [_line(f"  {row[0]:<{name}}  {row[1]:<{value}}  ", row[2]) for row in rows]
     return "\n".join(lines)
+
+
+def _line(entry: str, remark: str) -> str:
+    return (entry + shorten(remark, max(_WIDTH - len(entry), 20), placeholder=" ...")).rstrip()
 
 
 def html(scene: Scene) -> str:

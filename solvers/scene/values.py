@@ -113,7 +113,7 @@ def carries_unit(values: Any) -> bool:
     if isinstance(values, str):
         return not is_number(values)
     unit = _unit(values)[0]
-    return unit is not None and unit.strip() not in ("", "1", "dimensionless")
+    return unit is not None and unit.strip() not in ("", "1", "dimensionless", "percent", "%")
 
 
 def _unit(value: Any) -> tuple[str | None, Any]:

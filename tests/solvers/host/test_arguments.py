@@ -83,7 +83,10 @@ FUNCTIONS = {
 }
 ARGUMENTS = [(name, each) for name in FUNCTIONS for each in inspect.signature(getattr(public, name)).parameters]
 FINE = [("progress", "a class"), ("slow", "a class")]  # what happens to be right
-SHAPED = [(f"collide_many.{argument}", "an array in three dimensions") for argument in ("stokes", "speed", "angle")]
+SHAPED = [
+    (f"collide_many.{argument}", "an array in three dimensions")
+    for argument in ("stokes", "speed", "relative_speed", "angle")
+]
 # by the entry that they are values of, or that there is none of
 NAMED = {"values": "impact.stokes", "span": "impact.angle", "vary": "nonsense", "over": "nonsense"}
 

@@ -168,5 +168,5 @@ def test_a_stick_points_to_its_boundary() -> None:
     found = stick.boundary()
     assert found.parameters == ("liquid.viscosity",)
     expected = boundary_sensitivities("granulation", angle=stick.scene.angle, wrt="liquid.viscosity")
-    assert found.to_dict() == expected.to_dict()
+    assert found.to_dict()["changes"] == expected.to_dict()["changes"]
     assert found.changes[0][0].change.before == "stick"
