@@ -140,3 +140,12 @@ def test_what_does_not_go_together_is_refused(line: str, says: str) -> None:
     done = run("sensitivity", "granulation", *line.split())
     assert (done.exit_code, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
     assert done.stderr.startswith(says)
+
+
+def test_sobol_indices_are_drawn() -> None:
+    """A pair of bars for each parameter, the largest total index on top."""
+    columns = {name: ("parameter", [0.1, 0.7]) for name in ("first", "total", "first_within", "total_within")}
+    found = xr.Dataset(columns, {"parameter": ["a", "b"]}, {"of": "restitution", "collisions": 8})
+    (axes,) = plot(found).axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["a", "b"]
+    assert [bar.get_width() for bar in axes.patches] == [0.1, 0.7, 0.1, 0.7]
