@@ -18,8 +18,9 @@ from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
+from ..host.pictures import register
 from ..many.batch import validated_batch
-from ..many.collide_many import FAILED, outcome_attributes
+from ..many.results import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
@@ -290,6 +291,7 @@ def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
 
 
 def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
+    register()
     reference = asked.reference()
     with np.errstate(divide="ignore", invalid="ignore"):
         elasticity = asked.gradient * reference / asked.value[:, :, None]

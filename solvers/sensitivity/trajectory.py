@@ -18,6 +18,7 @@ from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, qu
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine
 from ..errors import ComputationError, InputError
+from ..host.pictures import register
 from ..host.thread_caches import own_cache
 from ..model.model import select_model
 from ..model.phases import Flow, expressions
@@ -80,6 +81,7 @@ def trajectory_sensitivities(
     """
     import xarray as xr
 
+    register()
     rtol, plugin = check_rtol(rtol), casadi_gradient_engine(check_plugin(engine))
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     hold = hold_of(loaded, hold)
@@ -107,6 +109,7 @@ def trajectory_sensitivities(
         "time": ("time", np.concatenate([piece[0] for piece in pieces]), {"units": "s"}),
         "phase": ("time", np.concatenate([np.full(piece[0].size, piece[3]) for piece in pieces])),
         "parameter": list(names),
+        "reference": ("parameter", [problem.value_of(name) for name in names], {"long_name": "its own value, SI"}),
         "event": [name for name, *_ in events],
     }
     return xr.Dataset(data, coordinates, {"outcome": path.outcome, "engine": plugin, "hold": hold, "rtol": rtol})

@@ -12,7 +12,8 @@ from itertools import pairwise
 import numpy as np
 
 from ..engines.choice import boundary_engine
-from ..many.collide_many import FAILED, collide_many
+from ..many.collide_many import collide_many
+from ..many.results import FAILED
 from ..scene.scene import Scene
 
 _FINER = 16  # scan steps per grid step with the kernel

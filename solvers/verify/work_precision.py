@@ -14,7 +14,8 @@ from ..collision.collide import collide
 from ..engines.choice import available_engines
 from ..errors import ComputationError
 from ..host.environment import one_core
-from ..many.collide_many import FAILED, collide_many
+from ..many.collide_many import collide_many
+from ..many.results import FAILED
 from ..scene.scene import Scene
 from .stress.answers import Impact
 
