@@ -1,8 +1,10 @@
 """A collision as a hybrid automaton: modes, events with their guards and effects, rules, ends and report words.
 
-Plain data. `derive/emit/` writes it for the CasADi engine, for the kernel and for the documentation, and nothing of it
-is written down elsewhere. An event is a guard (functions of the emitted structures, where they are watched), a
-word and a list of actions, so a further event is a further row.
+Plain data, which `derive/emit/` writes for the CasADi engine, for the kernel and for the documentation. An event is a
+guard (functions of the emitted structures, where they are watched), a word and a list of actions. The CasADi engine
+interprets all of it. In the kernel numbers, words and effects are emitted; its guards are written by hand in `events.h`
+and its rules in `transitions.h`. Tests hold them to this table: where each event is watched, which of coincident ones
+counts, and that both engines decide alike.
 """
 
 from __future__ import annotations

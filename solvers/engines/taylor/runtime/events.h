@@ -1,4 +1,8 @@
-/* The first event of a step in each lane: bounds first, Bernstein coefficients next, isolation last. */
+/* The first event of a step in each lane: bounds first, Bernstein coefficients next, isolation last.
+ *
+ * The guards of derive/equations/automaton.py. Of coincident events the one that is looked for first counts, so the calls
+ * of `look` stand in the order of its table.
+ */
 #pragma once
 
 #include "model.h"
