@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 0ee71c1255360de299c9194ccfc0f013b0281ebd4eeecd168622998158dc36f3
+# Automaton sha256 d862415ab9ddacdfb312909459e93d6ae7e460a76fad826ec34ac7f13cd1e1c1
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 CLOSING, OPENING = -1, 1
 
-STICK = "stick"  # it is proved that the two never separate, or the collision is cut off
+STICK = "stick"  # a certificate excludes separation, or the collision is cut off
 ROTATE = "stick-rotate-separate"  # separated, and no rebound criterion was met
 BOUNCE = "bounce"  # separated after a rebound criterion was met
 OUTCOMES = (STICK, ROTATE, BOUNCE)  # by number
@@ -25,7 +25,7 @@ class EventKind(IntEnum):
     FELL_BACK = 4  # the normal velocity falls through zero
     FILM_EDGE = 5  # the gap passes x0
     TANGENTIAL_EDGE = 6  # the gap passes the reach of the tangential force
-    RESTS = 7  # a rebound too weak to leave is taken for resting contact
+    RESTS = 7  # a rebound too weak to open the gap is replaced by resting contact
     RELEASED = 8  # the normal force on a resting doublet turns outward
     RUPTURE = 9  # the bridge ruptures; without a bridge, the films part
     ROTATION_REVERSES = 10  # the strings turn the rotation back
@@ -63,21 +63,21 @@ CRITERIA = {  # by word, in the order in which they apply on entry
         contact=False,
         symbol="",
         removed_by=None,
-        sentence="rebound by the glass criterion, the liquid's own pressure",
+        sentence="rebounded because the film pressure reached the liquid's glass transition",
     ),
     "elastic": Criterion(
         limit="elastic_gap",
         contact=True,
         symbol="x_r",
         removed_by=("youngs_modulus", 1e+300),
-        sentence="rebound by the elastic criterion, the spheres' deformation",
+        sentence="rebounded because the spheres were deformed elastically",
     ),
     "rough": Criterion(
         limit="rough_gap",
         contact=True,
         symbol="x_b",
         removed_by=("roughness", 0.0),
-        sentence="rebound by contact of the surfaces' roughness",
+        sentence="rebounded because the surfaces touched at their roughness",
     ),
 }
 
@@ -86,10 +86,10 @@ class Status(IntEnum):
     """What the kernel says of a collision; up to LAST_ANSWER its outcome stands."""
 
     DECIDED = 0  # the outcome is decided
-    PROVED_AT_TOUCH = 1  # a stick that is proved at initial contact
-    NO_BUDGET = 2  # the steps are spent
+    PROVED_AT_TOUCH = 1  # a stick with a certificate at initial contact
+    NO_BUDGET = 2  # the budget of steps is exhausted
     NOT_FINITE = 3  # the state is not finite
-    CHATTER = 4  # the steps are spent in more than CHATTER_PHASES phases
+    CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
 
 
@@ -99,19 +99,19 @@ LAST_ANSWER = Status.PROVED_AT_TOUCH
 class Purpose(IntEnum):
     """What the kernel integrates a collision for."""
 
-    WHOLE = 0  # to its end
-    APPROACH = 1  # until it turns or is reversed; without the glass criterion, and nothing is proved
-    ESCAPE = 2  # until it separates, falls back or rests; proved a stick only while it approaches
+    WHOLE = 0  # to the end of the collision
+    APPROACH = 1  # to the first turning point or rebound; without the glass criterion and certificates
+    ESCAPE = 2  # until the doublet separates, falls back or rests; with certificates only while it approaches
 
 
-REST_SPEED = 1e-09  # of v0: a slower rebound into an inward force rests
-MOST_OBLIQUE = 1000000000.0  # of v0^2/x0: a larger centrifugal force turns the motion within rounding of x0
-LOOSEST = 1e-06  # relative tolerance: a looser one is tightened to it, or sticks stay unproved
-SAFETY = 30.0  # a proof holds by more than this many times the tolerance of the largest energy: an error made when the motion was fastest stays in it, and errors of many steps add up
-CHATTER_PHASES = 100  # phases: more are rebound after rebound, and no approach and escape
-FILM_DEPTHS = 16  # steps of equal ratio from the gap to contact, at each of which the film certificate bounds the pressure
-ATTRACTED_FILM_DEPTHS = 48  # the same beside an attraction, which a small gap makes large
-LEAST_DEPTH = 1e-40  # of the gap: where no contact is met, the film certificate looks no deeper
+REST_SPEED = 1e-09  # in v0: a slower rebound against an inward force rests
+MOST_OBLIQUE = 1000000000.0  # in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0
+LOOSEST = 1e-06  # largest relative tolerance; a larger one is reduced to it, as certificates need it
+SAFETY = 30.0  # least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up
+CHATTER_PHASES = 100  # number of phases beyond which a trajectory is treated as chatter
+FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film certificate bounds the pressure
+ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
+LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 
 class Event(NamedTuple):

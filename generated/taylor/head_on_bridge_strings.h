@@ -243,7 +243,7 @@ static inline void start(const constants *c, vec *y)
     y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -252,7 +252,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[NORMAL_VELOCITY] = normal_velocity_2;
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -280,7 +280,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 1 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -288,8 +288,8 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 }
 
 #define POTENTIAL 1
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -300,8 +300,8 @@ static inline vec potential_energy(const constants *c, const vec *y)
     return energy;
 }
 
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_slope(const constants *c, const vec *y)
 {
     (void)c; (void)y;

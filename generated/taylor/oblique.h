@@ -253,7 +253,7 @@ static inline void start(const constants *c, vec *y)
     y[SPIN] = splat(0.0);
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -264,7 +264,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[SPIN] = y[SPIN];
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -295,7 +295,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -310,8 +310,8 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 }
 
 #define POTENTIAL 1
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -325,8 +325,8 @@ static inline vec potential_energy(const constants *c, const vec *y)
     return energy;
 }
 
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_slope(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -344,7 +344,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
-/* The state that has this least energy: at rest in the gap, turning as one body. */
+/* The state with this least energy: no normal velocity, rigid rotation. */
 static inline vec rigid_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -357,7 +357,7 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
     return orbital_momentum_2;
 }
 
-/* The state that has this least energy: at rest in the gap, turning as one body. */
+/* The state with this least energy: no normal velocity, rigid rotation. */
 static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
 {
     (void)c; (void)y;
@@ -372,7 +372,7 @@ static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
     rigid[SPIN] = spin_2;
 }
 
-/* Angular momentum over its start value. */
+/* Angular momentum over its initial value. */
 static inline vec angular_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -409,7 +409,7 @@ static inline vec rebound_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* Angular momentum over its start value. */
+/* Angular momentum over its initial value. */
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;

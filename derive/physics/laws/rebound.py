@@ -1,4 +1,4 @@
-"""Where the solids make an approach rebound: elastic length and roughness (the glass criterion is its own law)."""
+"""Gaps at which the solids make an approach rebound: elastic length and roughness (the glass criterion is a law)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,5 @@ def elastic_compliance() -> sp.Expr:
 
 
 def elastic_length() -> sp.Expr:
-    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which the film's pressure has stored the motion as
-    elastic energy (ELASTIC_SOURCE).
-    """
+    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which elastic deformation stops the approach."""
     return (3 * sp.pi * elastic_compliance() * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)

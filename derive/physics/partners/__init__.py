@@ -1,4 +1,4 @@
-"""What an unequal partner changes: another sphere (`pair`, from `bodies` and `rolling`), or a wall as its limit."""
+"""Unequal partners: another sphere (`pair`, from `bodies` and `rolling`), or a wall as its limit."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .base import Rotation
 
 
 def rotation(partner: str) -> Rotation:
-    """What the equations of a structure take from its partner, "pair" or "wall"."""
+    """The rotation of a structure with partner "pair" or "wall", for its equations."""
     return pair.rotation() if partner == "pair" else wall.rotation()
 
 
