@@ -55,8 +55,8 @@ class Certificate:
 def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> Certificate:
     """The certificate of a structure with these laws (slot -> law; where left out, the default).
 
-    Its preconditions: solids, film and shear only dissipate; bridge and strings have a potential; the angular momentum, if
-    there is any, is among the invariants found; and the potential has a barrier.
+    Its preconditions: solids, film and shear only dissipate; bridge and strings have a potential; the angular momentum,
+    if there is any, is among the invariants found; and the potential has a barrier.
     """
     chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
     checks = [film_dissipates(chosen["film"]), rebound_dissipates()[1]]

@@ -1,4 +1,4 @@
-"""Stick certificate by energy: its energy is the least one at fixed angular momentum, and its slope that of the energy."""
+"""Energy certificate: its energy is the least one at fixed angular momentum, and its slope that of the energy."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .closed import slope_along
 
 
 def least_energy() -> Check:
-    """The certificate's energy is L^2/(2 I) (+ U_s), and its slope the derivative at fixed L plus the bridge's force."""
+    """The certificate's energy is L^2/(2 I) (+ U_s), its slope the derivative at fixed L plus the bridge force."""
     left = []
     for structure in structures():
         model = derive(structure)

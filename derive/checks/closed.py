@@ -1,4 +1,4 @@
-"""A model's emitted expressions in closed form: intermediates substituted, laws filled, derivatives through the laws."""
+"""A model's emitted expressions in closed form: intermediates substituted, laws filled, derivatives through laws."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
     return {state: model.expanded(named[state.name]) for state in model.states}
 
 
-SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")  # the sizes of an unequal pair are kept as names
+# of an unequal pair, kept as symbols
+SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
 
 
 def opened(model: Model, expression: sp.Expr) -> sp.Expr:

@@ -67,7 +67,7 @@ def film_dissipates(law: Law) -> Check:
 
 @cache
 def shear_dissipates(law: Law, lever: Law) -> Check:
-    """The power of the shear, F_t (r omega - 2 arm xi), is not negative inside its edge, for an arm that conserves L."""
+    """The power of the shear, F_t (r omega - 2 arm xi), is not negative inside its edge if the arm conserves L."""
     rate = filled(_taken(derive(_OBLIQUE), "tangential_lubrication"), {"shear": law, "arm": lever})
     sign = nonnegative(rate, gap, law["edge"](aspect))
     statement = "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
@@ -76,7 +76,7 @@ def shear_dissipates(law: Law, lever: Law) -> Check:
 
 @cache
 def torque(lever: Law) -> sp.Expr:
-    """dL/dt of a free doublet for an arm, in SI and in terms of F_t: the torque on the orbit plus those on both spins."""
+    """dL/dt of a free doublet for an arm, in SI and in terms of F_t: the torques on the orbit and on both spins."""
     motion = equations_of_motion()
     whole = motion.orbital_momentum_rate.subs(S_t, 0) + 2 * sphere_inertia() * motion.spin_acceleration
     return sp.factor(sp.expand(filled(whole.subs(arm, force_laws()[arm]), {"arm": lever})))
@@ -126,9 +126,9 @@ def angular_momentum(lever: Law) -> Check:
 
 
 def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """The power of the shear for an arm that does not conserve L: both ends of the xi/omega with negative power, and its least.
+    """The power of the shear for an arm that does not conserve L, where it is negative in xi/omega, its least.
 
-    In SI, at given omega and gap inside the edge; the least is half-way between the ends.
+    In SI, at given omega and gap inside the edge; the least is half-way between the ends of the range.
     """
     ratio, log_factor = sp.Symbol("ratio", real=True), sp.Symbol("log_factor", positive=True)
     force = force_laws()[F_t].subs(SHEAR, 1)
@@ -173,7 +173,7 @@ def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
 
 @cache
 def bridge_does_work() -> Check:
-    """The bridge force depends on the gap only, so that it has a potential W_c(x), the same while closing and opening."""
+    """The bridge force depends on the gap only, so it has a potential W_c(x), the same while closing and opening."""
     left = []
     for structure in structures():
         if structure.bridge:

@@ -1,4 +1,4 @@
-"""Emitted functions other than the right-hand side: resting contact, events, momentum, outputs, against SI definitions."""
+"""Emitted functions besides the right-hand side, against SI definitions: resting contact, events, momentum, outputs."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def normalisation_of_the_paper() -> Check:
 
 
 def number_of_groups() -> Check:
-    """Buckingham: the number of independent groups is that of the quantities minus the rank of their dimension matrix."""
+    """Buckingham: as many independent groups as quantities minus the rank of their dimension matrix."""
     motion = {time, x, u, omega, xi, omega0}
     used = {s for group in group_definitions().values() for s in group.free_symbols}
     given = [q.symbol for q in VOCABULARY.values() if any(q.dimension.exponents) and q.symbol in used - motion]

@@ -81,7 +81,7 @@ def small_angle_is_linear() -> Check:
 
 
 def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """Head-on with a film only, u = -v0 (1 - Lf(s)/St) solves the emitted equations; Lf is the integral of resistance."""
+    """Head-on with a film only, u = -v0 (1 - Lf(s)/St) solves the emitted equations, Lf the integral of resistance."""
     head_on = next(s for s in structures() if not (s.oblique or s.bridge or s.strings))
     model = derive(head_on)
     closing, film_flag, stokes = model.states[1], sp.Symbol("film", nonnegative=True), model.groups[0]

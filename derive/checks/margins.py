@@ -50,7 +50,7 @@ def margins_are_the_lemmas() -> tuple[Check, ...]:
     emitted = {name: model.expanded(value) for name, value in model["pendulum_margins"].outputs}
     checks = []
     for name, (bound, words) in _bounds().items():
-        rest = sp.expand(emitted[name] - model.expanded(bound))  # both sides have the same Max and calls, so no simplification is needed
+        rest = sp.expand(emitted[name] - model.expanded(bound))  # same Max and calls: simplification not needed
         checks.append(
             Check(
                 f"margin of the stick proof: {name}",

@@ -23,7 +23,8 @@ from .base import Check, vanishing
 from .closed import emitted_rates, filled
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
-_P, _Q = sp.symbols("root_J root_xi", positive=True)  # square roots of momentum and spin, in which all expressions are rational
+# square roots of momentum and spin, in which all expressions are rational
+_P, _Q = sp.symbols("root_J root_xi", positive=True)
 _EDGE = sp.Symbol("edge", positive=True)  # centre distance over a beyond which no shear acts
 _CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
 _FULL = Structure(oblique=True, bridge=True, strings=False)
@@ -69,7 +70,7 @@ def _change(lever: str, energy: sp.Expr) -> sp.Expr:
 
 
 def midgap_takes() -> Check:
-    """Lever arm at mid-gap: d(margin)/dxi = -(32/5)(omega - xi) a^2, which F_t never increases; the energy is that of the slip."""
+    """Lever arm at mid-gap: d(margin)/dxi = -(32/5)(omega - xi) a^2, so that F_t never increases the margin."""
     ratio = _settled(_change("midgap", _midgap()) / (_P**2 / _NEAR**2 - _Q**2))
     ok = ratio.is_number and bool(ratio < 0)
     return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
@@ -93,7 +94,7 @@ def midgap_ends() -> Check:
 
 
 def surface_takes() -> Check:
-    """Lever arm at the surface: the same sign at every distance r <= d of the exchange, for rho between 4 and d, d - rho <= 4.
+    """Lever arm at the surface: the same sign at every distance r <= d, for rho between 4 and d, d - rho <= 4.
 
     r d(margin)/dxi is quadratic in r; omega = xi at r = rho is one root, (rho xi/(dh/dJ)) the other, where h is the
     slip energy less J^2/(2 d^2). The sign is the dissipative one while dh/dJ < xi rho/r.

@@ -173,8 +173,8 @@ def slip_energy_adds() -> Check:
 def wall_is_head_on() -> Check:
     """Beside a wall the motion along the line of centres is the head-on one, independent of the tangential motion.
 
-    Its rates, its events and its certificate are those of the head-on structure, expression by expression: a stick, bounce
-    or certificate of the head-on structure is one of the oblique structure.
+    Its rates, its events and its certificate are those of the head-on structure, expression by expression: a stick,
+    bounce or certificate of the head-on structure is one of the oblique structure.
     """
     beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
     rates, expected = emitted_rates(beside), emitted_rates(alone)

@@ -77,7 +77,7 @@ def _positive(expression: sp.Expr) -> bool | None:
 
 
 def orbital_momentum_is_bounded() -> Check:
-    """J decreases wherever it exceeds its share of L in rigid rotation, and that share grows with the gap and with L."""
+    """J decreases where it exceeds its share of L in rigid rotation, and that share grows with the gap and with L."""
     model = _model()
     momentum = orbital_momentum + sp.Rational(32, 5) * spin
     share = rigid_momentum(momentum, DISTANCE)
@@ -114,7 +114,7 @@ def pull_grows() -> tuple[Check, ...]:
         pull = filled(pull_at(gap, beta), {"strings": law}).subs(sp.sin(beta / 2), _HALF)
         # 2 * stiffness'/stiffness^3 > 0 and swing' > 0, numerator' > 0: written out in d(pull)
         stiffness = law["stiffness"].result
-        hanging = sp.Symbol("hanging", positive=True)  # string_ratio^2 - offset_squared, the square of the strings' vertical extent
+        hanging = sp.Symbol("hanging", positive=True)  # vertical extent squared, string_ratio^2 - offset_squared
         steeper = stiffness.diff(offset_squared).subs(offset_squared, string_ratio**2 - hanging)
         swing = (aspect * gap) ** 2 / 4 + (4 + aspect * gap) * 4 * _HALF**2
         across = sp.simplify(pull / stiffness.subs(offset_squared, swing))
@@ -139,7 +139,7 @@ def centrifugal_falls() -> Check:
 
 
 def film_stops() -> Check:
-    """While opening against an inward force, u - stopping(gap)/St never grows: `stopping` is the resistance's integral."""
+    """While opening against an inward force, u - stopping(gap)/St never grows."""
     law = LAWS["film"]["finite"]
     left = [
         law["stopping"].result.diff(gap) + law["resistance"].result,

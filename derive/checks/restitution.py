@@ -37,8 +37,8 @@ _work = sp.Symbol("W_c", real=True)  # of the bridge, W_c(x_f) - W_c(x0)
 def ceiling() -> sp.Expr:
     """Upper bound of e_n^2 of a free doublet from L and the ledger, keeping W_c and dropping every other loss, in SI.
 
-    e_n^2 m v0^2/2 = T(0) - T_rot(t_f) - W_c - losses. Among all (omega_f, xi_f) with the initial L, the one with the least
-    rotational energy is used: a stationary point, and a minimum because the energy is convex.
+    e_n^2 m v0^2/2 = T(0) - T_rot(t_f) - W_c - losses. Among all (omega_f, xi_f) with the initial L, the one with the
+    least rotational energy is used: a stationary point, and a minimum because the energy is convex.
     """
     motion, at_start = equations_of_motion(), start_values()
     energy, momentum = motion.kinetic_energy, motion.angular_momentum
@@ -81,9 +81,9 @@ def ceiling_is_the_published() -> Check:
 def decomposition() -> Check:
     """e_n^2 - 1 is the rotational energy released minus all losses, over m v0^2/2: exactly the ledger.
 
-    Both sides vanish at the start. The emitted equations and energy_rates keep them equal along the trajectory, the emitted
-    jump and rebound_loss at a rebound. The energy released is rotational, and the normal part of T is e_n^2/2, at all
-    times.
+    Both sides vanish at the start. The emitted equations and energy_rates keep them equal along the trajectory, the
+    emitted jump and rebound_loss at a rebound. The energy released is rotational, and the normal part of T is e_n^2/2,
+    at all times.
     """
     left = []
     for structure in structures():
@@ -100,7 +100,8 @@ def decomposition() -> Check:
         open_by = normal_velocity**2 - 1 - 2 * released
         left.append(open_by.subs(start, simultaneous=True))
         left.append(open_by.subs(jump, simultaneous=True) + 2 * lost - open_by)
-        left.append(energy_balance(structure))  # half its rate: normal_velocity^2/2 + the rotational energy is all of `kinetic`
+        # half its rate, since normal_velocity^2/2 + the rotational energy is `kinetic`
+        left.append(energy_balance(structure))
         left.append(turning.diff(normal_velocity))
     return vanishing(
         "decomposition of e_n^2 - 1",

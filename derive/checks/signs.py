@@ -25,9 +25,9 @@ class Sign:
 def nonnegative(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
     """Proof that `expression` is >= 0 for 0 < variable <= edge, other symbols by their own assumptions.
 
-    The proof uses the expression as given, or with variable = edge/(1 + y) or edge exp(-y), y >= 0, which is the same region: a product
-    of even powers, exponentials and nonnegative symbols, or a quotient of sums of such. If that fails it is evaluated
-    on a grid, where a negative value refutes it.
+    The proof uses the expression as given, or with variable = edge/(1 + y) or edge exp(-y), y >= 0, which is the same
+    region: a product of even powers, exponentials and nonnegative symbols, or a quotient of sums of such. If that fails
+    it is evaluated on a grid, where a negative value refutes it.
     """
     ways = (("", variable), (f"{edge}/(1 + y)", edge / (1 + _beyond)), (f"{edge} exp(-y)", edge * sp.exp(-_beyond)))
     for text, value in ways:
