@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 d862415ab9ddacdfb312909459e93d6ae7e460a76fad826ec34ac7f13cd1e1c1
+# Automaton sha256 2494fb43d2070fa203bae1558a4053afa79632f2f9b0f8d70311a40719591068
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ KINDS = (
 
 
 class Criterion(NamedTuple):
-    """A rebound criterion: the group at which it is met, whether that is a gap, what removes it, and its sentence."""
+    """A rebound criterion; `derive/equations/automaton.py` explains the fields."""
 
     limit: str
     contact: bool
@@ -83,7 +83,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
 
 
 class Status(IntEnum):
-    """What the kernel says of a collision; up to LAST_ANSWER its outcome stands."""
+    """Status returned by the kernel; up to LAST_ANSWER the outcome is valid."""
 
     DECIDED = 0  # the outcome is decided
     PROVED_AT_TOUCH = 1  # a stick with a certificate at initial contact
@@ -97,7 +97,7 @@ LAST_ANSWER = Status.PROVED_AT_TOUCH
 
 
 class Purpose(IntEnum):
-    """What the kernel integrates a collision for."""
+    """Part of a trajectory that the kernel integrates."""
 
     WHOLE = 0  # to the end of the collision
     APPROACH = 1  # to the first turning point or rebound; without the glass criterion and certificates
@@ -115,7 +115,7 @@ LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certi
 
 
 class Event(NamedTuple):
-    """A guard and its effect; `generated/automaton.md` explains them."""
+    """An event: its guard and its effect; `generated/automaton.md` explains them."""
 
     name: str
     functions: tuple[str, ...]
@@ -129,7 +129,7 @@ class Event(NamedTuple):
     chosen_by: str
 
 
-# Conditions on a part of the mode that are void where a structure lacks an event function.
+# Component of the mode -> event; conditions on it are ignored in structures without that event.
 VOID_WITHOUT = {
     "film": "film_edge",
 }

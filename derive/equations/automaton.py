@@ -29,13 +29,13 @@ class Component:
 
 COMPONENTS = (
     Component("film", ((1, "inside the film"), (0, "beyond the film")),
-              "1 if the gap is below x0, where the film acts", void_without="film_edge"),
+              "position of the gap relative to x0; the film acts below x0", void_without="film_edge"),
     Component("shear", ((1, "inside the tangential edge"), (0, "beyond the tangential edge")),
-              "1 if the gap is below the reach of the tangential force"),
+              "position of the gap relative to the reach of the tangential force"),
     Component("motion", ((CLOSING, "closing"), (OPENING, "opening")), "sign of the normal relative velocity"),
-    Component("resting", ((0, "moving"), (1, "resting")), "1 if the gap is held in contact"),
+    Component("resting", ((0, "moving"), (1, "resting")), "resting: the gap is held in contact"),
     Component("cavitated", ((0, "wetting"), (1, "cavitated")),
-              "1 if the film cavitates and exerts no force: a cavitating liquid while opening"),
+              "cavitated: the film exerts no force (a cavitating liquid while opening)"),
 )  # fmt: skip
 
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 d862415ab9ddacdfb312909459e93d6ae7e460a76fad826ec34ac7f13cd1e1c1
+ * Automaton sha256 2494fb43d2070fa203bae1558a4053afa79632f2f9b0f8d70311a40719591068
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -36,7 +36,7 @@
 #else
 #define LEDGER_STATES 0
 #endif
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, MODEL_STATES };
@@ -116,7 +116,7 @@ static inline void scale(constants *c, const vec *q)
     c->dry_restitution = q[SI_DRY_RESTITUTION];
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
@@ -156,8 +156,8 @@ typedef struct {
     vec turned[TERMS];
 #endif
 #if WITH_LEDGER
-    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
-    vec tangential_loss[TERMS]; /* energy taken by the tangential force, over m v0^2 */
+    vec normal_loss[TERMS]; /* energy dissipated by the normal force of the film, over m v0^2 */
+    vec tangential_loss[TERMS]; /* energy dissipated by the tangential force, over m v0^2 */
 #endif
     vec distance[TERMS];
     vec distance_squared[TERMS];
@@ -182,13 +182,13 @@ typedef struct {
     vec combination[TERMS];
     vec rate_of_tangential_loss[TERMS];
 #endif
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -231,7 +231,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];

@@ -31,7 +31,7 @@
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 1)
 #define LEDGER_STATES 0
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, MODEL_STATES };
@@ -95,7 +95,7 @@ static inline void scale(constants *c, const vec *q)
     c->dry_restitution = q[SI_DRY_RESTITUTION];
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->momentum = ((c->aspect + 4.0)*(c->aspect + 4.0));
@@ -142,13 +142,13 @@ typedef struct {
     vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -180,7 +180,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];
