@@ -1,4 +1,4 @@
-"""Chatter that has spent the kernel's steps: whether its last state is held for good, or the limit that it nears."""
+"""Chatter that has exhausted the kernel's steps: certificates for its last state, or the limit that it approaches."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from ...scene.scene import Scene
 def decide(
     answers: np.ndarray, scene: Scene, speed: np.ndarray, angle: np.ndarray, choice: ModelKey, rtol: float
 ) -> None:
-    """Make sticks of the collisions among `answers` whose last state is held by the momentum of the orbit.
+    """Decide as sticks the collisions among `answers` whose last state has an orbital-momentum certificate.
 
-    A doublet that circles in and out of its film loses less with every turn: thousands of turns decide nothing that
-    the last state does not. `shown` has that state from the normal velocity on.
+    A doublet that circles in and out of its film loses less with every turn, so further steps do not decide more than
+    the last state does. `shown` has that state from the normal velocity on.
     """
     for k in np.flatnonzero(answers["status"] == Status.CHATTER).tolist():
         told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
@@ -38,7 +38,7 @@ def limits(
     choice: ModelKey,
     rtol: float,
 ) -> list[bool | None]:
-    """Whether doublets that circle are held in the limit of many turns; None where that is not clear.
+    """For circling doublets, True if a certificate holds in the limit of many turns; None where that is not clear.
 
     Arguments:
         earlier, answers: of the same impacts after fewer steps and after more.
@@ -59,7 +59,7 @@ def _proof(
     found = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
     return (
         found if isinstance(found, OrbitalMomentumCertificate) and not model.strings else None
-    )  # strings may feed the slip
+    )  # strings may transfer energy to the slip
 
 
 def _state(proof: OrbitalMomentumCertificate, told: np.void) -> np.ndarray:
