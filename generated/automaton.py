@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 2494fb43d2070fa203bae1558a4053afa79632f2f9b0f8d70311a40719591068
+# Automaton sha256 e236f2a2c0873930264741171682290b6c6cc362ac631f7c88161715df8e8b08
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -63,21 +63,21 @@ CRITERIA = {  # by word, in the order in which they apply on entry
         contact=False,
         symbol="",
         removed_by=None,
-        sentence="rebounded because the film pressure reached the liquid's glass transition",
+        sentence="rebounded because the liquid reached its glass transition",
     ),
     "elastic": Criterion(
         limit="elastic_gap",
         contact=True,
         symbol="x_r",
         removed_by=("youngs_modulus", 1e+300),
-        sentence="rebounded because the spheres were deformed elastically",
+        sentence="rebounded by elastic deformation of the spheres",
     ),
     "rough": Criterion(
         limit="rough_gap",
         contact=True,
         symbol="x_b",
         removed_by=("roughness", 0.0),
-        sentence="rebounded because the surfaces touched at their roughness",
+        sentence="rebounded by contact at the surface roughness",
     ),
 }
 

@@ -64,12 +64,12 @@ class Criterion:
 # The order in which criteria that hold at the start of a closing phase apply: the first causes the rebound.
 CRITERIA = (
     Criterion("glass", "glass_number", "the film pressure on the axis reaches the glass-transition pressure",
-              "rebounded because the film pressure reached the liquid's glass transition", contact=False),
+              "rebounded because the liquid reached its glass transition", contact=False),
     Criterion("elastic", "elastic_gap", "the gap is down to the elastic length",
-              "rebounded because the spheres were deformed elastically", symbol="x_r",
+              "rebounded by elastic deformation of the spheres", symbol="x_r",
               removed_by=("youngs_modulus", 1e300)),
     Criterion("rough", "rough_gap", "the gap is down to the roughness",
-              "rebounded because the surfaces touched at their roughness", symbol="x_b", removed_by=("roughness", 0.0)),
+              "rebounded by contact at the surface roughness", symbol="x_b", removed_by=("roughness", 0.0)),
 )  # fmt: skip
 CONTACTS = tuple(each for each in CRITERIA if each.contact)
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 2494fb43d2070fa203bae1558a4053afa79632f2f9b0f8d70311a40719591068
+ * Automaton sha256 e236f2a2c0873930264741171682290b6c6cc362ac631f7c88161715df8e8b08
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

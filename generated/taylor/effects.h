@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 2494fb43d2070fa203bae1558a4053afa79632f2f9b0f8d70311a40719591068
+ * Automaton sha256 e236f2a2c0873930264741171682290b6c6cc362ac631f7c88161715df8e8b08
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */

@@ -21,8 +21,7 @@ from .locate import EventSequence, PhaseRun
 
 _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
 _MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
-_RISES = 1e-9  # of its scale over the duration: a larger slope means that the function rises, not falls, at the landing
-_RISES = 1e-9
+_RISES = 1e-9  # in its scale per duration: slope above which the function rises at the landing
 _TRIES = 8
 _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
 
