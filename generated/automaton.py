@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 e236f2a2c0873930264741171682290b6c6cc362ac631f7c88161715df8e8b08
+# Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -51,6 +51,7 @@ class Criterion(NamedTuple):
     """A rebound criterion; `derive/equations/automaton.py` explains the fields."""
 
     limit: str
+    name: str
     contact: bool
     symbol: str
     removed_by: tuple[str, float] | None
@@ -60,6 +61,7 @@ class Criterion(NamedTuple):
 CRITERIA = {  # by word, in the order in which they apply on entry
     "glass": Criterion(
         limit="glass_number",
+        name="glass transition",
         contact=False,
         symbol="",
         removed_by=None,
@@ -67,6 +69,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
     ),
     "elastic": Criterion(
         limit="elastic_gap",
+        name="elastic length",
         contact=True,
         symbol="x_r",
         removed_by=("youngs_modulus", 1e+300),
@@ -74,6 +77,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
     ),
     "rough": Criterion(
         limit="rough_gap",
+        name="roughness",
         contact=True,
         symbol="x_b",
         removed_by=("roughness", 0.0),

@@ -67,13 +67,30 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
 
 
 class WetDoubletError(Exception):
-    """Base of all failures reported to the user; the text is one line."""
+    """Base of all failures reported to the user; the text is one line.
+
+    Example:
+        >>> from wetdoublet.solvers import InputError, WetDoubletError
+        >>> issubclass(InputError, WetDoubletError)
+        True
+    """
 
     exit_status: ClassVar[int] = 1
 
 
 class ModelWarning(UserWarning):
-    """A law is used outside its range of validity; the result is its extrapolation."""
+    """A law is used outside its range of validity; the result is its extrapolation.
+
+    Example:
+        >>> import warnings
+        >>> from wetdoublet.solvers import ModelWarning, Scene, collide
+        >>> scene = Scene.load("granulation").with_entries({"bridge.law": "willett", "bridge.volume": 0.2})
+        >>> with warnings.catch_warnings(record=True, category=ModelWarning) as told:
+        ...     warnings.simplefilter("always")
+        ...     outcome = collide(scene).outcome
+        >>> len(told)
+        1
+    """
 
 
 class InputError(WetDoubletError, ValueError):
@@ -84,6 +101,14 @@ class InputError(WetDoubletError, ValueError):
         value: the given value; None if it is missing.
         accepted: the accepted values, in words.
         problem: the fault of the value (`is not finite`).
+
+    Example:
+        >>> from wetdoublet.solvers import InputError, collide
+        >>> try:
+        ...     collide("granulation", angle="95 deg")
+        ... except InputError as error:
+        ...     print(error.field, error.value)
+        impact.angle 95 deg
     """
 
     exit_status = 2
@@ -114,6 +139,11 @@ class ComputationError(WetDoubletError, RuntimeError):
         time: s since initial contact.
         state: the last state, name -> SI value.
         advice: a remedy to try.
+
+    Example:
+        >>> from wetdoublet.solvers import ComputationError
+        >>> str(ComputationError("gave up", phase="closing", time=1e-6, advice="try another engine"))
+        'gave up in phase closing at t = 1e-06 s; try another engine'
     """
 
     def __init__(
@@ -141,7 +171,13 @@ class ComputationError(WetDoubletError, RuntimeError):
 
 
 class CheckFailed(WetDoubletError):
-    """A check failed (of a law, or of the emitted files)."""
+    """A check failed (of a law, or of the emitted files).
+
+    Example:
+        >>> from wetdoublet.solvers import CheckFailed
+        >>> CheckFailed("energy ledger: 2e-3 > 1e-8").exit_status
+        1
+    """
 
     def __str__(self) -> str:
         """Return the one line."""

@@ -12,6 +12,7 @@ STEPS = 100_000
 CALL = 25  # least number of steps that an integrator call counts for; bounds chatter, which makes many short calls
 FEW = 100  # up to this many collisions, compiling the kernel does not pay
 _TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", lambda v: 1e-13 <= v <= 1e-3))
+UNTIL = Field("until", "a time after initial contact", '"5 ms"', unit="s")  # to which a stick is followed on
 
 
 def check_rtol(rtol: object, label: str = "rtol") -> float:

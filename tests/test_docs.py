@@ -1,30 +1,38 @@
-"""The reference pages name everything there is."""
+"""The pages of the reference name everything there is, and what readers copy is right."""
 
+import doctest
 import re
+import shlex
 from dataclasses import fields
+from importlib import import_module
 from pathlib import Path
 
+import click
 import pytest
+from wetdoublet import solvers
 from wetdoublet.generated.automaton import KINDS
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Energy
+from wetdoublet.solvers.commands.cli import cli
+from wetdoublet.solvers.scene import meanings
 from wetdoublet.solvers.scene.schema import FIELDS, TABLES
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENES, RESULTS = ((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("scenes.md", "results.md"))
+PAGES = [
+    ROOT / "README.md",
+    *sorted(path for path in (ROOT / "docs").rglob("*.md") if not path.is_relative_to(ROOT / "docs/_build")),
+]
+SCENES, RESULTS = (
+    (ROOT / "docs/reference" / name).read_text(encoding="utf-8") for name in ("scene-file.md", "results.md")
+)
 
 
-def section(table):
-    """Return what the page of scenes says of a table."""
-    return SCENES.partition(f"## `[{table}]`")[2].partition("\n## ")[0]
-
-
-@pytest.mark.parametrize("table", TABLES)
-def test_every_entry_and_choice_is_described(table):
-    """Each key of a scene, and each choice it has, stands under its table."""
-    for name in TABLES[table]:
-        words = (name.partition(".")[2], *FIELDS[name].choices)
-        assert all(f"`{word}`" in section(table) for word in words), name
+def test_every_table_entry_and_choice_has_its_meaning():
+    """What the reference of scenes is made from knows each table, entry and choice, and no other."""
+    assert set(meanings.TABLES) == set(TABLES)
+    assert set(meanings.ENTRIES) == set(FIELDS)
+    choices = {name: set(field.choices) for name, field in FIELDS.items() if field.choices}
+    assert {name: set(found) for name, found in meanings.CHOICES.items()} == choices
 
 
 def test_the_complete_scene_loads():
@@ -40,9 +48,38 @@ def test_every_key_of_a_result_is_described():
     assert not {key for key in keys if f"`{key}`" not in RESULTS}
 
 
-@pytest.mark.parametrize("page", ["README.md", *(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))])
-def test_links_lead_somewhere(page):
-    """Every link to a file of the repository has its file."""
-    text = (ROOT / page).read_text(encoding="utf-8")
-    for target in re.findall(r"\]\(([^)#:]+)\)", text):
-        assert ((ROOT / page).parent / target).is_file(), target
+def test_links_of_the_front_page_lead_somewhere():
+    """Every link to a file of the repository has its file; links of the site are held by its build."""
+    for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", PAGES[0].read_text(encoding="utf-8")):
+        assert (ROOT / target).is_file(), target
+
+
+def commands():
+    """Every `wetdoublet ...` line in a block of commands, with the page it stands on."""
+    for page in PAGES:
+        for block in re.findall(r"```(?:console|sh)\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+            for line in block.splitlines():
+                found = re.search(r"(?:^|/)wetdoublet (.*)", line.strip().removeprefix("$ "))
+                if found:
+                    yield pytest.param(found[1], id=f"{page.stem}-{found[1][:40]}")
+
+
+@pytest.mark.parametrize("line", [*commands()])
+def test_commands_of_the_pages_are_understood(line):
+    """Each command exists and takes the options it is given; the build of the site runs them."""
+    words = shlex.split(line.partition(">")[0], comments=True)
+    if words and not words[0].startswith("-"):
+        command = cli.get_command(click.Context(cli), words[0])
+        assert command is not None, line
+        command.make_context(words[0], words[1:], resilient_parsing=False)
+
+
+@pytest.mark.parametrize("name", sorted(solvers.__all__))
+def test_every_public_name_has_an_example_that_runs(name):
+    """The docstring of each public name has an example, and it gives what it says."""
+    if name == "sobol_indices":
+        pytest.importorskip("SALib")
+    value = getattr(solvers, name)
+    (example,) = doctest.DocTestFinder(recurse=False).find(value, name, module=import_module(value.__module__))
+    assert example.examples, f"{name} has no example"
+    assert not doctest.DocTestRunner().run(example).failed

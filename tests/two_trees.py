@@ -200,6 +200,9 @@ class Tree:
             if not (source / folder).is_dir():
                 raise SystemExit(f"{given}: no tree: {source} has no folder {folder}/")
             (package / folder).symlink_to(source / folder)
+        own = source / "solvers" / "package" / "__init__.py"
+        # a package without __init__ would give way to one with it, wherever that is installed
+        (package / "__init__.py").write_text(own.read_text() if own.is_file() else "")
         return cls(name, source, work)
 
     def run(self, kind: str, flags: str, options: argparse.Namespace) -> Path:

@@ -28,6 +28,7 @@ from .casadi.modules import (
     structure_module,
     structure_tangent,
 )
+from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
 from .taylor.automaton import automaton_header, criteria_header, effects_header
@@ -58,6 +59,7 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
         "assemble.py": f"# {_PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": scaling_module(),
         "automaton.py": automaton_module(),
+        "references.py": references_module(),
         "automaton.md": automaton_page(provenance()),
         DIAGRAM: diagram(provenance()),
         "taylor/automaton.h": automaton_header(provenance()),

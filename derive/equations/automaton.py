@@ -46,29 +46,38 @@ class Criterion:
     Arguments:
         word: its name in reports and of its event function.
         limit: dimensionless group at which it is met: a gap, or a pressure.
-        contact: met at the gap `limit`; otherwise where the film pressure reaches `limit`.
-        removed_by: a quantity and the value (SI) for which the criterion is never met; for criteria at a gap.
-        symbol: of its gap, in figures.
+        name: of the gap or pressure `limit`, in texts.
         sentence: the reason of a bounce in which it was met first.
+        symbol: of its gap, in figures.
+        removed_by: a quantity and the value (SI) for which the criterion is never met.
+        contact: met at the gap `limit`, with a symbol and a quantity that removes it; otherwise met where the film
+            pressure reaches `limit`.
     """
 
     word: str
     limit: str
+    name: str
     meaning: str
     sentence: str
-    contact: bool = True
     symbol: str = ""
     removed_by: tuple[str, float] | None = None
+    contact: bool = True
+
+    def __post_init__(self) -> None:
+        """Reject a contact criterion without a symbol or without a quantity that removes it."""
+        if self.contact and not (self.symbol and self.removed_by):
+            raise ValueError(f"the rebound criterion {self.word!r} is met at a gap and needs symbol and removed_by")
 
 
 # The order in which criteria that hold at the start of a closing phase apply: the first causes the rebound.
 CRITERIA = (
-    Criterion("glass", "glass_number", "the film pressure on the axis reaches the glass-transition pressure",
+    Criterion("glass", "glass_number", "glass transition",
+              "the film pressure on the axis reaches the glass-transition pressure",
               "rebounded because the liquid reached its glass transition", contact=False),
-    Criterion("elastic", "elastic_gap", "the gap is down to the elastic length",
+    Criterion("elastic", "elastic_gap", "elastic length", "the gap is down to the elastic length",
               "rebounded by elastic deformation of the spheres", symbol="x_r",
               removed_by=("youngs_modulus", 1e300)),
-    Criterion("rough", "rough_gap", "the gap is down to the roughness",
+    Criterion("rough", "rough_gap", "roughness", "the gap is down to the roughness",
               "rebounded by contact at the surface roughness", symbol="x_b", removed_by=("roughness", 0.0)),
 )  # fmt: skip
 CONTACTS = tuple(each for each in CRITERIA if each.contact)

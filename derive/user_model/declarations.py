@@ -89,6 +89,7 @@ __all__ = [
 ]  # fmt: skip
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_BIBTEX = re.compile(r"\s*@\w+\s*\{[^{},]+,.*\}\s*", re.S)
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _TAKEN = {"film", "groups", "laws", "result", "shear", "state", "values", *keyword.kwlist, *keyword.softkwlist}
 
@@ -139,6 +140,7 @@ class Proposed:
     meaning: str
     source: str
     accept: tuple[str, ...]
+    bibtex: str = ""
 
 
 @dataclass
@@ -228,7 +230,14 @@ def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
 
 
 def law(
-    slot: str, name: str, *, source: str = "", meaning: str = "", accept: tuple[str, ...] = (), **functions: object
+    slot: str,
+    name: str,
+    *,
+    source: str = "",
+    bibtex: str = "",
+    meaning: str = "",
+    accept: tuple[str, ...] = (),
+    **functions: object,
 ) -> None:
     """Declare a law.
 
@@ -236,6 +245,7 @@ def law(
         slot: the slot that it fills.
         name: its name in scenes.
         source: its origin, such as a publication.
+        bibtex: the publication as a BibTeX entry, for `wetdoublet cite`.
         meaning: a description in one line.
         accept: names of checks that it is known to fail.
         functions: the slot's functions as expressions: of the slot's dimension in SI, or dimensionless.
@@ -258,9 +268,14 @@ def law(
             raise ModelFileError(label, given, "the functions " + ", ".join(known), "is no function of this slot")
     for missing in (function for function, required in known.items() if required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
+    for what, text in (("source", source), ("bibtex", bibtex)):
+        if not isinstance(text, str):
+            raise ModelFileError(f"{label}.{what}", text, "text")
+    if bibtex and not _BIBTEX.fullmatch(bibtex):
+        raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
     made = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
     there.laws[slot, name] = Proposed(
-        slot, name, made, meaning or f"{name}, a user's law", source or "no source given", tuple(accept)
+        slot, name, made, meaning or f"{name}, a user's law", source or "no source given", tuple(accept), bibtex
     )
 
 

@@ -2,7 +2,7 @@
 # Equations sha256 ebf75598b18a84fc77c8ba09a4de9b0ef0b2694ece643689dca90dfdec62f8a8
 """arm law `surface`: leading-order arm R = 2a: conserves angular momentum only to O(x/4a).
 
-Source: Donahue et al., leading order in the gap.
+Source: Donahue, Davis, Kantak & Hrenya, Phys. Rev. E 86, 021303 (2012): leading order in the gap.
 """
 
 from __future__ import annotations

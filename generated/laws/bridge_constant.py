@@ -2,7 +2,7 @@
 # Equations sha256 988fad14ceb4ba2b64e33003ca6e9c5bdce6a9c48e4b863af76eba9f944427a2
 """bridge law `constant`: gap-independent upper bound, the force at contact.
 
-Source: 2 cos(phi): Derjaguin limit at h = 0.
+Source: Derjaguin, Kolloid-Z. 69, 155 (1934): 2 cos(phi), the limit at h = 0.
 """
 
 from __future__ import annotations

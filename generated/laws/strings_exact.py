@@ -2,7 +2,7 @@
 # Equations sha256 7edea584b84bd0542e44786e4e9d8fab3b1b90daa8d4e420aeab9cddab86c0bc
 """strings law `exact`: strings of length l, exact geometry.
 
-Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight.
+Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. 708, 128 (2012): vertical tension balances the weight.
 """
 
 from __future__ import annotations

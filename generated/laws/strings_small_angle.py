@@ -2,7 +2,7 @@
 # Equations sha256 729e9598df0ad609d580de2d389e5c61e218978839e940d03b65919437c8936c
 """strings law `small-angle`: linearised in the swing: sqrt(l^2 - d^2) -> l.
 
-Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight.
+Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. 708, 128 (2012): vertical tension balances the weight.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 e236f2a2c0873930264741171682290b6c6cc362ac631f7c88161715df8e8b08 */
+ * Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H

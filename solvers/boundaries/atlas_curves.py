@@ -209,6 +209,7 @@ def _made(
         resolution=traced.resolution,
         scene=plane.scene,
         window=plane.stokes,
+        rtol=plane.rtol,
         over=plane.over,
         span=(plane.edge, plane.span[1]),
         at=(plane.edge, *x[1:].tolist()),

@@ -32,10 +32,17 @@ _MOST = 10_000  # most lines
 
 @dataclass(frozen=True)
 class Boundaries(Lines):
-    """Changes of outcome for each angle, as `boundary` returns them; its attributes are those of `Lines`."""
+    """Changes of outcome for each angle, as `boundary` returns them; its attributes are those of `Lines`.
+
+    Example:
+        >>> from wetdoublet.solvers import boundary
+        >>> found = boundary("granulation", angle=0.7, stokes=(0.05, 0.2))
+        >>> found.to_dataset().stokes.sizes
+        Frozen({'line': 1, 'change': 2})
+    """
 
     def to_dataset(self) -> xarray.Dataset:
-        """Dataset over `line` and `change`, with units in attributes, padded with NaN (see docs/results.md)."""
+        """Dataset over `line` and `change`, with units in attributes, padded with NaN."""
         from .labelled import dataset
 
         return dataset(self)
@@ -49,7 +56,14 @@ class Boundaries(Lines):
 
 @dataclass(frozen=True)
 class Atlas(Curves, Boundaries):
-    """All boundaries in a plane, as `atlas` returns them; its attributes are those of `Curves`."""
+    """All boundaries in a plane, as `atlas` returns them; its attributes are those of `Curves`.
+
+    Example:
+        >>> from wetdoublet.solvers import atlas
+        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
+        >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
+        array([0, 2], dtype=int8)
+    """
 
 
 def boundary(
@@ -107,6 +121,7 @@ def boundary(
         whole.resolution,
         loaded,
         (low, high),
+        rtol,
     )
 
 

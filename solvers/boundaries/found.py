@@ -9,7 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
+from ..scene.origin import origin
 from ..scene.scene import Scene
+from ..scene.schema import FIELDS
+from ..settings import RTOL
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
 from .plane import ANGLE
@@ -29,6 +32,7 @@ class Lines:
         resolution: relative spacing of the sampled Stokes numbers of every line. Wider strips of an outcome are found;
             narrower ones only where a margin (of a rebound criterion, of the escape) shows them.
         scene, window: the scene, and the range of Stokes numbers of the search.
+        rtol: relative tolerance of the integrations.
     """
 
     angles: tuple[float, ...]
@@ -38,6 +42,7 @@ class Lines:
     resolution: float = 0.0
     scene: Scene | None = field(default=None, repr=False)
     window: tuple[float, float] = STOKES
+    rtol: float = RTOL
 
     @property
     def failed(self) -> tuple[tuple[float, str], ...]:
@@ -46,7 +51,13 @@ class Lines:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --json`."""
-        return {"angles": list(self.angles), "changes": [[one.to_dict() for one in line] for line in self.changes]}
+        changes = [[one.to_dict() for one in line] for line in self.changes]
+        return {"angles": list(self.angles), "changes": changes} | self.origin(angles="rad")
+
+    def origin(self, **units: str) -> dict[str, Any]:
+        """What the JSON objects say of where their numbers come from; `units` by key, St and Ce beside them."""
+        known = {} if self.scene is None else origin(self.scene)
+        return {"rtol": self.rtol, "units": {**units, "stokes": "1", "centrifugal": "1"}} | known
 
     def __str__(self) -> str:
         lines = ["angle (deg)   St              Ce          change"]
@@ -135,7 +146,7 @@ class Curves(Lines):
         }
         if self.unsettled:
             found["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
-        return found
+        return found | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
 
     @property
     def sought(self) -> dict[str, float | str]:

@@ -21,10 +21,11 @@ from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocat
 from ..engines.taylor.build import compile_all, supported
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
-from ..model.contact import GAPS, NEVER_MET, contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow
+from ..scene.contact import GAPS, NEVER_MET, contact_gap
+from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import RTOL
 from . import by_kernel
@@ -34,6 +35,7 @@ from .saddle import barrier_of, saddle_of
 
 _NEVER = 1e30  # a glass number that no pressure reaches
 WITHOUT_SOLIDS = {"glass_number": _NEVER} | dict.fromkeys(GAPS.values(), 0.0)
+_NO_GLASS = {"glass_transition_pressure": NO_GLASS}
 _UNMET = {"glass_number": 0.0}  # with this glass number the glass guard is minus the pressure
 _ESCAPE_STEPS = (400, 20_000)  # steps of a first attempt by the kernel, to detect creeping past a saddle
 _CREEPING = 1e-3  # relative to v0; a slower approach counts as stopped, and contact at this speed is irrelevant
@@ -96,7 +98,7 @@ class Line:
         found = None
         if self.kernel:
             p = model.group_values(groups | _UNMET)
-            solids = self._no_glass(groups) | NEVER_MET | {"roughness": _DEEP * contact * n.length}
+            solids = _NO_GLASS | NEVER_MET | {"roughness": _DEEP * contact * n.length}
             found = by_kernel.approach(
                 self.scene, n, self.rtol, solids, len(model.state), lambda y: _pressures(model, y, p), _CREEPING
             )
@@ -109,7 +111,7 @@ class Line:
         self.collisions += 1
         n = self.numbers(stokes)
         groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
-        solids = {} if rebound else self._no_glass(n.groups) | NEVER_MET
+        solids = {} if rebound else _NO_GLASS | NEVER_MET
         for steps in _ESCAPE_STEPS if self.kernel else ():
             probe = UnstoppedTrajectory(self.model, groups, self.rtol)
             escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
@@ -122,11 +124,6 @@ class Line:
         probe = UnstoppedTrajectory(self.model, groups, self.rtol, machine_code=self.machine_code)
         path = probe.run()
         return Escape(path.separated, _smooth(probe, _Located(probe, path)))
-
-    def _no_glass(self, groups: dict[str, float]) -> dict[str, float]:
-        """A glass-transition pressure that no film reaches, Pa."""
-        pressure = self.scene.liquid.glass_transition_pressure
-        return {"glass_transition_pressure": pressure * (_NEVER / groups["glass_number"])}
 
 
 def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:

@@ -90,7 +90,7 @@ class Plane:
         """The scene at a value of the entry, and its impact angle (rad)."""
         if self.over == ANGLE:
             return self.scene, x
-        return self.scene.with_entries({self.over: x}), float(self.scene.angle or 0.0)
+        return self.scene.with_si({self.over: x}), float(self.scene.angle or 0.0)
 
     def labels(self, points: np.ndarray) -> np.ndarray:
         """Outcomes by index in OUTCOMES; -1 where unknown."""
@@ -178,8 +178,8 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     if over == ANGLE:
         plane = Plane(scene, over, _ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
     else:
-        values = checked_vary(scene, {over: span}, label)[over]
-        plane = Plane(scene, over, _ascending("span", values), ends, rtol)
+        scene, varied = checked_vary(scene, {over: span}, label)
+        plane = Plane(scene, over, _ascending("span", varied[over]), ends, rtol)
         if scene.angle is None:
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
         for x in plane.span:

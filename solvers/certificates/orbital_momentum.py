@@ -30,7 +30,7 @@ class OrbitalMomentumCertificate:
     """Certificate, tried after another one, that some larger gap can never be reached.
 
     With strings no proof covers the slip caused by their torque. There it ends chatter after some cycles whose maxima
-    do not grow, and the stick is not a theorem. Nor is it with the surface lever arm (docs/physics.md).
+    do not grow, and the stick is not a theorem. Nor is it with the surface lever arm (docs/explanation).
 
     Arguments:
         beside: another certificate for the same model, tried first unless angular momentum drifts; its level is the

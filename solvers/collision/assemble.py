@@ -24,6 +24,8 @@ class Finding:
         outputs: the model's outputs at separation, by name; empty for a stick.
         rotation: angle turned by the line of centres until the end, rad.
         time: end of the trajectory: separation, or for a stick the end of integration.
+        decided: time at which a stick was certain; None: at the end.
+        rtol: relative tolerance that was asked for.
         drift: |L/L(0) - 1| at the end; None where the angular momentum L is not conserved.
     """
 
@@ -37,9 +39,11 @@ class Finding:
     events: Sequence[tuple[str, float]]
     engine: str
     steps: int
+    rtol: float
     energy: Energy | None = None
     drift: float | None = None
     trajectory: xarray.Dataset | None = None
+    decided: float | None = None
 
 
 def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision:
@@ -72,11 +76,13 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
         reversal=found.reversal,
         certified=found.certified and not separated,
         until=None if separated else time,
+        decided=None if separated else time if found.decided is None else found.decided * n.time,
         events=tuple(Event(kind, at * n.time) for kind, at in found.events),
         energy=found.energy,
         angular_momentum_drift=found.drift,
         engine=found.engine,
         steps=found.steps,
+        rtol=found.rtol,
         scene=scene,
         trajectory=found.trajectory,
     )

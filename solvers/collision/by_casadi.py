@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,6 +39,7 @@ def by_casadi(
     find: Find = locate,
     told: Told = tolerance,
     replay: Callable[..., Replay] = replay,
+    until: float | None = None,
 ) -> Collision:
     """One collision by CVODES or Rosenbrock; the implementation of `collide` for these engines.
 
@@ -45,9 +47,11 @@ def by_casadi(
         find: locates the sequence of events; the same for both engines.
         told: integrator tolerances of an engine at a given `rtol`.
         replay: integrates the located phases.
+        until: time (s) to which a stick is followed on after its proof, located as usual.
     """
+    find = find if until is None else partial(locate, until=until / n.time)
     found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, replay)
-    return _result(scene, n, *found, trajectory)
+    return _result(scene, n, *found, trajectory, rtol)
 
 
 def _compute(
@@ -116,6 +120,7 @@ def _result(
     plugin: str,
     rtol: float,
     trajectory: bool,
+    asked: float,
 ) -> Collision:
     model, separated = flow.model, path.separated
     p = model.group_values(n.groups)
@@ -133,6 +138,8 @@ def _result(
         events=replayed.events,
         engine=plugin,
         steps=replayed.steps,
+        decided=path.decided,
+        rtol=asked,
         energy=energy,
         drift=_drift(model, replayed, p) if "normal_lubrication" in flow.extras else None,
         trajectory=_trajectory(scene, path, replayed, model, n, plugin, rtol) if trajectory else None,

@@ -66,6 +66,7 @@ def collision(
         events=[(KINDS[int(each["kind"])], float(each["time"])) for each in happened],
         engine="taylor",
         steps=int(found["steps"]),
+        rtol=rtol,
         energy=energy,
         drift=None if told.ledger is None else _drift(scene, n, told.ledger[0]),
         trajectory=_trajectory(scene, n, rtol, told, ledger) if trajectory else None,

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path as FilePath
 
+from ...generated.automaton import STICK
 from ..host.arguments import check_flag
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import check_engine, check_rtol
+from ..settings import UNTIL, check_engine, check_rtol
 from .by_casadi import by_casadi
 from .by_kernel import collision
 from .result import Collision
@@ -21,23 +21,28 @@ def collide(
     stokes: float | str | None = None,
     speed: float | str | None = None,
     angle: float | str | None = None,
+    relative_speed: float | str | None = None,
     rtol: float = 1e-9,
     engine: str | None = None,
     ledger: bool = True,
     trajectory: bool = False,
+    until: float | str | None = None,
 ) -> Collision:
     """Collide two wet particles.
 
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name.
         stokes: Stokes number of the impact; or
-        speed: its normal speed, m/s or a string with its unit. Either overrides the scene's.
+        speed: its normal speed, m/s or a string with its unit; or
+        relative_speed: the magnitude of the relative velocity. Each overrides whichever the scene has.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None
             chooses (cvodes for one collision).
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
+        until: time after initial contact, s or a string with its unit, to which a stick that is certain before is
+            followed on; the outcome stands, events and energy run up to there.
 
     Returns:
         The Collision.
@@ -56,18 +61,20 @@ def collide(
     """
     rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
-    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    last = None if until is None else UNTIL.number(until)
+    loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
-    said = warn(loaded)
+    warn(loaded)
     by = _by_kernel if plugin == "taylor" else by_casadi
-    result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory)
-    return replace(result, warnings=said) if said else result
+    return by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
 
 
 def _by_kernel(
-    scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool
+    scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool, until: float | None
 ) -> Collision:
-    """By the Taylor kernel; by Rosenbrock where the kernel does not complete the collision."""
+    """By the Taylor kernel; by Rosenbrock where it does not complete the collision, and for a stick followed on."""
     found = collision(scene, n, rtol, ledger, trajectory)
-    return found or by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory)
+    if found is not None and (until is None or found.outcome != STICK):
+        return found
+    return by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory, until=until)

@@ -5,10 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ..model.validity import NEEDS, sentences
+from ..scene.origin import origin
 from ..scene.scene import Scene
 
 if TYPE_CHECKING:
     import xarray
+
+UNITS = {
+    "restitution": "1", "tangential_restitution": "1", "rotation": "rad", "contact_time": "s", "smallest_gap": "m",
+    "final_spin": "rad/s", "final_spin_partner": "rad/s", "final_rotation_rate": "rad/s", "stokes": "1",
+    "centrifugal": "1", "generalised_centrifugal": "1", "capillary": "1", "reynolds": "1", "speed": "m/s",
+    "angle": "rad", "until": "s", "decided": "s", "events": "s", "energy": "J", "angular_momentum_drift": "1",
+    "steps": "1", "rtol": "1",
+}  # fmt: skip
+"""Units of what a collision's JSON object holds, by key; of `events` that of their times."""
 
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
@@ -80,9 +91,10 @@ class Outcome:
         final_spin_partner: spin of the partner, rad/s; None without a [partner].
         rotation: angle turned by the line of centres until separation, rad.
         until: for a stick, the time at which integration stopped, s.
+        decided: for a stick, the time at which it was certain, s: `until`, unless it was followed on.
         certified: True if a certificate proves the stick.
         reversal: the first rebound criterion met, if any.
-        warnings: one sentence for each law used outside its range of validity.
+        rtol: relative tolerance that was asked for.
         trajectory: Dataset over `time`, if requested.
     """
 
@@ -103,23 +115,30 @@ class Outcome:
     reversal: str | None
     certified: bool
     until: float | None
+    decided: float | None
     events: tuple[Event, ...]
     energy: Energy | None
     angular_momentum_drift: float | None
     engine: str
     steps: int
+    rtol: float
     generalised_centrifugal: float | None = None
     final_spin_partner: float | None = None
-    warnings: tuple[str, ...] = ()
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """Where the collision leaves the model's range, a sentence each with the number and the limit."""
+        results = {name: getattr(self, name) for name in NEEDS}
+        return tuple(sentences(self.scene, self.speed, self.angle, self.outcome, results))
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
         plain = (
             "outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap",
             "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
-            "reversal", "certified", "until",
+            "reversal", "certified", "until", "decided",
         )  # fmt: skip
         result: dict[str, Any] = {name: getattr(self, name) for name in plain}
         if self.scene.partner is not None:
@@ -131,4 +150,5 @@ class Outcome:
         result["events"] = [{"kind": event.kind, "time": event.time} for event in self.events]
         result["energy"] = self.energy.to_dict() if self.energy else None
         result["angular_momentum_drift"] = self.angular_momentum_drift
-        return result | {"engine": self.engine, "steps": self.steps}
+        result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
+        return result | {"units": {key: UNITS[key] for key in result if key in UNITS}} | origin(self.scene)

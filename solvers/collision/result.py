@@ -11,7 +11,14 @@ from .outcome import Outcome
 
 @dataclass(frozen=True, kw_only=True)
 class Collision(Outcome):
-    """One collision, as `collide` returns it; its attributes are those of `Outcome`."""
+    """One collision, as `collide` returns it; its attributes are those of `Outcome`.
+
+    Example:
+        >>> from wetdoublet.solvers import collide
+        >>> one = collide("granulation", stokes=0.3, angle="20 deg")
+        >>> one.outcome, one.reversal, [event.kind for event in one.events]
+        ('bounce', 'glass', ['glass', 'rupture'])
+    """
 
     def __str__(self) -> str:
         from .text import table

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from ...generated.automaton import BOUNCE, CRITERIA, KINDS, STICK, EventKind
-from .outcome import Energy, Event, Outcome
+from .outcome import Event, Outcome
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene
@@ -18,6 +19,7 @@ CUT_OFFS = {
     KINDS[EventKind.ROTATION_REVERSES]: "the strings turn the rotation back",
 }
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+_POWER = re.compile(r"[A-Za-z]+\^")
 _MANY = 40  # events; a longer list consists of repeated rebounds
 _LABEL = 24  # width of the names on the left, characters
 _FIRST, _LAST = 9, 3  # events shown of a longer list
@@ -38,7 +40,7 @@ def quantity(value: float | None, unit: str) -> str:
     """Return a number with four digits and its prefixed unit; a dash for None."""
     if value is None:
         return "-"
-    factor, name = prefix(value)
+    factor, name = (1.0, "") if _POWER.match(unit) else prefix(value)  # a prefix would be raised with its unit
     return f"{value / factor:.4g} {name}{unit}"
 
 
@@ -60,6 +62,13 @@ def name_of(scene: Scene, longest: int = 32) -> str:
     return _cut(scene.name, longest) or "unnamed scene"
 
 
+def against(scene: Scene) -> str:
+    """Return what the sphere meets, for a title; nothing if it is its equal."""
+    if scene.partner is None:
+        return ""
+    return " against a wall" if scene.wall else f" against a sphere of {plain(scene.radius_ratio)} times the radius"
+
+
 def _cut(text: str, longest: int) -> str:
     """Return a text on one line without control characters, shortened to `longest` characters."""
     text = " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
@@ -77,9 +86,33 @@ def reason(collision: Outcome) -> str:
 
 def stopped(collision: Outcome) -> str:
     """Return why and when the integration of a stick stopped early; empty if it did not."""
-    if not collision.until or _last(collision) in CUT_OFFS:
+    if not collision.until or _is_cut_off(collision):
         return ""
+    if is_followed_on(collision):
+        certain = f"{quantity(collision.decided, 's')} after initial contact" if collision.decided else "at contact"
+        return f"certain {certain}, followed on to {quantity(collision.until, 's')}"
     return f"integration stopped there, {quantity(collision.until, 's')} after initial contact"
+
+
+def is_followed_on(collision: Outcome) -> bool:
+    """Whether a stick was integrated on after it was certain."""
+    return collision.until is not None and collision.decided != collision.until
+
+
+def _is_cut_off(collision: Outcome) -> bool:
+    """Whether the experiment's own end is what ended a stick, not a proof before it."""
+    return _last(collision) in CUT_OFFS and not is_followed_on(collision)
+
+
+def _end_of(collision: Outcome) -> str:
+    """What the state at the end of the integration is."""
+    if collision.outcome != STICK:
+        return "final"
+    if is_followed_on(collision):
+        return "at the end"
+    if _is_cut_off(collision):
+        return "at the cut-off"
+    return "at the proof" if collision.certified else "when decided"
 
 
 def _last(collision: Outcome) -> str:
@@ -88,10 +121,11 @@ def _last(collision: Outcome) -> str:
 
 def _stuck(collision: Outcome) -> str:
     last, scene = _last(collision), collision.scene
-    if last in CUT_OFFS:
+    if _is_cut_off(collision):
         return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
-    when = "" if collision.until else " at contact"
-    if not collision.certified and len(collision.events) > _MANY and last == KINDS[EventKind.FELL_BACK]:
+    when = "" if collision.decided else " at contact"
+    before = [event.kind for event in collision.events if event.time <= (collision.decided or 0.0)]
+    if not collision.certified and len(before) > _MANY and before[-1] == KINDS[EventKind.FELL_BACK]:
         return "decided, not proved: rebound after rebound, none higher than the one before"
     if not collision.certified:
         return f"decided{when}, not proved: energy below the barrier"
@@ -105,8 +139,8 @@ def _stuck(collision: Outcome) -> str:
 def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
-    lines += [*_energy(collision.energy, collision.scene), "", *_numerics(collision)]
-    remarks = [line for said in collision.warnings for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    lines += [*_energy(collision), "", *_numerics(collision)]
+    remarks = [line for said in collision.validity for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
     return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene), *remarks])
 
 
@@ -192,12 +226,13 @@ def _events(events: tuple[Event, ...]) -> list[str]:
     return [_line("events", "at"), *lines]
 
 
-def _energy(energy: Energy | None, scene: Scene) -> list[str]:
+def _energy(collision: Outcome) -> list[str]:
+    energy, scene = collision.energy, collision.scene
     if energy is None:
         return [_line("energy", "-", "not integrated along")]
     terms = [
         ("kinetic, initial", energy.initial),
-        ("kinetic, final", energy.final),
+        (f"kinetic, {_end_of(collision)}", energy.final),
         ("normal lubrication", energy.normal_lubrication),
         ("tangential lubrication", energy.tangential_lubrication),
         ("dry contact", energy.dry_contact),
@@ -224,7 +259,8 @@ def _exponent(value: float, digits: int) -> str:
 
 def _model(scene: Scene) -> list[str]:
     """Lines that name the laws used, wrapped to the width of the table."""
-    used = {"arm": scene.model.arm, "tangential": scene.model.tangential, "glass": scene.model.glass}
+    used = {"arm": scene.model.arm, "tangential": scene.model.tangential}
+    used |= {"glass": scene.model.glass} if scene.liquid.glass_transition_pressure is not None else {}
     used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
     if scene.bridge is not None:
         used["bridge"] = scene.bridge.law

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from ..errors import CheckFailed, InputError
-from ..scene.ranges import parse_range
-from ..scene.schema import FIELDS
+from ..scene import units
+from ..scene.schema import FIELDS, Field
 from ..scene.user_model import fields
 from ..settings import RTOL, check_rtol
 from . import options
@@ -29,8 +29,8 @@ _ENTRY = FIELDS["impact.angle"]
 
 @click.command("boundary", short_help="Every Stokes number at which the outcome changes, traced.")
 @options.scene_argument
-@click.option("--angle", metavar="RANGE", help="Impact angles in degrees: lines, as 20:65:10, or a plane, as 20:65.")
-@click.option("--over", metavar="NAME=LO:HI", help='A plane of this entry, as liquid.viscosity="1 Pa s:4 Pa s".')
+@click.option("--angle", metavar="RANGE", help="Impact angles (degrees): 40, lines 20:65:10, a plane 20:65.")
+@click.option("--over", metavar="NAME=LO:HI", help='A plane of this entry, as liquid.viscosity="1:4 Pa s".')
 @click.option("--stokes", metavar="LO:HI", help="Range of Stokes numbers to search [1e-4:100].")
 @click.option("--wrt", metavar="NAMES", help="Derivatives as well, in bridge.volume,liquid.viscosity, or all.")
 @options.changes
@@ -62,7 +62,7 @@ def command(
     Examples:
       wetdoublet boundary granulation --angle 20:70:26 --plot boundary.png
       wetdoublet boundary granulation --angle 0:85 --plot atlas.png
-      wetdoublet boundary granulation --over particles.roughness="0.1 um:6 um" --set impact.angle="60 deg"
+      wetdoublet boundary granulation --over particles.roughness="0.1:6 um" --set impact.angle=60
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..boundaries.boundary import boundary
     from ..boundaries.found import STOKES
@@ -74,13 +74,13 @@ def command(
     span = STOKES if stokes is None else _span(stokes)
     asked = options.Asked.check(source, changes, model=model)
     plane = _plane(angle, over, wrt, asked)
-    angles = None if angle is None or plane else parse_range(angle, "--angle", _degrees, unit="in degrees", most=_MOST)
+    angles = None if angle is None or plane else options.entry_range(_ENTRY, angle, "--angle", most=_MOST)
     scene = asked.scene()
     if plane is not None:
         _show_atlas(scene, *plane, span, tolerance, as_json, picture, file)
         return
     if angles is None:
-        raise InputError("--angle", None, "LO:HI:N, or LO:HI, in degrees, as 20:65:10, or --over")
+        raise InputError("--angle", None, "an angle, LO:HI:N, or LO:HI, in degrees, as 20:65:10, or --over")
 
     names = _names(scene, wrt)
     with bar("angles") as tell:
@@ -108,13 +108,13 @@ def command(
 
 def _plane(
     angle: str | None, over: str | None, wrt: str | None, asked: options.Asked
-) -> tuple[str, tuple[float, float]] | None:
+) -> tuple[str, tuple[float, float] | tuple[str, str]] | None:
     """The entry on the horizontal axis and its span if a plane is requested, else None."""
     if over is not None:
         name, equals, ends = over.partition("=")
         name = name.strip()
         if not equals:
-            raise InputError("--over", over, 'NAME=LO:HI, such as liquid.viscosity="1 Pa s:4 Pa s"', "has no =")
+            raise InputError("--over", over, 'NAME=LO:HI, such as liquid.viscosity="1:4 Pa s"', "has no =")
         if angle is not None:
             raise InputError("--angle", angle, "--set impact.angle=ANGLE for a plane of another entry",
                              "is given together with --over")  # fmt: skip
@@ -124,10 +124,13 @@ def _plane(
         if name in asked.entries:
             raise InputError("--over", name, "every entry once", "is given together with --set")
         entry = fields(asked.package)[name]
-        unit = " with their units" if entry.unit else ""
-        found = name, _ends(f"--over {name}", ends, lambda end: entry.number(end, label=f"--over {name}"), unit)
+        parts = ends.split(":")
+        if entry.or_unit and not all(units.is_number(end) for end in parts):
+            low, high = _ends(f"--over {name}", ends, entry.measured)
+            return name, (f"{low!r} {entry.or_unit}", f"{high!r} {entry.or_unit}")
+        found = name, _ends(f"--over {name}", ends, entry)
     elif angle is not None and angle.count(":") == 1 and not angle.strip().startswith("log"):
-        found = _ENTRY.name, _ends("--angle", angle, _degrees, " in degrees")
+        found = _ENTRY.name, _ends("--angle", angle, _ENTRY)
     else:
         return None
     if wrt is not None:
@@ -135,13 +138,14 @@ def _plane(
     return found
 
 
-def _ends(label: str, text: str, read: Callable[[str], float], unit: str) -> tuple[float, float]:
+def _ends(label: str, text: str, entry: Field) -> tuple[float, float]:
     """The two ends of LO:HI, SI."""
     parts = text.split(":")
-    accepted = f"LO:HI{unit}, with LO below HI"
+    said = " in degrees, or with a unit" if entry.unit == "rad" else " with a unit at either end" if entry.unit else ""
+    accepted = f"LO:HI{said}, with LO below HI"
     if len(parts) != 2:
         raise InputError(label, text, accepted, "is not a range")
-    low, high = (read(part) for part in parts)
+    low, high = options.entry_ends(entry, label)(*parts)
     if not low < high:
         raise InputError(label, text, accepted, "is not a range")
     return low, high
@@ -150,7 +154,7 @@ def _ends(label: str, text: str, read: Callable[[str], float], unit: str) -> tup
 def _show_atlas(
     scene: Scene,
     over: str,
-    across: tuple[float, float],
+    across: tuple[float, float] | tuple[str, str],
     span: tuple[float, float],
     rtol: float,
     as_json: bool,
@@ -181,15 +185,5 @@ def _names(scene: Scene, wrt: str | None) -> tuple[str, ...] | None:
     return check_boundary_wrt(scene, None if names == ["all"] else names, "--wrt")
 
 
-def _degrees(text: str) -> float:
-    """An end of the range in rad; a number without a unit is in degrees."""
-    try:
-        float(text)
-    except ValueError:
-        return _ENTRY.number(text, label="--angle")
-    return _ENTRY.number(f"{text} deg", label="--angle")
-
-
 def _span(text: str) -> tuple[float, float]:
-    return _ends("--stokes", text, lambda end: FIELDS["impact.stokes"].number(end, label="--stokes"),
-                 ", as 0.01:10")  # fmt: skip
+    return _ends("--stokes", text, FIELDS["impact.stokes"])

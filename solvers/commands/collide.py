@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import click
 
-from ..settings import RTOL, check_engine, check_rtol
+from ..settings import RTOL, UNTIL, check_engine, check_rtol
 from . import options
 
 
@@ -18,6 +18,7 @@ from . import options
 @options.model
 @options.rtol
 @options.engine
+@click.option("--until", metavar="TIME", help='Follow a stick on after its proof, as "5 ms" after initial contact.')
 @options.as_json
 @options.plot
 @options.output
@@ -26,11 +27,13 @@ def command(
     source: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
     rtol: str | None,
     engine: str | None,
+    until: str | None,
     as_json: bool,
     plot: str | None,
     output: str | None,
@@ -38,15 +41,16 @@ def command(
     """Compute one collision of the two particles of SCENE."""
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
+    last = None if until is None else UNTIL.number(until, label="--until")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, model=model).scene()
+    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     scene.need_impact()
 
     from ..collision.collide import collide
 
-    result = collide(scene, rtol=tolerance, engine=chosen, trajectory=picture is not None)
+    result = collide(scene, rtol=tolerance, engine=chosen, trajectory=picture is not None, until=last)
     if as_json:
         text = json.dumps(result.to_dict(), indent=2, allow_nan=False)
     else:

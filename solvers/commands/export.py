@@ -27,6 +27,7 @@ def command(
     out: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
@@ -42,7 +43,7 @@ def command(
     if kind is not None and kind not in KINDS:
         raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
     folder = options.check_folder(out)
-    scene = options.Asked.check(source, changes, stokes, speed, angle, model).scene()
+    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     if kind is None:
         raise InputError("--to", None, "one of " + ", ".join(KINDS))
     if folder is None:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..errors import InputError
-from ..scene.ranges import check_cells, parse_range
-from ..scene.schema import FIELDS, Field
+from ..scene.ranges import check_cells
+from ..scene.schema import FIELDS
 from ..scene.user_model import fields
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
@@ -25,13 +25,14 @@ if TYPE_CHECKING:
 @click.command("map", short_help="Outcome and restitution over a grid.")
 @options.scene_argument
 @click.option("--stokes", metavar="RANGE", help="Normal Stokes numbers: LO:HI:N, or log:LO:HI:N.")
-@click.option("--speed", metavar="RANGE", help='Normal speeds instead, as "0.1 m/s:2 m/s:40".')
-@click.option("--angle", metavar="RANGE", help="Impact angles in degrees, as 0:85:40.")
+@click.option("--speed", metavar="RANGE", help='Normal speeds instead, as "0.1:2 m/s:40".')
+@click.option("--relative-speed", metavar="RANGE", help="Magnitudes of the relative velocity instead.")
+@click.option("--angle", metavar="RANGE", help="Impact angles, as 0:85:40 (degrees) or 0:1.5 rad:40.")
 @click.option(
     "--vary",
     metavar="NAME=RANGE",
     multiple=True,
-    help='Another dimension, as liquid.viscosity="1 Pa s:4 Pa s:3"; repeatable.',
+    help='Another dimension, as liquid.viscosity="1:4 Pa s:3"; repeatable.',
 )
 @options.changes
 @options.model
@@ -44,6 +45,7 @@ def command(
     source: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     vary: Sequence[str],
     changes: Sequence[str],
@@ -66,18 +68,18 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o", (".nc",), replaced=True)
     check_cells(
-        {"--stokes": stokes, "--speed": speed, "--angle": angle}
+        {"--stokes": stokes, "--speed": speed, "--relative-speed": relative_speed, "--angle": angle}
         | {f"--vary {each.partition('=')[0]}": each for each in vary}
     )
-    axes = _axes(stokes, speed, angle)
+    axes = _axes(stokes, speed, relative_speed, angle)
     asked = options.Asked.check(source, changes, model=model)
     varied = _varied(vary, asked)
     for name in asked.entries:
         if name.startswith("impact."):
             raise InputError("--set", name, "entries that are not of the impact", "is an axis of the map")
     scene = asked.scene()
-    if "stokes" not in axes and "speed" not in axes:
-        raise InputError("--stokes", None, "LO:HI:N or log:LO:HI:N, or --speed")
+    if not {*axes} - {"angle"}:
+        raise InputError("--stokes", None, "LO:HI:N or log:LO:HI:N, or --speed, or --relative-speed")
     if "angle" not in axes:
         raise InputError("--angle", None, "LO:HI:N in degrees")
 
@@ -88,32 +90,28 @@ def command(
     _show(data, file, picture)
 
 
-def _axes(stokes: str | None, speed: str | None, angle: str | None) -> dict[str, list[float]]:
+def _axes(
+    stokes: str | None, speed: str | None, relative_speed: str | None, angle: str | None
+) -> dict[str, list[float]]:
     """The axes of the impact, SI; InputError for the first wrong one."""
+    given = {"stokes": stokes, "speed": speed, "relative-speed": relative_speed, "angle": angle}
     axes = {}
-    if stokes is not None:
-        axes["stokes"] = parse_range(stokes, "--stokes", _reader(FIELDS["impact.stokes"], "--stokes"))
-    if speed is not None:
-        axes["speed"] = parse_range(
-            speed, "--speed", _reader(FIELDS["impact.speed"], "--speed"), unit="with their units"
-        )
-    if angle is not None:
-        axes["angle"] = options.angles(angle)
-    if stokes is not None and speed is not None:
-        problem = f"is given together with --stokes = {stokes}"
-        raise InputError("--speed", speed, "only one of --stokes, --speed", problem)
+    for name, text in given.items():
+        if text is not None:
+            key = name.replace("-", "_")
+            axes[key] = options.entry_range(FIELDS[f"impact.{key}"], text, f"--{name}")
+    first, *more = [name for name in given if given[name] is not None and name != "angle"] or [""]
+    if more:
+        problem = f"is given together with --{first} = {given[first]}"
+        raise InputError(f"--{more[0]}", given[more[0]], "only one of --stokes, --speed, --relative-speed", problem)
     return axes
 
 
-def _reader(entry: Field, label: str) -> options.Reader:
-    return lambda text: entry.number(text, label=label)
-
-
-def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float]]:
+def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float] | list[str]]:
     """Axes of --vary by dotted name."""
     from ..many.batch import check_varies
 
-    found: dict[str, list[float]] = {}
+    found: dict[str, list[float] | list[str]] = {}
     for text in vary:
         name, equals, values = text.partition("=")
         name = name.strip()
@@ -124,15 +122,14 @@ def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float]]
             other = "twice" if name in found else "together with --set"
             raise InputError("--vary", name, "every entry once", f"is given {other}")
         entry = fields(asked.package)[name]
-        unit = "with their units" if entry.unit else ""
-        found[name] = parse_range(values, f"--vary {name}", _reader(entry, f"--vary {name}"), unit=unit)
+        found[name] = options.varied(entry, values, f"--vary {name}")
     return found
 
 
 def _computed(
     scene: Scene,
     axes: dict[str, list[float]],
-    varied: dict[str, list[float]],
+    varied: dict[str, list[float] | list[str]],
     rtol: float,
     engine: str | None,
     file: Path | None,
@@ -157,6 +154,7 @@ def _computed(
                 scene,
                 stokes=axes.get("stokes"),
                 speed=axes.get("speed"),
+                relative_speed=axes.get("relative_speed"),
                 angle=axes["angle"],
                 vary=varied,
                 rtol=rtol,
@@ -191,10 +189,11 @@ def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None
     from ..many.text_map import failures, table
 
     if picture is not None:
+        from ..boundaries.on_map import map_curves
         from ..host.files import save
         from ..many.plot_map import draw_map
 
-        save(draw_map(data), picture, dpi=150)
+        save(draw_map(data, map_curves(data)), picture, dpi=150)
     if file is None and picture is None:
         click.echo(table(data))
     failed = failures(data)

@@ -12,8 +12,8 @@ import click
 from ..errors import InputError, shown
 from ..host import files, outputs
 from ..scene import units
-from ..scene.ranges import parse_range
-from ..scene.schema import FIELDS, unknown_entry
+from ..scene.ranges import MOST, Ends, parse_range
+from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.user_model_source import open_package
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 Command = Callable[..., Any]
-Reader = Callable[[str], float]
 PICTURES = outputs.PICTURES
 
 # Not required by click, so that a bad option is reported before a missing scene.
@@ -45,8 +44,11 @@ changes = click.option(
 
 
 def impact(command: Command) -> Command:
-    """Add --stokes, --speed and --angle to a command."""
-    command = click.option("--angle", metavar="A", help='Impact angle with its unit, as "60 deg".')(command)
+    """Add --stokes, --speed, --relative-speed and --angle to a command."""
+    command = click.option("--angle", metavar="A", help='Impact angle, as 60 (degrees) or "1.05 rad".')(command)
+    command = click.option("--relative-speed", metavar="V", help='Magnitude of the relative velocity, as "1.08 m/s".')(
+        command
+    )
     command = click.option("--speed", metavar="V", help='Normal speed with its unit, as "0.54 m/s".')(command)
     return click.option("--stokes", metavar="S", help="Normal Stokes number.")(command)
 
@@ -68,32 +70,34 @@ class Asked:
         stokes: str | None = None,
         speed: str | None = None,
         angle: str | None = None,
+        relative_speed: str | None = None,
         model: str | None = None,
     ) -> Asked:
         """Return the checked request; InputError naming the first wrong option."""
-        given = {"stokes": stokes, "speed": speed, "angle": angle}
-        read = {key: text for key, text in given.items() if text is not None}
+        given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+        read = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in given.items() if text is not None}
         for key, text in read.items():
-            FIELDS[f"impact.{key}"].number(text, label=f"--{key}")
-        if "stokes" in read and "speed" in read:
-            raise InputError(
-                "--speed", speed, "only one of --stokes, --speed", f"is given together with --stokes = {stokes}"
-            )
+            FIELDS[f"impact.{key}"].number(text, label=_option(key))
+        first, *more = [key for key in read if key != "angle"] or [""]
+        if more:
+            options_ = ", ".join(_option(name.partition(".")[2]) for name in SPEEDS)
+            problem = f"is given together with {_option(first)} = {given[first]}"
+            raise InputError(_option(more[0]), given[more[0]], f"only one of {options_}", problem)
         package = None if model is None else open_package(model)
         entries = _entries(changes, package)
         for key in read:
-            same = ("impact.angle",) if key == "angle" else ("impact.stokes", "impact.speed")
+            same = ("impact.angle",) if key == "angle" else SPEEDS
             for entry in same:
                 if entry in entries:
                     problem = f"is given together with --set {entry} = {shown(entries[entry])}"
-                    raise InputError(f"--{key}", given[key], "only one of the two", problem)
+                    raise InputError(_option(key), given[key], "only one of the two", problem)
         return cls(source, entries, read, package)
 
     def optional_scene(self) -> Scene | None:
         """Read the scene if one is named; InputError for an option that needs a scene."""
         if self.source is None:
             for option, value in (
-                *((f"--{key}", text) for key, text in self.impact.items()),
+                *((_option(key), text) for key, text in self.impact.items()),
                 *(("--set", f"{name}={value}") for name, value in self.entries.items()),
             ):
                 raise InputError(option, value, f"a SCENE with {option}", "needs a SCENE")
@@ -124,6 +128,7 @@ def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str
         if name != "name":
             if name not in known:
                 raise unknown(name, value, package) or unknown_entry(name, value)
+            value = with_degrees(known[name], value)
             known[name].read(value)
         entries[name] = value
     return entries
@@ -136,18 +141,50 @@ def entries(changes: Sequence[str]) -> dict[str, str]:
         name, equals, value = change.partition("=")
         if not equals:
             raise InputError("--set", change, 'NAME=VALUE, such as liquid.viscosity="3 Pa s"', "has no =")
-        found[name.strip()] = value
+        name = name.strip()
+        found[name] = with_degrees(FIELDS[name], value) if name in FIELDS else value
     return found
 
 
-def angles(text: str, option: str = "--angle") -> list[float]:
-    """Return the impact angles (rad) of a range in degrees; InputError naming the option."""
+def _option(key: str) -> str:
+    return f"--{key.replace('_', '-')}"
 
-    def read(end: str) -> float:
-        units.number(end, option, "LO:HI:N or log:LO:HI:N in degrees, without a unit")
-        return FIELDS["impact.angle"].number(f"{end.strip()} deg", label=option)
 
-    return parse_range(text, option, read, unit="in degrees")
+def with_degrees(entry: Field, text: str) -> str:
+    """An angle as it is typed: a bare number is in degrees."""
+    return f"{text.strip()} deg" if entry.unit == "rad" and units.is_number(text) else text
+
+
+def entry_range(entry: Field, text: str, label: str, *, most: int = MOST) -> list[float]:
+    """The values (SI) of a range of an entry, either end of which may carry the unit; bare angles are in degrees."""
+    return parse_range(text, label, entry_ends(entry, label), unit=_in_units(entry), most=most)
+
+
+def varied(entry: Field, text: str, label: str) -> list[float] | list[str]:
+    """The values of a range of an entry; as text where a plain number is something else than a quantity."""
+    if entry.or_unit and not all(units.is_number(end) for end in text.removeprefix("log:").split(":")):
+        return [f"{value!r} {entry.or_unit}" for value in entry_range(entry.measured, text, label)]
+    return entry_range(entry, text, label)
+
+
+def entry_ends(entry: Field, label: str) -> Ends:
+    """What reads both ends of a range of an entry (SI): an end without a unit has that of the other."""
+
+    def read(low: str, high: str) -> tuple[float, float]:
+        bare = [units.is_number(end) for end in (low, high)]
+        if bare[0] != bare[1]:
+            unit = units.unit_of(high if bare[0] else low)
+            low, high = (f"{end.strip()} {unit}" if units.is_number(end) else end for end in (low, high))
+        first, last = (entry.number(with_degrees(entry, end), label=label) for end in (low, high))
+        return first, last
+
+    return read
+
+
+def _in_units(entry: Field) -> str:
+    if entry.unit == "rad":
+        return "in degrees, or with a unit"
+    return "with a unit at either end" if entry.unit else ""
 
 
 def check_file(path: str | None, option: str, suffixes: Sequence[str] = (), *, replaced: bool = False) -> Path | None:

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import click
 
+from ..errors import InputError
+from ..host import bounded, files
+from ..scene.scenefile import PRESETS, description, read_text, template
 from . import options
 
 
 @click.command("scenes", short_help="List the presets, or print one as TOML.")
 @click.argument("name", metavar="[NAME]", required=False)
+@click.option("--new", "new", metavar="NAME", help="Write NAME.toml, a commented scene to be filled in.")
 @options.impact
 @options.changes
 @options.model
@@ -18,23 +23,51 @@ from . import options
 @options.debug
 def command(
     name: str | None,
+    new: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
     output: str | None,
 ) -> None:
-    """List the presets, or print the scene NAME as TOML, ready to be saved and edited."""
+    """List the presets, or print the scene NAME as TOML, ready to be saved and edited.
+
+    With --new NAME a scene file to be filled in is written, which runs as it is.
+    """
     file = options.check_file(output, "-o")
-    asked = options.Asked.check(name, changes, stokes, speed, angle, model=model)
+    begun = None if new is None else _new(new)
+    asked = options.Asked.check(name, changes, stokes, speed, angle, relative_speed, model)
+    if begun is not None:
+        for option, given in (("NAME", name), ("-o", output), ("--model", model), ("--set", asked.entries or None)):
+            if given is not None or asked.impact:
+                raise InputError("--new", new, "--new NAME alone", f"is given together with {option}")
+        files.write(begun, template(begun.stem))
+        click.echo(str(begun))
+        return
     scene = asked.optional_scene()
-    options.put(_listing() if scene is None else scene.to_toml().rstrip("\n"), file)
+    if scene is None:
+        options.put(_listing(), file)
+    elif name in PRESETS and not (asked.entries or asked.impact or model):
+        options.put(read_text(str(name))[0].rstrip("\n"), file)
+    else:
+        options.put(scene.to_toml().rstrip("\n"), file)
+
+
+def _new(name: str) -> Path:
+    """The file to begin, which must not be there."""
+    file = options.check_file(name if name.endswith(".toml") else f"{name}.toml", "--new")
+    assert file is not None
+    accepted = "a name NAME for a file NAME.toml that is not there"
+    if file.stem in PRESETS:
+        raise InputError("--new", name, accepted, "is the name of a preset")
+    if bounded.exists(file):
+        raise InputError("--new", name, accepted, f"would overwrite {file}")
+    return file
 
 
 def _listing() -> str:
     """One line per preset: its name and description."""
-    from ..scene.scenefile import PRESETS, description
-
     width = max(map(len, PRESETS))
     return "\n".join(f"{name:<{width}}  {description(name)}" for name in PRESETS)

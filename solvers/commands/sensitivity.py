@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import click
 
 from ..errors import InputError
+from ..scene.schema import FIELDS
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
 
@@ -19,7 +20,7 @@ from . import options
 )
 @click.option("--wrt", metavar="NAMES", help="Parameters, as liquid.viscosity,impact.angle [all of the scene].")
 @click.option("--method", metavar="M", help="forward or adjoint [forward].")
-@click.option("--hold", metavar="WHAT", help="Quantity of the impact to hold: speed or stokes [speed].")
+@click.option("--hold", metavar="WHAT", help="Quantity to hold: speed, stokes, relative_speed [as given].")
 @click.option(
     "--uncertainty",
     "uncertain",
@@ -47,6 +48,7 @@ def command(
     hessian: bool,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
@@ -70,7 +72,7 @@ def command(
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     how = "forward" if method is None else check_method(method, "--method")
-    held = "speed" if hold is None else check_hold(hold, "--hold")
+    held = None if hold is None else check_hold(hold, "--hold")
     asked = ("restitution",) if of is None else check_quantities(_names(of), "--of")
     if hessian and chosen in ("cvodes", "taylor"):
         raise InputError("--engine", chosen, "rosenbrock with --hessian", "has no second derivatives")
@@ -79,7 +81,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, model=model).scene()
+    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
     scene.need_impact()
     deviation = deviations(scene, _assigned(uncertain), "--uncertainty") if uncertain else {}
@@ -108,5 +110,6 @@ def _assigned(given: Sequence[str]) -> dict[str, str]:
         name, equals, value = text.partition("=")
         if not equals:
             raise InputError("--uncertainty", text, 'NAME=VALUE, such as liquid.viscosity="5 %"', "has no =")
-        found[name.strip()] = value
+        name = name.strip()
+        found[name] = options.with_degrees(FIELDS[name], value) if name in FIELDS else value
     return found

@@ -50,10 +50,10 @@ def _renamed(function: Function, name: str) -> Function:
 
 def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:
     """Comment at the head of the file that describes the functions."""
-    choice = model.choice
+    choice, glassy = model.choice, scene.liquid.glass_transition_pressure is not None
     lines = [
         f"{scene.name or 'scene'}: functions of the structure `{choice.structure}`, emitted by wetdoublet.",
-        "Laws: " + ", ".join(f"{slot} {law}" for slot, law in choice.laws) + ".",
+        "Laws: " + ", ".join(f"{slot} {law}" for slot, law in choice.laws if slot != "glass" or glassy) + ".",
         f"Equations sha256 {model.structure.DIGEST}",
         "",
         "Each function takes arg[0] = state, arg[1] = groups and fills res[0]; casadi's calling convention.",

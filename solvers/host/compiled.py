@@ -8,7 +8,11 @@ from .compiler import CannotCompile, compiler, key, library, more_flags
 from .remarks import say_once
 from .user_cache import kept, loaded
 
-FLAGS = ("-O1", "-fPIC", "-shared")  # -O3 compiles 1.6 times as long, runs a sixth faster (docs/performance.md)
+FLAGS = (
+    "-O1",
+    "-fPIC",
+    "-shared",
+)  # -O3 compiles 1.6 times as long, runs a sixth faster (docs/engineering/performance.md)
 
 
 def compiled(function: Function) -> Function:

@@ -14,10 +14,12 @@ import numpy as np
 from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
+from ..model.validity import NEEDS
+from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import unknown_entry
+from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
-from ..scene.values import array
+from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
 
 QUANTITIES: dict[str, tuple[str, str]] = {
@@ -27,6 +29,8 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "contact_time": ("s", "time from initial contact to separation"),
     "smallest_gap": ("m", "smallest gap until separation"),
 }
+VALIDITY = "validity"
+"""Name of the variable that says where the model leaves its range."""
 
 
 @dataclass(frozen=True)
@@ -73,23 +77,26 @@ class Batch:
 
 @lru_cache(maxsize=64)
 def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
-    return scene.with_entries(dict(entries))
+    return scene.with_si(dict(entries))
 
 
 def validated_batch(
     scene: Scene | str | Path,
-    stokes: Any,
-    speed: Any,
-    angle: Any,
+    impact: Mapping[str, Any],
     vary: Mapping[str, Any],
     rtol: float,
     engine: str | None,
     of: Sequence[str],
 ) -> Batch:
-    """A validated `Batch`, its arrays broadcast to one length."""
+    """A validated `Batch`, its arrays broadcast to one length.
+
+    Arguments:
+        impact: `stokes`, `speed`, `relative_speed` and `angle` as they were given; None for the scene's.
+    """
     loaded = Scene.load(scene)
     kept = check_outputs(of)
-    arrays = checked_impact(loaded, stokes, speed, angle) | checked_vary(loaded, vary)
+    loaded, varied = checked_vary(loaded, vary)
+    arrays = checked_impact(loaded, impact) | varied
     lengths = {name: array.size for name, array in arrays.items() if array.ndim and array.size != 1}
     size = next(iter(lengths.values()), 1)
     for name, length in lengths.items():
@@ -99,11 +106,13 @@ def validated_batch(
         name: array.reshape(-1).copy() if array.size == size else np.full(size, array.item())
         for name, array in arrays.items()
     }
+    angle, relative = full.pop("impact.angle"), full.pop("impact.relative_speed", None)
+    speed = full.pop("impact.speed", None)
     request = Batch(
         scene=loaded,
         stokes=full.pop("impact.stokes", None),
-        speed=full.pop("impact.speed", None),
-        angle=full.pop("impact.angle"),
+        speed=speed if relative is None else normal_speed(relative, angle),
+        angle=angle,
         vary=full,
         rtol=check_rtol(rtol),
         engine=bulk_engine(check_engine(engine), size, loaded),
@@ -114,34 +123,50 @@ def validated_batch(
 
 
 def check_outputs(of: Sequence[str]) -> tuple[str, ...]:
-    """The quantities to keep; InputError for an unknown one."""
-    return check_names(of, (*QUANTITIES, "outcome", "certified", "reason"), "of")
+    """The quantities to keep, with those that the limits of the model need; InputError for an unknown one."""
+    kept = check_names(of, (*QUANTITIES, "outcome", "certified", "reason", VALIDITY), "of")
+    return tuple(dict.fromkeys((*kept, *NEEDS))) if VALIDITY in kept else kept
 
 
-def checked_impact(scene: Scene, stokes: Any, speed: Any, angle: Any) -> dict[str, np.ndarray]:
+def checked_impact(scene: Scene, impact: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """Impacts by dotted name, SI; defaults are the scene's. InputError if the scene has none."""
-    if stokes is not None and speed is not None:
-        raise InputError("speed", speed, "only one of stokes, speed", "is given together with stokes")
-    if stokes is None and speed is None:
-        stokes, speed = scene.impact.stokes, scene.impact.speed
-        if stokes is None and speed is None:
-            raise InputError("stokes", None, "Stokes numbers, or speed, or an [impact] in the scene")
-    angle = scene.angle if angle is None else angle
+    asked = {name: values for name, values in impact.items() if name != "angle" and values is not None}
+    names = [name.partition(".")[2] for name in SPEEDS]
+    if len(asked) > 1:
+        first, second, *_ = asked
+        raise InputError(second, asked[second], f"only one of {', '.join(names)}", f"is given together with {first}")
+    if not asked:
+        own = {name: getattr(scene.impact, name) for name in names}
+        asked = {name: value for name, value in own.items() if value is not None}
+        if not asked:
+            raise InputError("stokes", None, "Stokes numbers, speed or relative_speed, or an [impact] in the scene")
+    angle = scene.angle if impact.get("angle") is None else impact["angle"]
     if angle is None:
         raise InputError("angle", None, "angles in rad, or an [impact] in the scene")
-    given = {"impact.stokes": stokes, "impact.speed": speed, "impact.angle": angle}
-    return {name: checked_numbers(name, values) for name, values in given.items() if values is not None}
+    given = {f"impact.{name}": values for name, values in asked.items()} | {"impact.angle": angle}
+    return {name: checked_numbers(name, values) for name, values in given.items()}
 
 
-def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> dict[str, np.ndarray]:
-    """Other entries that vary, SI; InputError for an entry that may not."""
+def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> tuple[Scene, dict[str, np.ndarray]]:
+    """Other entries that vary, SI, and the scene with `bridge.volume` in the same unit; InputError for a wrong entry.
+
+    Values of `bridge.volume` with a unit are volumes in m^3 and plain numbers are V/R^3, whatever the scene gives.
+    """
     vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
+    found = {}
     for name, values in vary.items():
         check_varies(name, values, label, scene.package)
         if "." in name and name.partition(".")[0] not in {given.partition(".")[0] for given, _ in scene.given}:
             accepted = ", ".join(given for given, _ in scene.given if not given.startswith("impact."))
             raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
-    return {name: checked_numbers(name, values, scene.package) for name, values in vary.items()}
+    for name, values in vary.items():
+        entry = fields(scene.package)[name]
+        measured = bool(entry.or_unit) and carries_unit(values)
+        found[name] = checked_numbers(name, values, entry.measured if measured else entry)
+        if entry.or_unit and found[name].size:
+            first = float(found[name].flat[0])
+            scene = scene.with_entries({name: f"{first!r} {entry.or_unit}" if measured else first})
+    return scene, found
 
 
 def check_varies(name: str, values: object, label: str = "vary", package: Package | None = None) -> None:
@@ -169,13 +194,13 @@ def check_some_scene(request: Batch) -> None:
         raise first
 
 
-def checked_numbers(name: str, values: Any, package: Package | None = None) -> np.ndarray:
+def checked_numbers(name: str, values: Any, entry: Field | None = None) -> np.ndarray:
     """A 0-D or 1-D array of SI numbers within the field's range; text carries its unit.
 
     Raises:
         InputError: as `values.array`, and numbers outside the field's range.
     """
-    entry = fields(package)[name]
+    entry = FIELDS[name] if entry is None else entry
     found = array(values, entry, name)
     if found.ndim > 1:
         raise InputError(name, f"{found.ndim} dimensions", "one dimension, or a single number", "is not accepted")

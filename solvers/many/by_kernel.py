@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import LAST_ANSWER
 from ..engines.taylor.call import Impacts, run_kernel
+from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
-from ..scene.quantities import quantities
+from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Batch
+from .columns import varied_columns
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
@@ -57,7 +58,8 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
     values: dict[str, np.ndarray] = {}
     with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
-            values, sound = _columns(request)
+            values = varied_columns(request)
+            sound = _sound(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
         else:
             sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
@@ -77,22 +79,12 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     return usual
 
 
-def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Quantities of every collision where entries vary, and a mask of those that certainly satisfy the entry rules."""
-    scene = request.scene
-    entries: dict[str, Any] = {name: value for name, value in scene.si if not isinstance(value, str)}
-    if scene.pendulum is not None:
-        entries["pendulum.gravity"] = scene.pendulum.gravity
-    entries = {name: value for name, value in entries.items() if not name.startswith("impact.")}
-    found = quantities(entries | dict(request.vary), scene.wall)
-    values = {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
-    return values, _sound(scene, values)
-
-
 def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     """Mask of collisions that satisfy `scene.entry_rules` with a margin; the scene itself validates the others."""
     film = values["film_thickness"]
-    sound = values["roughness"] < film * (1 - _NEAR)
+    sound = np.ones(film.shape, bool)
+    for word in AT_ANY_SPEED:
+        sound &= gap_at_any_speed(word, values) < 1 - _NEAR
     rupture = film
     if scene.bridge is not None:
         formula, arguments = formulas(scene)["rupture_gap"]
@@ -101,8 +93,9 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
         rupture = gap * film
     if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    if scene.attraction is not None and scene.particles.youngs_modulus is None:
-        sound &= values["roughness"] > 0  # bounds the attraction, which diverges at zero gap
+    # attraction diverges at zero gap, and without glass criterion nothing stops the approach
+    stopped = (scene.attraction is None) & (values["glass_transition_pressure"] < NO_GLASS)
+    sound &= ~np.asarray(never_touching(values)) | stopped
     for ratio in ("radius_ratio", "mass_ratio"):
         if scene.partner is not None and ratio in values:
             sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))

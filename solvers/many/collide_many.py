@@ -22,11 +22,12 @@ from ..host.cores import usable_cores
 from ..host.workers import undisturbed, workers
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
-from ..model.validity import warn
+from ..model.validity import flag_attributes, flags, warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL
-from .batch import QUANTITIES, Batch, validated_batch
+from .batch import QUANTITIES, VALIDITY, Batch, validated_batch
 from .by_kernel import collided
+from .columns import with_impacts
 
 if TYPE_CHECKING:
     import xarray
@@ -47,6 +48,7 @@ def collide_many(
     stokes: Any = None,
     speed: Any = None,
     angle: Any = None,
+    relative_speed: Any = None,
     vary: Mapping[str, Any] | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
@@ -56,12 +58,14 @@ def collide_many(
 
     Arguments:
         scene: a Scene, a path or a preset's name.
-        stokes, speed: Stokes numbers, or normal speeds in m/s: 1-D or a single number; default the scene's.
+        stokes, speed, relative_speed: Stokes numbers, normal speeds in m/s, or magnitudes of the relative velocity in
+            m/s: 1-D or a single number; default the scene's.
         angle: impact angles in rad, 1-D or a single number; default the scene's.
         vary: other entries by dotted name (SI numbers), 1-D of the same length.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: quantities to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap.
+        of: quantities to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap;
+            validity (flags of where the model leaves its range, with the results that these need).
 
     Returns:
         Dataset over `collision`: outcome (int8: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 failed), restitution,
@@ -75,7 +79,8 @@ def collide_many(
         >>> collide_many("granulation", stokes=[0.01, 0.02], angle=1.3).outcome.values
         array([0, 1], dtype=int8)
     """
-    request = validated_batch(scene, stokes, speed, angle, {} if vary is None else vary, rtol, engine, of)
+    impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+    request = validated_batch(scene, impact, {} if vary is None else vary, rtol, engine, of)
     warn(request.scene)
     results = empty(request.size, request.of)
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
@@ -235,6 +240,8 @@ def as_dataset(request: Batch, results: Block) -> xarray.Dataset:
     for name, (unit, meaning) in QUANTITIES.items():
         if name in results:
             variables[name] = along, results[name], {"units": unit, "long_name": meaning}
+    if VALIDITY in request.of:
+        variables[VALIDITY] = along, validity(request, results), flag_attributes()
     attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
     if request.scene.package is not None:
         attributes["model"] = request.scene.package.text
@@ -247,6 +254,12 @@ def as_text(results: Block) -> np.ndarray:
     if not failed.any():
         return np.zeros(failed.size, "<U1")
     return np.where(failed, results["reason"], "").astype(str)
+
+
+def validity(request: Batch, results: Block) -> np.ndarray:
+    """Flags of where each collision leaves the model's range; none of one that failed."""
+    found = flags(request.scene, with_impacts(request) | results, request.size)
+    return np.where(results["outcome"] == FAILED, np.int16(0), found)
 
 
 def outcome_attributes() -> dict[str, Any]:

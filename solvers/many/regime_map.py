@@ -18,20 +18,23 @@ from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
-from ..model.validity import warn
+from ..model.validity import flag_attributes, warn
 from ..scene.groups import si_values
+from ..scene.quantities import normal_speed
 from ..scene.ranges import MOST
 from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import QUANTITIES, Batch, check_outputs, check_some_scene, checked_impact, checked_vary
-from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes
+from .batch import QUANTITIES, VALIDITY, Batch, check_outputs, check_some_scene, checked_impact, checked_vary
+from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes, validity
 from .journal import Journal
 
 if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[int, int], None]
+IMPACTS = tuple(name.partition(".")[2] for name in SPEEDS)
 _UNKNOWN = -2  # outcome of a collision not computed yet
 
 
@@ -41,7 +44,7 @@ class Grid:
 
     scene: Scene
     angle: np.ndarray
-    impact: str  # "stokes" or "speed"
+    impact: str  # "stokes", "speed" or "relative_speed"
     values: np.ndarray
     vary: dict[str, np.ndarray]
 
@@ -59,6 +62,12 @@ class Grid:
         indices = np.arange(np.prod(self.shape, dtype=int)).reshape(self.shape)
         return np.moveaxis(indices, [0, 1], [-2, -1]).ravel()
 
+    def speeds(self, values: np.ndarray, angle: np.ndarray, stokes_per_speed: float) -> np.ndarray:
+        """Normal speeds, m/s, of what is on the impact's axis."""
+        if self.impact == "stokes":
+            return values / stokes_per_speed
+        return values if self.impact == "speed" else np.asarray(normal_speed(values, angle))
+
     def request(self, rtol: float, engine: str, of: Sequence[str]) -> Batch:
         """All collisions of the grid as one batch."""
         full = np.meshgrid(self.angle, self.values, *self.vary.values(), indexing="ij")
@@ -66,7 +75,7 @@ class Grid:
         return Batch(
             scene=self.scene,
             stokes=values if self.impact == "stokes" else None,
-            speed=values if self.impact == "speed" else None,
+            speed=None if self.impact == "stokes" else self.speeds(values, angle, 1.0),
             angle=angle,
             vary=dict(zip(self.vary, varied, strict=True)),
             rtol=rtol,
@@ -81,10 +90,11 @@ def regime_map(
     stokes: Any = None,
     speed: Any = None,
     angle: Any = None,
+    relative_speed: Any = None,
     vary: Mapping[str, Any] | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
-    of: Sequence[str] = tuple(QUANTITIES),
+    of: Sequence[str] = (*QUANTITIES, VALIDITY),
     progress: Progress | None = None,
     journal: str | Path | Journal | None = None,
     slow: Slow = lambda _count: None,
@@ -93,21 +103,23 @@ def regime_map(
 
     Arguments:
         scene: a Scene, a path or a preset's name.
-        stokes, speed: Stokes numbers, or normal speeds in m/s: an axis, or a single number; default the scene's.
+        stokes, speed, relative_speed: Stokes numbers, normal speeds in m/s, or magnitudes of the relative velocity in
+            m/s: an axis, or a single number; default the scene's.
         angle: impact angles in rad, an axis or a single number; default the scene's.
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: restitution, tangential_restitution, rotation, contact_time, smallest_gap; by default all.
+        of: restitution, tangential_restitution, rotation, contact_time, smallest_gap, and validity (flags of where
+            the model leaves its range); by default all.
         progress: called with (collisions done, collisions in all) after every block.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
         slow: called with the number of collisions left to slower engines, once the kernel has done all others.
 
     Returns:
-        Dataset over (angle, stokes or speed, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
+        Dataset over (angle, the one of these three, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
         2 bounce, -1 failed), certified, reason (of a failure, else "") and what `of` names; NaN where a stick leaves
-        a quantity undefined. The Stokes number or speed that is no axis and, with a bridge, the centrifugal number
+        a quantity undefined. The Stokes number and speed that are no axis and, with a bridge, the centrifugal number
         are coordinates as well. The scene is among the attributes.
 
     Raises:
@@ -120,7 +132,8 @@ def regime_map(
                [0, 1, 2]], dtype=int8)
     """
     told = (check_function(progress, "progress"), check_function(slow, "slow"))
-    grid = _grid(Scene.load(scene), stokes, speed, angle, {} if vary is None else vary)
+    impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+    grid = _grid(Scene.load(scene), impact, {} if vary is None else vary)
     by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
     request = grid.request(check_rtol(rtol), by, check_outputs(of))
     check_some_scene(request)
@@ -165,9 +178,9 @@ def _computed(
     return _dataset(grid, request, results)
 
 
-def _grid(scene: Scene, stokes: Any, speed: Any, angle: Any, vary: Mapping[str, Any]) -> Grid:
-    impact = checked_impact(scene, stokes, speed, angle)
-    axes = {name: array.reshape(-1) for name, array in (impact | checked_vary(scene, vary)).items()}
+def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any]) -> Grid:
+    scene, varied = checked_vary(scene, vary)
+    axes = {name: array.reshape(-1) for name, array in (checked_impact(scene, impact) | varied).items()}
     if math.prod(axis.size for axis in axes.values()) > MOST:
         longest = max(axes, key=lambda name: axes[name].size)
         sizes = " x ".join(str(axis.size) for axis in axes.values())
@@ -176,9 +189,9 @@ def _grid(scene: Scene, stokes: Any, speed: Any, angle: Any, vary: Mapping[str, 
         if np.unique(axis).size != axis.size:
             raise InputError(name, axis, "an axis without repetitions", "has a value twice")
     angles = axes.pop("impact.angle")
-    kind = "stokes" if "impact.stokes" in axes else "speed"
-    values = axes.pop(f"impact.{kind}")
-    return Grid(scene, angles, kind, values, axes)
+    entry = next(name for name in SPEEDS if name in axes)
+    values = axes.pop(entry)
+    return Grid(scene, angles, entry.partition(".")[2], values, axes)
 
 
 def _identity(grid: Grid, request: Batch) -> dict[str, Any]:
@@ -186,6 +199,7 @@ def _identity(grid: Grid, request: Batch) -> dict[str, Any]:
     axes = {"angle": grid.angle, grid.impact: grid.values} | {f"vary {name}": axis for name, axis in grid.vary.items()}
     return {
         "scene": [entry for entry in grid.scene.si if not entry[0].startswith("impact.")],
+        "volume": grid.scene.ways.volume,
         "axes": {name: axis.tolist() for name, axis in axes.items()},
         "rtol": request.rtol,
         "engine": request.engine,
@@ -216,6 +230,8 @@ def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
     for name, (unit, meaning) in QUANTITIES.items():
         if name in results:
             variables[name] = (grid.dims, shaped(results[name]), {"units": unit, "long_name": meaning})
+    if VALIDITY in request.of:
+        variables[VALIDITY] = grid.dims, shaped(validity(request, results)), flag_attributes()
     attributes = {
         "Conventions": "CF-1.11",
         "title": f"Outcomes of oblique wet collisions: {grid.scene.name or 'unnamed scene'}",
@@ -234,6 +250,7 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
     labels = {
         "stokes": {"units": "1", "long_name": "Stokes number"},
         "speed": {"units": "m/s", "long_name": "normal approach speed"},
+        "relative_speed": {"units": "m/s", "long_name": "magnitude of the relative velocity"},
         "angle": {"units": "rad", "long_name": "impact angle"},
     }
     coordinates: dict[str, Any] = {
@@ -243,22 +260,25 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
     for name, values in grid.vary.items():
         field = grid.scene.fields[name]
         coordinates[name] = (name, values, {"units": field.unit or "1", "long_name": name.replace(".", ", ", 1)})
-    other = "speed" if grid.impact == "stokes" else "stokes"
     shape = grid.shape[2:]
-    converted = np.full((grid.values.size, *shape), np.nan)
-    centrifugal = np.full(grid.shape, np.nan)
+    speeds, stokes, centrifugal = (np.full(grid.shape, np.nan) for _ in range(3))
     for index in np.ndindex(*shape):
         entries = {name: float(axis[k]) for (name, axis), k in zip(grid.vary.items(), index, strict=True)}
         try:
-            scene = grid.scene.with_entries(entries) if entries else grid.scene
+            scene = grid.scene.with_si(entries) if entries else grid.scene
         except InputError:  # the collisions of an impossible scene are marked as failed
             continue
+        here = (slice(None), slice(None), *index)
         with np.errstate(all="ignore"):  # an impact out of range is marked as failed
-            speeds = grid.values if grid.impact == "speed" else grid.values / scene.stokes_per_speed
-            converted[(slice(None), *index)] = speeds if other == "speed" else speeds * scene.stokes_per_speed
+            speeds[here] = grid.speeds(grid.values[None, :], grid.angle[:, None], scene.stokes_per_speed)
+            stokes[here] = speeds[here] * scene.stokes_per_speed
         if scene.bridge is not None:
-            centrifugal[(slice(None), slice(None), *index)] = _centrifugal(scene, speeds, grid.angle)
-    coordinates[other] = (grid.dims[1:], converted, labels[other])
+            centrifugal[here] = _centrifugal(scene, speeds[here], grid.angle)
+    for name, values in (("speed", speeds), ("stokes", stokes)):
+        if grid.impact == "relative_speed":
+            coordinates[name] = (grid.dims, values, labels[name])
+        elif name != grid.impact:  # the same at every angle
+            coordinates[name] = (grid.dims[1:], values[0], labels[name])
     if grid.scene.bridge is not None:
         coordinates["centrifugal"] = (
             grid.dims,
@@ -278,7 +298,12 @@ def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> list[l
         except (OverflowError, ZeroDivisionError):
             return math.inf
 
-    return [[one(speed, angle) for speed in speeds.tolist()] for angle in angles.tolist()]
+    return [[one(speed, angle) for speed in line] for line, angle in zip(speeds.tolist(), angles.tolist(), strict=True)]
+
+
+def impact_axis(data: xarray.Dataset) -> str:
+    """The dimension of a map that is the impact's, beside the angle."""
+    return next(name for name in IMPACTS if name in data["outcome"].dims)
 
 
 def scene_of(data: xarray.Dataset) -> Scene:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
+from ..model.validity import counted
+from .batch import VALIDITY
 from .collide_many import FAILED
-from .regime_map import scene_of
+from .regime_map import IMPACTS, impact_axis, scene_of
 
 if TYPE_CHECKING:
     import xarray
@@ -24,7 +27,7 @@ _TICK = 10  # distance between labels of the angle, characters
 
 def table(data: xarray.Dataset) -> str:
     """The map as text, subsampled where it is too large; one map for each value of a further entry."""
-    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", "stokes", "speed")]
+    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
     legend = "   ".join(f"{letter} {name}" for letter, name in zip(CHARACTERS, (*OUTCOMES, "failed"), strict=True))
     lines = [f"{name_of(scene_of(data))}: {data['outcome'].size} collisions", legend]
     sizes = [data.sizes[name] for name in varied]
@@ -34,11 +37,20 @@ def table(data: xarray.Dataset) -> str:
         part = data.isel(dict(zip(varied, index, strict=True)))
         lines += ["", *([", ".join(_value(part, name) for name in varied)] if varied else []), *_map(part)]
     notes = _subsampled(data, len(chosen), math.prod(sizes))
-    return "\n".join([*lines, *notes])
+    return "\n".join([*lines, *notes, *_outside(data)])
+
+
+def _outside(data: xarray.Dataset) -> list[str]:
+    """How many collisions leave the model's range, and by which limit."""
+    if VALIDITY not in data or not data[VALIDITY].values.any():
+        return []
+    said = [f"{words} in {count}" for words, count in counted(data[VALIDITY].values)]
+    lines = wrap(f"outside the model's range: {', '.join(said)}", WIDTH, subsequent_indent="  ")
+    return ["", *lines]
 
 
 def _map(data: xarray.Dataset) -> list[str]:
-    impact = "stokes" if "stokes" in data["outcome"].dims else "speed"
+    impact = impact_axis(data)
     outcome = data["outcome"].transpose(impact, "angle").values
     rows, columns = _some(outcome.shape[0], _ROWS), _some(outcome.shape[1], WIDTH - _LABEL)
     values, angles = data[impact].values, np.degrees(data["angle"].values)
@@ -70,7 +82,7 @@ def _value(part: xarray.Dataset, name: str) -> str:
 
 
 def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
-    impact = "stokes" if "stokes" in data["outcome"].dims else "speed"
+    impact = impact_axis(data)
     parts = []
     for count, size, what in (
         (min(data.sizes[impact], _ROWS), data.sizes[impact], "rows"),

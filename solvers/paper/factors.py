@@ -6,13 +6,14 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
 from .desk import Desk, Line, outcomes
 from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, Table, degrees, number
 from .printed import PRINTED
-from .style import LETTERS
+from .tune import printed_pressure
 from .variants import BRIDGED, described, variant
 
 DOUBLED = {
@@ -74,7 +75,7 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
 
 def _base(arm: str) -> Scene:
     scene = variant(BRIDGED, {"model.arm": arm})
-    pressure = _OUT_OF_REACH * scene.liquid.glass_transition_pressure
+    pressure = _OUT_OF_REACH * printed_pressure(scene)
     return scene.with_entries({"liquid.glass_transition_pressure": pressure})
 
 

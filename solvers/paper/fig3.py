@@ -6,6 +6,7 @@ import math
 from functools import partial
 from pathlib import Path
 
+from ..formatting.style import halo
 from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shared_out, shown
@@ -38,7 +39,7 @@ def make(desk: Desk, folder: Path) -> Part:
             used,
             f"a criterion is met from {number(met)} on; up to {number(escapes)} the doublet is reversed and still "
             f"sticks. The printed number lies between; it is reached with p_gt = {fitted} in place of "
-            f"the printed {scene.liquid.glass_transition_pressure / 1e6:.3g} MPa, which was fitted to a measured St*",
+            f"the printed {tune.printed_pressure(scene) / 1e6:.3g} MPa, which was fitted to a measured St*",
             beside=f"(escapes), {number(met)} (a criterion is met)",
         ),
         Comparison(
@@ -113,6 +114,6 @@ def _draw(angles: list[float], lines: list[Line], file: Path) -> None:
             ha="right",
         )
         axes.text(0.45, 22, "S", fontsize=13, ha="center")
-        axes.text(1.02, 62, "SRS", fontsize=13, ha="center")
+        axes.text(1.02, 62, "SRS", fontsize=13, ha="center", path_effects=[halo()])
         axes.text(2.0, 40, "B", fontsize=13, ha="center")
         axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)

@@ -12,6 +12,11 @@ _ENTRY = "liquid.glass_transition_pressure"
 _CLOSE = 1e-6  # relative tolerance in St
 
 
+def printed_pressure(scene: Scene) -> float:
+    """p_gt of a preset of the paper in Pa."""
+    return float(scene.entries[_ENTRY])
+
+
 def pressure_for(desk: Desk, scene: Scene, stokes: float) -> str:
     """Text of the p_gt at which head-on collisions bounce from `stokes` on, or of the reason of failure."""
     try:
@@ -27,7 +32,7 @@ def _pressure(desk: Desk, scene: Scene, stokes: float) -> float:
         [line] = desk.lines(scene.with_entries({_ENTRY: pressure}), (0.0,))
         return math.log(change_at(line, "stick").stokes / stokes)
 
-    pressure = scene.liquid.glass_transition_pressure
+    pressure = printed_pressure(scene)
     before, here = math.log(pressure), math.log(pressure) + 0.05
     was, now = reached(math.exp(before)), reached(math.exp(here))
     while abs(now) > _CLOSE:

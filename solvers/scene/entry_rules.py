@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, shown
 from . import user_model as custom
-from .quantities import partner_mass, sphere
-from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, ONE_OF_EACH, REQUIRED_TABLES, TABLES, unknown_entry
-from .tables import Attraction, Bridge, Partner, Pendulum, Table
+from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
+from .quantities import Ways, film, partner_mass, partner_radius, quantities, sphere
+from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, FROM_COATING, ONE_OF_EACH, REQUIRED_TABLES, TABLES, unknown_entry
+from .tables import Attraction, Bridge, Liquid, Particles, Partner, Pendulum, Table
 
 if TYPE_CHECKING:
     from .system import System
@@ -76,7 +77,7 @@ def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None
         for name in (way for way in ways if way in changes):
             for other in (way for way in ways if way in given and way not in changes):
                 problem = f"is given together with {other} = {shown(given[other])}, which the scene has"
-                instead = "--speed or --stokes" if name.startswith("impact.") else f"{other} here"
+                instead = "--speed or --stokes, or --relative-speed" if name.startswith("impact.") else f"{other} here"
                 accepted = f"only one of {', '.join(ways)}: set {instead}, or edit the scene file"
                 raise InputError(name, changes[name], accepted, problem)
 
@@ -103,30 +104,63 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
             raise InputError(absent, None, f"{FIELDS[absent].accepts}, or neither of the two", problem)
 
 
+def check_ways(given: Mapping[str, Any], values: Mapping[str, Any]) -> None:
+    """InputError for entries (as they are kept, and SI) that lack those which they are meant with."""
+    own, its, fraction = "liquid.coating_thickness", "partner.coating_thickness", "bridge.coating_fraction"
+    if its in given and own not in given:
+        accepted = f"{own} beside it: liquid.film_thickness is both coatings together"
+        raise InputError(its, given[its], accepted, f"is given without {own}")
+    if own in given and "partner.wall" in given and its not in given:
+        raise InputError(its, None, f"{FIELDS[its].accepts}, or 0 um for a dry wall", f"missing while {own} is given")
+    if own in given and not 0 < film(values) < math.inf:
+        raise InputError(own, given[own], "a coating on one of the two, and a film of some length", "makes no film")
+    volume = given.get("bridge.volume")
+    if volume == FROM_COATING and own not in given:
+        accepted = f"{own} beside it, a number V/R^3, or a volume with its unit"
+        raise InputError("bridge.volume", volume, accepted, f"is given without {own}")
+    if fraction in given and volume != FROM_COATING:
+        accepted = f'bridge.volume = "{FROM_COATING}" beside it, or no such entry'
+        raise InputError(fraction, given[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
+    if fraction in given and "partner.wall" in given:
+        raise InputError(fraction, given[fraction], "no such entry beside a wall", "is no part of a wall's liquid")
+
+
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the entries of `Particles`: a = R/2 and m = M/2 from radius, mass or density."""
-    of = {key: value for key, value in _of("particles", values).items() if key not in ("radius", "mass", "density")}
-    return of | sphere(values)
+    return table_of(Particles, values) | sphere(values)
 
 
 def partner(values: Mapping[str, Any]) -> Partner | None:
     """Return the partner, its mass from mass or density; None if the spheres are equal."""
-    of = _of("partner", values)
-    if "density" in of:
-        of["mass"] = partner_mass(values)
-        del of["density"]
-    return Partner(**of) if of else None
+    of = {"radius": partner_radius(values), "mass": partner_mass(values), "wall": values.get("partner.wall")}
+    return None if of["radius"] is None and of["wall"] is None else Partner(**of)
 
 
-def _of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    return {name.partition(".")[2]: value for name, value in values.items() if name.startswith(table + ".")}
-
-
-def table(kind: type[Table], values: Mapping[str, Any]) -> Table | None:
-    """Return the table with its entries; None for an absent table that is optional."""
+def table_of(kind: type[Table], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of a table under their own names."""
     keys = [field.name for field in dataclasses.fields(kind)]
-    own = {key: values[f"{kind.name}.{key}"] for key in keys if f"{kind.name}.{key}" in values}
+    return {key: values[f"{kind.name}.{key}"] for key in keys if f"{kind.name}.{key}" in values}
+
+
+def table(kind: type[Table], values: Mapping[str, Any], ways: Ways) -> Table | None:
+    """Return the table with its entries; None for an absent table that is optional."""
+    own = table_of(kind, values)
+    if kind is Liquid:
+        own["film_thickness"] = film(values)
+    if kind is Bridge and own and ways.volume != "relative":
+        own["volume"] = _relative_volume(values, ways)
     return None if not own and kind in (Attraction, Bridge, Pendulum) else kind.of(own)
+
+
+def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
+    """V/R^3 of a volume that is said in another way."""
+    try:
+        volume = float(quantities({k: v for k, v in values.items() if not k.startswith("impact.")}, ways)["volume"])
+    except (OverflowError, ZeroDivisionError):
+        volume = math.inf
+    if not 0 < volume < math.inf:
+        raise InputError("bridge.volume", values["bridge.volume"], FIELDS["bridge.volume"].accepts, "is too far off")
+    return volume
 
 
 def check_together(scene: System) -> None:
@@ -134,23 +168,25 @@ def check_together(scene: System) -> None:
     given = dict(scene.given)
     _check_partner(scene)
     _check_laws(scene)
-    particles, film, ruptured = scene.particles, scene.liquid.film_thickness, scene.rupture_gap
-    if particles.roughness >= film:
-        problem = "is not below the film thickness"
-        accepted = f"a roughness below liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
-        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
-    if scene.bridge is not None and not film < ruptured < math.inf:
-        ratio = film / (2 * scene.reduced_radius * (1 + scene.bridge.contact_angle / 2))
+    x0 = scene.liquid.film_thickness
+    said = _film_said(given, x0)
+    ruptured = scene.rupture_gap
+    values = _without_impact(scene)
+    for word in AT_ANY_SPEED:
+        name = ENTRIES[word]
+        if name in given and gap_at_any_speed(word, values) >= 1:
+            accepted = f"{FIELDS[name].what} below {said}"
+            raise InputError(name, given[name], accepted, "is not below the film thickness")
+    if scene.bridge is not None and not x0 < ruptured < math.inf:
+        radius = 2 * scene.reduced_radius
+        ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
         least = ratio * ratio * ratio  # ** would raise OverflowError; this becomes inf
         if math.isinf(least):
-            name = next(each for each in ("particles.reduced_radius", "particles.radius") if each in given)
-            accepted = (
-                f"a radius that is not so small beside liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
-            )
+            name = _given_way("particles.reduced_radius", given)
+            accepted = f"a radius that is not so small beside {said}"
             raise InputError(name, given[name], accepted, "is too small for a bridge across the film")
-        problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {film:.4g} m"
-        accepted = f"a number V/R^3 above {least:.4g}" if scene.bridge.rupture == "common" else "a larger number V/R^3"
-        raise InputError("bridge.volume", given["bridge.volume"], accepted, problem)
+        problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {x0:.4g} m"
+        raise InputError("bridge.volume", given["bridge.volume"], _larger(scene, least, radius), problem)
     if scene.pendulum is not None:
         # the strings are most inclined at beta = pi, where each pivot is d = (r + 4a)/2 from its sphere
         least = 4 * scene.reduced_radius + ruptured / 2
@@ -161,17 +197,44 @@ def check_together(scene: System) -> None:
     _check_speed(scene)
 
 
+def _without_impact(scene: System) -> dict[str, Any]:
+    return quantities({name: value for name, value in scene.si if not name.startswith("impact.")}, scene.ways)
+
+
+def _film_said(given: Mapping[str, Any], x0: float) -> str:
+    """The film thickness as the scene says it."""
+    if "liquid.film_thickness" in given:
+        return f"liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
+    return f"the film of both coatings, {x0:.4g} m"
+
+
+def _given_way(first: str, given: Mapping[str, Any]) -> str:
+    """Which of the entries that say the same thing is given."""
+    ways = next(ways for ways in ALTERNATIVES if ways[0] == first)
+    return next(name for name in ways if name in given)
+
+
+def _larger(scene: System, least: float, radius: float) -> str:
+    """What volume is accepted where it is too small."""
+    volume, common = dict(scene.given)["bridge.volume"], scene.bridge is not None and scene.bridge.rupture == "common"
+    if volume == FROM_COATING:
+        return "a larger bridge.coating_fraction, a thinner coating, or a volume of its own"
+    if isinstance(volume, str):
+        return f"a volume above {least * radius * radius * radius:.4g} m^3" if common else "a larger volume"
+    return f"a number V/R^3 above {least:.4g}" if common else "a larger number V/R^3"
+
+
 def _check_partner(scene: System) -> None:
     """Raise InputError for an invalid partner: strings need equal spheres, and ratios must be finite."""
     if scene.partner is None:
         return
     given = dict(scene.given)
-    entry = "partner.radius" if "partner.radius" in given else "partner.wall"
+    entry = _given_way("partner.radius", given)
     if scene.pendulum is not None:
         raise InputError(entry, given[entry], "no [partner] beside [pendulum]", "is given together with strings")
     for name, ratio in (("partner.radius", scene.radius_ratio), ("partner.mass", scene.mass_ratio)):
         if ratio is not None and not FARTHEST**-1 <= ratio <= FARTHEST:
-            known = name if name in given else "partner.density"
+            known = _given_way(name, given)
             accepted = f"a partner of {FARTHEST**-1:g} to {FARTHEST:g} times the sphere's, or wall = true"
             raise InputError(known, given[known], accepted, "is too far from the sphere's")
 
@@ -197,10 +260,14 @@ def _check_laws(scene: System) -> None:
         accepted = f"common, or own with bridge.law one of {', '.join(OWN_RUPTURE)}"
         problem = f"is not known for the law {bridge.law}"
         raise InputError("bridge.rupture", bridge.rupture, accepted, problem)
-    no_contact = scene.particles.roughness == 0 and scene.particles.youngs_modulus is None
+    no_contact = never_touching(_without_impact(scene))
     if scene.attraction is not None and scene.attraction.hamaker > 0 and no_contact:
-        accepted = "a roughness above 0, or particles.youngs_modulus and poisson_ratio"
+        accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}"
         problem = "lets the gap close, where the van der Waals attraction is without bounds"
+        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+    if scene.liquid.glass_transition_pressure is None and no_contact:
+        accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}, or liquid.glass_transition_pressure"
+        problem = "lets the gap close without end: no criterion reverses the spheres"
         raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
 
 
@@ -215,6 +282,12 @@ def _check_speed(scene: System) -> None:
     if not 0 < drag < math.inf or not 0 < scene.stokes_per_speed < math.inf:
         accepted = "a mass that makes m/(6 pi mu a^2) a finite number"
         raise InputError("particles.reduced_mass", scene.reduced_mass, accepted, "is too far off")
-    for name, counterpart in (("impact.speed", scene.stokes), ("impact.stokes", scene.speed)):
+    if scene.speed is None:
+        return
+    for name, counterpart in (
+        ("impact.speed", scene.stokes),
+        ("impact.relative_speed", scene.stokes),
+        ("impact.stokes", scene.speed),
+    ):
         if name in given and not (counterpart and counterpart < math.inf):
             raise InputError(name, given[name], FIELDS[name].accepts, "is too far off for this scene")

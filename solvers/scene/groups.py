@@ -64,12 +64,7 @@ def si_values(scene: System, speed: float | None, angle: float | None) -> dict[s
 
 @lru_cache(maxsize=64)
 def _without_impact(scene: System) -> dict[str, float]:
-    entries: dict[str, Any] = {
-        name: value for name, value in scene.si if not (isinstance(value, str) or name.startswith("impact."))
-    }
-    if scene.pendulum is not None:
-        entries["pendulum.gravity"] = scene.pendulum.gravity  # gravity may come from its default
-    return quantities(entries, scene.wall)
+    return quantities({name: value for name, value in scene.si if not name.startswith("impact.")}, scene.ways)
 
 
 @lru_cache(maxsize=64)

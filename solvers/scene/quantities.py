@@ -1,62 +1,124 @@
 """Quantities of the vocabulary from scene entries, as numbers, arrays or CasADi expressions.
 
 The schema states which entries are quantities themselves (`Field.quantity`). Quantities that depend on several entries
-are computed here: masses from densities, reduced quantities of a pair, the speed from a Stokes number.
+are computed here: masses from densities, reduced quantities of a pair, films from coatings, volumes, the normal speed.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
 
 from ...generated import scaling
-from .schema import FIELDS
+from .schema import DEFAULTS, FIELDS, FROM_COATING
 
 _OWN = "custom."
+SHADOW = "Shi & McCarthy 2008"
+"""Who has it that what covers the caps facing each other flows into the bridge: Powder Technology 184, 64."""
+NO_GLASS = 1e60  # Pa: of a liquid that never turns solid; no film has such a pressure
 
 
-def quantities(entries: Mapping[str, Any], wall: bool = False) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Ways:
+    """How the numbers of entries are meant where their names do not say it.
+
+    Arguments:
+        wall: the partner is a wall.
+        volume: `bridge.volume` is V/R^3 ("relative"), V in m^3 ("absolute"), or what flows out of the coatings.
+    """
+
+    wall: bool = False
+    volume: Literal["relative", "absolute", "coating"] = "relative"
+
+    @classmethod
+    def of(cls, given: Mapping[str, object]) -> Ways:
+        """How the entries of a scene, as it keeps them, are meant."""
+        volume, wall = given.get("bridge.volume"), "partner.wall" in given
+        if not isinstance(volume, str):
+            return cls(wall)
+        return cls(wall, "coating" if volume == FROM_COATING else "absolute")
+
+
+def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     """Quantities by vocabulary name, SI.
 
     Arguments:
-        entries: by dotted name, SI; choices and flags are ignored.
-        wall: True if the partner is a wall.
+        entries: by dotted name, SI; choices, flags and words are ignored.
     """
+    present = {name.partition(".")[0] for name in entries}
+    entries = {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in present} | dict(entries)
     found = {
         FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
         for name, value in entries.items()
-        if name in FIELDS and FIELDS[name].quantity
+        if name in FIELDS and FIELDS[name].quantity and not isinstance(value, str)
     }
     found |= {name.removeprefix(_OWN): value for name, value in entries.items() if name.startswith(_OWN)}
+    found.setdefault("glass_transition_pressure", NO_GLASS)
     found |= sphere(entries)
-    radius_ratio, mass_ratio = _ratios(found, entries, wall)
-    if not wall:
+    if "liquid.coating_thickness" in entries:
+        found["film_thickness"] = film(entries)
+    radius_ratio, mass_ratio = _ratios(found, entries, ways.wall)
+    if not ways.wall:
         found |= {"radius_ratio": radius_ratio, "mass_ratio": mass_ratio}
+    radius = 2 * found["reduced_radius"]
     found["reduced_radius"] = found["reduced_radius"] * shared(radius_ratio)
     found["reduced_mass"] = found["reduced_mass"] * shared(mass_ratio)
+    if ways.volume == "coating":
+        found["volume"] = _from_coating(entries, radius, radius_ratio) / _cube(2 * found["reduced_radius"])
+    elif ways.volume == "absolute":
+        found["volume"] = found["volume"] / _cube(2 * found["reduced_radius"])
     if "impact.stokes" in entries:
         unit = scaling.stokes(found["reduced_radius"], found["reduced_mass"], found["viscosity"], 1.0)
         found["speed"] = entries["impact.stokes"] / unit
+    elif "impact.relative_speed" in entries and "impact.angle" in entries:
+        found["speed"] = normal_speed(entries["impact.relative_speed"], entries["impact.angle"])
     return found
 
 
 def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
     """Half the radius (m) and half the mass (kg) of the first sphere, from radius, mass or density."""
-    found = {}
-    for name in ("particles.reduced_radius", "particles.radius", "particles.reduced_mass", "particles.mass"):
-        if name in entries:
-            found[FIELDS[name].quantity] = FIELDS[name].factor * entries[name]
+    found = {
+        FIELDS[name].quantity: FIELDS[name].factor * value
+        for name, value in entries.items()
+        if name in FIELDS and FIELDS[name].quantity in ("reduced_radius", "reduced_mass")
+    }
     if "particles.density" in entries:
         found["reduced_mass"] = _mass(2 * found["reduced_radius"], entries["particles.density"]) / 2
     return found
 
 
+def film(entries: Mapping[str, Any]) -> Any:
+    """The gap at initial contact, m: as it is given, or both coatings; a partner is coated alike if nothing is said."""
+    if "liquid.film_thickness" in entries:
+        return entries["liquid.film_thickness"]
+    own = entries["liquid.coating_thickness"]
+    return own + entries.get("partner.coating_thickness", own)
+
+
+def partner_radius(entries: Mapping[str, Any]) -> Any:
+    """Radius of the other sphere, m; None for a wall, or without a partner."""
+    for name in ("partner.radius", "partner.diameter"):
+        if name in entries:
+            return FIELDS[name].factor * entries[name]
+    return None
+
+
 def partner_mass(entries: Mapping[str, Any]) -> Any:
     """Mass of the other sphere, kg; None for a wall."""
     if "partner.density" in entries:
-        return _mass(entries["partner.radius"], entries["partner.density"])
+        return _mass(partner_radius(entries), entries["partner.density"])
     return entries.get("partner.mass")
+
+
+def normal_speed(relative: Any, angle: Any) -> Any:
+    """The normal component of a relative velocity, m/s."""
+    if isinstance(angle, float):
+        return relative * math.cos(angle)
+    return relative * (angle.cos() if hasattr(angle, "cos") else np.cos(angle))
 
 
 def shared(ratio: Any) -> Any:
@@ -64,17 +126,49 @@ def shared(ratio: Any) -> Any:
     return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
 
 
+def coating_fraction(ratio: float | None) -> float:
+    """The part of a sphere's coating that lies in the shadow of a partner `ratio` times its size (None: a wall).
+
+    It flows into the bridge (`SHADOW`): of equal spheres (1 - sqrt(3)/2)/2 = 6.7 % each.
+    """
+    return 0.5 if ratio is None else float(_shadow(ratio))
+
+
+def _shadow(ratio: Any) -> Any:
+    """(1 - sqrt(1 - s^2))/2 with s = R_2/(R_1 + R_2), written without a difference of nearly equal numbers."""
+    part = ratio / (1 + ratio)
+    return part * part / (2 * (1 + (1 - part * part) ** 0.5))
+
+
+def _from_coating(entries: Mapping[str, Any], radius: Any, ratio: Any) -> Any:
+    """Volume of the bridge, m^3, that the coatings of both give."""
+    own = entries["liquid.coating_thickness"]
+    other = entries.get("partner.coating_thickness", own)
+    fraction = entries.get("bridge.coating_fraction")
+    if ratio is None:  # of a wall, the layer in the sphere's shadow
+        return _shell(radius, own) / 2 + math.pi * radius * radius * other
+    parts = (_shadow(ratio), _shadow(1 / ratio)) if fraction is None else (fraction, fraction)
+    return parts[0] * _shell(radius, own) + parts[1] * _shell(ratio * radius, other)
+
+
+def _shell(radius: Any, thickness: Any) -> Any:
+    """Volume of a coating."""
+    return 4 * math.pi * thickness * (radius * radius + radius * thickness + thickness * thickness / 3)
+
+
 def _ratios(found: Mapping[str, Any], entries: Mapping[str, Any], wall: bool) -> tuple[Any, Any]:
     """R_2/R_1 and M_2/M_1; None for a wall."""
     if wall:
         return None, None
-    if "partner.radius" not in entries:
+    radius = partner_radius(entries)
+    if radius is None:
         return 1.0, 1.0
-    return (
-        entries["partner.radius"] / (2 * found["reduced_radius"]),
-        partner_mass(entries) / (2 * found["reduced_mass"]),
-    )
+    return radius / (2 * found["reduced_radius"]), partner_mass(entries) / (2 * found["reduced_mass"])
 
 
 def _mass(radius: Any, density: Any) -> Any:
     return 4 / 3 * math.pi * radius * radius * radius * density  # yields inf instead of OverflowError
+
+
+def _cube(length: Any) -> Any:
+    return length * length * length

@@ -8,32 +8,36 @@ from collections.abc import Callable, Mapping
 
 from ..errors import InputError
 
+Ends = Callable[[str, str], tuple[float, float]]
 MOST = 10_000_000  # values, or collisions of a map at 130 bytes each; a larger count is probably a typing error
 
 
-def parse_range(
-    text: str, label: str, read: Callable[[str], float], *, unit: str = "", most: int = MOST
-) -> list[float]:
+def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int = MOST) -> list[float]:
     """Return the values of a range, evenly spaced, or evenly in the logarithm.
 
     Arguments:
-        text: `LO:HI:N` or `log:LO:HI:N`; N = 1 only with LO = HI.
+        text: `LO:HI:N` or `log:LO:HI:N`, N = 1 only with LO = HI; or a single value.
         label: option that the range belongs to, for the error.
-        read: converts one end to an SI number, or raises InputError.
+        read: converts both ends to SI numbers, or raises InputError.
         unit: unit of LO and HI for the error (`in degrees`).
         most: largest number of values.
 
     Raises:
         InputError: not a range, LO above HI, or an invalid count.
     """
-    accepted = f"LO:HI:N or log:LO:HI:N{' ' + unit if unit else ''}, LO < HI and N >= 2 (or LO = HI and N = 1)"
+    accepted = (
+        f"LO:HI:N or log:LO:HI:N{' ' + unit if unit else ''}, LO < HI and N >= 2 (or LO = HI and N = 1), or one value"
+    )
     parts = text.split(":")
     logarithmic = parts[0].strip() == "log"
     if logarithmic:
         parts = parts[1:]
+    if len(parts) == 1 and not logarithmic and parts[0].strip():
+        return [read(parts[0], parts[0])[0]]
     if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,30}\s*", parts[2], re.ASCII):
         raise InputError(label, text, accepted, "is not a range")
-    low, high, count = read(parts[0]), read(parts[1]), int(parts[2])
+    low, high = read(parts[0], parts[1])
+    count = int(parts[2])
     if count > most:
         raise InputError(label, text, f"{accepted}, N at most {most}", "has too many values")
     if low > high or count < 1 or (count == 1) != (low == high):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -13,8 +14,8 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
-from .quantities import shared
-from .schema import FIELDS, TABLES, Field, Raw
+from .quantities import SHADOW, Ways, coating_fraction, normal_speed, shared
+from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
 from .user_model_source import open_package
@@ -30,7 +31,7 @@ class Scene:
     Arguments:
         name: any text, may be empty.
         given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
-        comments: (dotted name, `assumed ...`) for entries with assumed values.
+        comments: (dotted name, comment) of the file; `assumed ...` marks an assumed value.
         package: a user's model, whose quantities and laws the entries may name.
 
     Raises:
@@ -55,6 +56,7 @@ class Scene:
     model: Model = field(init=False, compare=False)
     impact: Impact = field(init=False, compare=False)
     si: tuple[tuple[str, float | str], ...] = field(init=False, repr=False)
+    ways: Ways = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Read the tables and check the rules."""
@@ -66,16 +68,21 @@ class Scene:
         if self.package is not None:
             given = self.package.completed(given)
         rules.check_entries(given, self.package)
-        values = {name: self.fields[name].read(raw) for name, raw in given.items()}
+        known = fields(self.package)
+        values = {name: known[name].read(raw) for name, raw in given.items()}
         rules.check_complete(given)
+        given = {name: self._kept(known[name], raw) for name, raw in given.items()}
+        rules.check_ways(given, values)
+        ways = Ways.of(given)
         kept = {
-            "given": tuple((name, self._kept(name, raw)) for name, raw in given.items()),
+            "given": tuple(given.items()),
+            "ways": ways,
             "comments": tuple((name, text) for name, text in self.comments if name in given),
             "si": tuple(values.items()),
             "particles": Particles(**rules.spheres(values)),
             "partner": rules.partner(values),
             **{
-                table.name: rules.table(table, values)
+                table.name: rules.table(table, values, ways)
                 for table in (Liquid, Bridge, Attraction, Pendulum, Model, Impact)
             },
         }
@@ -110,7 +117,7 @@ class Scene:
     def from_toml(cls, text: str, origin: str = "scene", package: Package | None = None) -> Self:
         """Return the scene written in TOML; `origin` names the text in errors."""
         tables = scenefile.parse(text, str(origin))
-        return cls.from_dict(tables, from_file=True, comments=scenefile.assumptions(text), package=package)
+        return cls.from_dict(tables, from_file=True, comments=scenefile.remarks(text), package=package)
 
     @classmethod
     def from_dict(
@@ -152,19 +159,21 @@ class Scene:
 
     @property
     def fields(self) -> Mapping[str, Field]:
-        """The entries that this scene may have: dotted name -> `Field`."""
-        return fields(self.package)
+        """The entries that this scene may have: dotted name -> `Field`, with the unit of the value in `si`."""
+        known = fields(self.package)
+        if self.ways.volume != "absolute":
+            return known
+        return {**known, "bridge.volume": known["bridge.volume"].measured}
 
     @property
     def custom(self) -> Mapping[str, Raw]:
         """Quantities declared by a user's model: name -> value with its unit, given or default."""
         return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
 
-    def _kept(self, name: str, raw: object) -> Raw:
+    def _kept(self, entry: Field, raw: object) -> Raw:
         """A value as a scene stores it; a quantity of a user's model with its unit."""
-        entry = self.fields[name]
         kept = entry.kept(raw)
-        own = name not in FIELDS and entry.unit and not isinstance(kept, str)
+        own = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
         return f"{kept!r} {entry.unit}" if own else kept
 
     @property
@@ -173,10 +182,30 @@ class Scene:
         return dict(self.si)
 
     @property
+    def guesses(self) -> tuple[tuple[str, str], ...]:
+        """The comments on entries that are guesses: (dotted name, `assumed ...`)."""
+        return tuple((name, text) for name, text in self.comments if re.match(r"assumed\b", text))
+
+    @property
     def assumed(self) -> tuple[str, ...]:
         """One line for each assumed value of this scene."""
         given = dict(self.given)
-        return tuple(f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.comments)
+        said = [f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.guesses]
+        return (*said, *self._flowing())
+
+    def _flowing(self) -> tuple[str, ...]:
+        """How much of the coatings is assumed to flow into the bridge."""
+        if self.bridge is None or self.ways.volume != "coating":
+            return ()
+        given, ratio = self.entries.get("bridge.coating_fraction"), self.radius_ratio
+        if given is not None:
+            told = f"{given:.3g} of each coating"
+        elif ratio is None or ratio == 1:
+            told = f"{coating_fraction(ratio):.3g} of {'each' if ratio else 'the'} coating, {SHADOW}"
+        else:
+            parts = f"{coating_fraction(ratio):.3g} and {coating_fraction(1 / ratio):.3g}"
+            told = f"{parts} of the coatings, {SHADOW}"
+        return (f"bridge.volume = {self.bridge.volume:.4g} (assumed: {told})",)
 
     # ---- changed copies
 
@@ -204,29 +233,49 @@ class Scene:
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
         return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments, self.package)
 
-    def with_impact(
-        self, stokes: float | str | None = None, speed: float | str | None = None, angle: float | str | None = None
-    ) -> Self:
-        """Return the scene with another impact; `stokes` or `speed` replaces either of the two.
+    def with_si(self, changes: Mapping[str, float]) -> Self:
+        """Return the scene with numbers replaced or added as `si` has them: a volume in m^3 where it is given so."""
+        return self.with_entries({name: self.as_given(name, float(value)) for name, value in changes.items()})
 
-        Plain numbers are SI and radians. InputError if both are given.
+    def as_given(self, name: str, value: Any) -> Any:
+        """A number or array as `si` has the entry, in a form that says what it is."""
+        if name != "bridge.volume" or self.ways.volume != "absolute":
+            return value
+        return f"{value!r} m^3" if isinstance(value, float) else [f"{float(each)!r} m^3" for each in value]
+
+    def with_impact(
+        self,
+        stokes: float | str | None = None,
+        speed: float | str | None = None,
+        angle: float | str | None = None,
+        relative_speed: float | str | None = None,
+    ) -> Self:
+        """Return the scene with another impact; `stokes`, `speed` or `relative_speed` replaces any of the three.
+
+        Plain numbers are SI and radians. InputError if two of the three are given.
         """
-        impact = {"impact.stokes": stokes, "impact.speed": speed, "impact.angle": angle}
+        impact = {
+            "impact.stokes": stokes,
+            "impact.speed": speed,
+            "impact.relative_speed": relative_speed,
+            "impact.angle": angle,
+        }
         changes = {name: value for name, value in impact.items() if value is not None}
         if not changes:
             return self
         rules.check_entries(changes, self.package)
-        replaced = {"impact.stokes", "impact.speed"} if {*changes} - {"impact.angle"} else set()
+        replaced = {*SPEEDS} if {*changes} - {"impact.angle"} else set()
         kept = {name: value for name, value in self.given if name not in replaced}
         entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
-        return type(self)(self.name, tuple(entries), self.comments, self.package)
+        comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
+        return type(self)(self.name, tuple(entries), comments, self.package)
 
     # ---- quantities of the pair
 
     @property
     def wall(self) -> bool:
         """True if the partner is a wall."""
-        return self.partner is not None and self.partner.wall is not None
+        return self.ways.wall
 
     @property
     def radius_ratio(self) -> float | None:
@@ -283,12 +332,18 @@ class Scene:
     @property
     def stokes(self) -> float | None:
         """Normal Stokes number of the impact, None if it has none."""
-        return self.impact.stokes if self.impact.speed is None else self.stokes_of(self.impact.speed)
+        if self.impact.stokes is not None:
+            return self.impact.stokes
+        return None if self.speed is None else self.stokes_of(self.speed)
 
     @property
     def speed(self) -> float | None:
         """Normal approach speed v0 of the impact in m/s, None if it has none."""
-        return self.impact.speed if self.impact.stokes is None else self.speed_of(self.impact.stokes)
+        if self.impact.stokes is not None:
+            return self.speed_of(self.impact.stokes)
+        if self.impact.relative_speed is None or self.impact.angle is None:
+            return self.impact.speed
+        return float(normal_speed(self.impact.relative_speed, self.impact.angle))
 
     @property
     def angle(self) -> float | None:
@@ -297,11 +352,12 @@ class Scene:
 
     def need_impact(self) -> tuple[float, float]:
         """Return (normal speed in m/s, angle in rad); InputError if the scene does not give both."""
-        if self.speed is None:
-            accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed'
+        if self.speed is None and self.impact.relative_speed is None:
+            accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed, --relative-speed'
             raise InputError("impact.stokes", None, accepted)
         if self.angle is None:
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
+        assert self.speed is not None  # a relative speed has its normal component, now that there is an angle
         return self.speed, self.angle
 
 

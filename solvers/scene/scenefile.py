@@ -17,11 +17,12 @@ from .schema import FIELDS, TABLES, Raw
 if TYPE_CHECKING:
     from .user_model import Package
 
-PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
+OF_THE_PAPER = ("granulation", "pendulum", "granulation-dry-bridge")
+PRESETS = (*OF_THE_PAPER, "glass-beads-water", "lactose-pvp", "pellet-coating")
 _FOLDER = Path(__file__).with_name("presets")
 _LARGEST = 200_000  # bytes; bounded because a file such as /dev/zero has no end
 _HEADER = re.compile(r"\s*\[\s*([A-Za-z_]+)\s*\]")
-_ASSUMED = re.compile(r"\s*([A-Za-z_]+)\s*=.*#\s*(assumed\b.*)")
+_REMARK = re.compile(r"\s*([A-Za-z_]+)\s*=\s*(?:\"(?:[^\"\\\\]|\\\\.)*+\"|'[^']*+'|[^\"'#]*+)\s*#\s*(.*\S)")
 
 
 def read_text(source: str | Path) -> tuple[str, str]:
@@ -46,6 +47,12 @@ def read_text(source: str | Path) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise InputError(f"{source}, line {line}", None, accepted, "is not UTF-8 text") from None
+
+
+def template(name: str) -> str:
+    """Return a scene to be filled in, with a comment on every entry: `scenes --new NAME`."""
+    text = (_FOLDER / "template.toml").read_text(encoding="utf-8")
+    return text.replace('name = "template"', f"name = {_text(name)}", 1)
 
 
 def description(preset: str) -> str:
@@ -76,13 +83,13 @@ def parse(text: str, origin: str) -> dict[str, Any]:
         raise InputError(where, value, "a scene in TOML", f"is broken TOML ({' '.join(problem.split())})") from None
 
 
-def assumptions(text: str) -> dict[str, str]:
-    """Return the `# assumed ...` comments behind the entries of valid TOML: dotted name -> comment."""
+def remarks(text: str) -> dict[str, str]:
+    """Return the comments behind the entries of valid TOML, each on its entry's line: dotted name -> comment."""
     found, table = {}, ""
     for line in text.splitlines():
         if header := _HEADER.match(line):
             table = header[1]
-        elif comment := _ASSUMED.match(line):
+        elif comment := _REMARK.match(line):
             found[f"{table}.{comment[1]}"] = comment[2].strip()
     return found
 

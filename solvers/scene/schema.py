@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
 
@@ -23,6 +23,8 @@ BRIDGE_LAWS = (
     "soulie",
     "constant",
 )
+FROM_COATING = "from coating"
+"""What `bridge.volume` says where the liquid of the bridge is what flows out of the coatings."""
 FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 
@@ -36,6 +38,7 @@ class Range:
 
 POSITIVE = Range("> 0", lambda v: v > 0)
 NOT_NEGATIVE = Range(">= 0", lambda v: v >= 0)
+PART = Range("> 0 and at most 1", lambda v: 0 < v <= 1)
 FRACTION = Range("from 0 to 1", lambda v: 0 <= v <= 1)
 POISSON = Range("> -1 and <= 0.5", lambda v: -1 < v <= 0.5)
 IMPACT_ANGLE = Range(">= 0 deg and < 90 deg", lambda v: 0 <= v < math.pi / 2)
@@ -51,6 +54,9 @@ class Field:
     Arguments:
         gives: vocabulary name of the quantity that equals the entry times `factor`, if it differs from the entry's;
             empty if the quantity depends on other entries too (`quantities`).
+        default: its number, SI, where its table is there without it.
+        or_unit: the unit of what a plain number may be given as instead.
+        words: what may stand in place of a number.
     """
 
     name: str
@@ -63,6 +69,16 @@ class Field:
     flag: bool = False
     gives: str | None = None
     factor: float = 1.0
+    default: float | None = None
+    or_unit: str | None = None
+    words: tuple[str, ...] = ()
+
+    @cached_property
+    def measured(self) -> Field:
+        """The entry where it is given with `or_unit`."""
+        unit = self.or_unit or ""
+        what = f"{self.what} {self.range.text}, such as {self.example}, or {units.DIMENSIONS[unit]}"
+        return replace(self, unit=unit, or_unit=None, what=what, example=f'"1e-13 {unit}"')
 
     @cached_property
     def quantity(self) -> str:
@@ -79,7 +95,10 @@ class Field:
         if self.choices:
             return "one of " + ", ".join(self.choices)
         with_unit = " with its unit" if self.unit else ""
-        return f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
+        said = f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
+        if self.or_unit:
+            said += f", or {units.DIMENSIONS[self.or_unit]} with its unit"
+        return said + "".join(f', or "{word}"' for word in self.words)
 
     def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
         """Return the SI number or the choice given by `raw`.
@@ -101,6 +120,10 @@ class Field:
             if not isinstance(raw, str) or raw not in self.choices:
                 raise InputError(label, raw, self.accepts, "is not known" + did_you_mean(raw, self.choices))
             return raw
+        if isinstance(raw, str) and raw.strip() in self.words:
+            return raw.strip()
+        if self.with_unit(raw):
+            return self.measured.read(raw, label=label, from_file=from_file)
         value = self._number(raw, label, from_file)
         if not math.isfinite(value):
             raise InputError(label, raw, self.accepts, "is not finite")
@@ -114,8 +137,19 @@ class Field:
     def number(self, raw: object, *, label: str | None = None) -> float:
         """Return the SI number as `read` does, for a field that is no choice."""
         value = self.read(raw, label=label)
-        assert isinstance(value, float)
+        if not isinstance(value, float):
+            raise InputError(label or self.name, raw, self.accepts, "is not a number")
         return value
+
+    def with_unit(self, raw: object) -> bool:
+        """Whether a value that may be a plain number or a quantity is a quantity."""
+        if not self.or_unit or isinstance(raw, Real):
+            return False
+        if isinstance(raw, str):
+            return raw.strip() not in self.words and not units.is_number(raw)
+        from .values import carries_unit  # imports numpy
+
+        return carries_unit(raw)
 
     def _number(self, raw: object, label: str, from_file: bool) -> float:
         if isinstance(raw, str):
@@ -142,8 +176,10 @@ class Field:
         """Return a value accepted by `read` as a scene stores it: text as given, numbers as plain floats."""
         if self.flag:
             return True
-        if isinstance(raw, str):
-            return raw.strip() if self.unit or self.choices else self.number(raw)
+        if isinstance(raw, str) and (self.unit or self.choices or raw.strip() in self.words):
+            return raw.strip()
+        if self.with_unit(raw):
+            return raw.strip() if isinstance(raw, str) else f"{self.number(raw)!r} {self.or_unit}"
         return self.number(raw)
 
 
@@ -154,6 +190,7 @@ def _table(*fields: Field) -> dict[str, Field]:
 FIELDS: dict[str, Field] = _table(
     Field("particles.reduced_radius", "a reduced radius a = R/2", '"50 um"', unit="m"),
     Field("particles.radius", "a radius R", '"100 um"', unit="m", gives="reduced_radius", factor=0.5),
+    Field("particles.diameter", "a diameter 2R", '"200 um"', unit="m", gives="reduced_radius", factor=0.25),
     Field("particles.reduced_mass", "a reduced mass m = M/2", '"5.2e-6 g"', unit="kg"),
     Field("particles.mass", "the mass M of one sphere", '"1.04e-5 g"', unit="kg", gives="reduced_mass", factor=0.5),
     Field("particles.density", "the density of the spheres", '"2500 kg/m^3"', unit="kg/m^3", gives=""),
@@ -162,21 +199,25 @@ FIELDS: dict[str, Field] = _table(
     Field("particles.youngs_modulus", "a Young's modulus", '"70 GPa"', unit="Pa"),
     Field("particles.poisson_ratio", "a number", "0.2", POISSON),
     Field("liquid.viscosity", "a viscosity", '"2 Pa s"', unit="Pa s", required=True),
-    Field("liquid.film_thickness", "a film thickness", '"8 um"', unit="m", required=True),
-    Field("liquid.glass_transition_pressure", "a pressure", '"20 MPa"', unit="Pa", required=True),
+    Field("liquid.film_thickness", "a film thickness, the gap at initial contact,", '"8 um"', unit="m"),
+    Field("liquid.coating_thickness", "the coating on a sphere", '"4 um"', NOT_NEGATIVE, unit="m", gives=""),
+    Field("liquid.glass_transition_pressure", "a pressure", '"20 MPa"', unit="Pa"),
     Field("liquid.density", "a density", '"1000 kg/m^3"', unit="kg/m^3"),
     Field("bridge.surface_tension", "a surface tension", '"0.025 N/m"', unit="N/m", required=True),
-    Field("bridge.volume", "a number V/R^3", "0.1", required=True),
-    Field("bridge.contact_angle", "an angle", '"0 deg"', WETTING_ANGLE, unit="rad", required=True),
+    Field("bridge.volume", "a number V/R^3", "0.1", required=True, or_unit="m^3", words=(FROM_COATING,)),
+    Field("bridge.coating_fraction", "the part of the coating", "0.067", PART, gives=""),
+    Field("bridge.contact_angle", "an angle", '"0 deg"', WETTING_ANGLE, unit="rad", default=0.0),
     Field("bridge.law", "a law", "mikami", choices=BRIDGE_LAWS),
     Field("bridge.rupture", "a rupture distance", "common", choices=("common", "own")),
     Field("attraction.hamaker", "a Hamaker constant", '"1e-19 J"', NOT_NEGATIVE, unit="J", required=True),
     Field("partner.radius", "the radius R of the partner", '"200 um"', unit="m", gives=""),
+    Field("partner.diameter", "the diameter 2R of the partner", '"400 um"', unit="m", gives="", factor=0.5),
+    Field("partner.coating_thickness", "the coating on the partner", '"4 um"', NOT_NEGATIVE, unit="m", gives=""),
     Field("partner.mass", "the mass M of the partner", '"8.3e-5 g"', unit="kg", gives=""),
     Field("partner.density", "the density of the partner", '"2500 kg/m^3"', unit="kg/m^3", gives=""),
     Field("partner.wall", "a wall", "true", flag=True),
     Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True, gives="string_length"),
-    Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2"),
+    Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2", default=9.81),
     Field("pendulum.law", "a law", "exact", choices=("exact", "small-angle")),
     Field("model.arm", "an arm", "midgap", choices=("midgap", "surface")),
     Field("model.tangential", "a logarithm", "immersed", choices=("immersed", "film")),
@@ -184,6 +225,7 @@ FIELDS: dict[str, Field] = _table(
     Field("model.film", "a film", "finite", choices=FILM_LAWS),
     Field("impact.stokes", "a Stokes number", "0.03", gives=""),
     Field("impact.speed", "a normal approach speed", '"0.54 m/s"', unit="m/s"),
+    Field("impact.relative_speed", "the magnitude of the relative velocity", '"1.08 m/s"', unit="m/s", gives=""),
     Field("impact.angle", "an impact angle", '"60 deg"', IMPACT_ANGLE, unit="rad"),
 )
 """Dotted name -> what it is, in the order of the documentation."""
@@ -198,14 +240,21 @@ REQUIRED_TABLES = ("particles", "liquid")
 ONE_OF_EACH = (*REQUIRED_TABLES, "partner")
 """Tables, where they are there, that need one of each of their alternatives."""
 
+SPEEDS = ("impact.stokes", "impact.speed", "impact.relative_speed")
+"""What says how fast the spheres meet: one variable, at an angle."""
+
 ALTERNATIVES: tuple[tuple[str, ...], ...] = (
-    ("particles.reduced_radius", "particles.radius"),
+    ("particles.reduced_radius", "particles.radius", "particles.diameter"),
     ("particles.reduced_mass", "particles.mass", "particles.density"),
-    ("impact.stokes", "impact.speed"),
-    ("partner.radius", "partner.wall"),
+    ("liquid.film_thickness", "liquid.coating_thickness"),
+    SPEEDS,
+    ("partner.radius", "partner.diameter", "partner.wall"),
     ("partner.mass", "partner.density", "partner.wall"),
 )
 """Entries of which one at most may be given."""
+
+DEFAULTS: dict[str, float] = {name: field.default for name, field in FIELDS.items() if field.default is not None}
+"""Dotted name -> number, SI, of what need not be given where its table is."""
 
 
 def unknown_entry(name: str, value: object) -> InputError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from typing import Protocol
 
+from .quantities import Ways
 from .schema import Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package
@@ -37,6 +38,8 @@ class System(Hashable, Protocol):
     def model(self) -> Model: ...
     @property
     def impact(self) -> Impact: ...
+    @property
+    def ways(self) -> Ways: ...
     @property
     def wall(self) -> bool: ...
     @property

@@ -50,12 +50,12 @@ class Particles(Table):
 
 @dataclass(frozen=True)
 class Liquid(Table):
-    """The film: mu (Pa s), x0 (m), p_gt (Pa), density (kg/m^3; only for the Reynolds number)."""
+    """The film: mu (Pa s), x0 (m), p_gt (Pa; None: no glass criterion), density (kg/m^3; for the Reynolds number)."""
 
     name: ClassVar[str] = "liquid"
     viscosity: float
     film_thickness: float
-    glass_transition_pressure: float
+    glass_transition_pressure: float | None = None
     density: float | None = None
 
 
@@ -66,7 +66,7 @@ class Bridge(Table):
     name: ClassVar[str] = "bridge"
     surface_tension: float
     volume: float
-    contact_angle: float
+    contact_angle: float = 0.0
     law: str = "mikami"
     rupture: str = "common"
 
@@ -112,9 +112,10 @@ class Model(Table):
 
 @dataclass(frozen=True)
 class Impact(Table):
-    """Initial contact: Stokes number or normal speed (m/s), and angle (rad); all may be given later."""
+    """Initial contact: Stokes number, normal or relative speed (m/s), and angle (rad); all may be given later."""
 
     name: ClassVar[str] = "impact"
     stokes: float | None = None
     speed: float | None = None
+    relative_speed: float | None = None
     angle: float | None = None

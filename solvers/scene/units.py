@@ -27,12 +27,14 @@ DIMENSIONS = {
     "kg": "a mass",
     "s": "a time",
     "rad": "an angle",
+    "m^3": "a volume",
     "m/s": "a speed",
     "m/s^2": "an acceleration",
     "kg/m^3": "a density",
     "Pa": "a pressure",
     "Pa s": "a viscosity",
     "N/m": "a surface tension",
+    "J": "an energy",
 }
 """SI unit that names a dimension here -> that dimension in words."""
 
@@ -40,11 +42,9 @@ _WORDS = {
     **DIMENSIONS,
     "": "a plain number",
     "m^2": "an area",
-    "m^3": "a volume",
     "1/s": "a frequency",
     "rad/s": "an angular velocity",
     "N": "a force",
-    "J": "an energy",
     "W": "a power",
     "kg m/s": "a momentum",
     "m^2/s": "a kinematic viscosity",
@@ -66,17 +66,27 @@ COMMON: dict[str, tuple[str, Decimal]] = {
         "kg": {"kg": "1", "g": "1e-3", "mg": "1e-6", "ug": "1e-9", "ng": "1e-12"},
         "s": {"s": "1", "ms": "1e-3", "us": "1e-6"},
         "rad": {"rad": "1", "mrad": "1e-3", "deg": _DEGREE, "degree": _DEGREE, "degrees": _DEGREE},
-        "m/s": {"m/s": "1", "cm/s": "1e-2", "mm/s": "1e-3", "um/s": "1e-6"},
-        "m/s^2": {"m/s^2": "1", "cm/s^2": "1e-2"},
-        "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "g/m^3": "1e-3"},
+        "m^3": {"m^3": "1", "dm^3": "1e-3", "cm^3": "1e-6", "mm^3": "1e-9", "um^3": "1e-18", "nm^3": "1e-27"}
+        | {"l": "1e-3", "L": "1e-3", "ml": "1e-6", "mL": "1e-6", "ul": "1e-9", "uL": "1e-9"}
+        | {"nl": "1e-12", "nL": "1e-12", "pl": "1e-15", "pL": "1e-15", "fl": "1e-18", "fL": "1e-18"},
+        "m/s": {"m/s": "1", "cm/s": "1e-2", "mm/s": "1e-3", "um/s": "1e-6", "m s^-1": "1"},
+        "m/s^2": {"m/s^2": "1", "cm/s^2": "1e-2", "m s^-2": "1"},
+        "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "g/m^3": "1e-3"}
+        | {"kg m^-3": "1", "g cm^-3": "1e3", "g/ml": "1e3", "g/mL": "1e3", "kg/l": "1e3", "kg/L": "1e3"},
         "Pa": {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9", "bar": "1e5", "N/m^2": "1"},
-        "Pa s": {"Pa s": "1", "mPa s": "1e-3", "kPa s": "1e3", "cP": "1e-3", "P": "1e-1", "N s/m^2": "1"},
-        "N/m": {"N/m": "1", "mN/m": "1e-3", "J/m^2": "1", "dyn/cm": "1e-3", "mJ/m^2": "1e-3"},
+        "Pa s": {"Pa s": "1", "mPa s": "1e-3", "kPa s": "1e3", "cP": "1e-3", "P": "1e-1"}
+        | {"N s/m^2": "1", "mN s/m^2": "1e-3", "N s m^-2": "1"},
+        "J": {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "nJ": "1e-9", "aJ": "1e-18", "zJ": "1e-21"},
+        "N/m": {"N/m": "1", "mN/m": "1e-3", "J/m^2": "1", "dyn/cm": "1e-3", "mJ/m^2": "1e-3"}
+        | {"N m^-1": "1", "mN m^-1": "1e-3"},
     }.items()
     for unit, factor in units.items()
 }
 """Unit as spelt (after `spelling`) -> SI unit that names its dimension, exact factor."""
 
+_LETTERS = (("µ", "u"), ("μ", "u"), ("°", "deg"), ("⁻", "-"), ("¹", "^1"), ("²", "^2"), ("³", "^3"), ("**", "^"),
+            ("-^", "^-"))  # fmt: skip
+_JOINED = {"mPas": "mPa s", "Pas": "Pa s", "Ns/m^2": "N s/m^2", "mNs/m^2": "mN s/m^2"}
 _LONGEST = 200  # most characters of a number and of a unit
 _EXACT = Context(prec=_LONGEST + 100)  # the product of factor and text is then rounded only once, to a double
 _NUMBER = r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|nan|inf(?:inity)?)"
@@ -101,9 +111,31 @@ _PINT_SAYS_NO = (
 
 def number(text: str, field: str, accepted: str) -> float:
     """Return the plain number in `text`; InputError naming `field` if it is none (nan and inf pass)."""
-    if len(text) > _LONGEST or not re.fullmatch(_NUMBER, text.strip(), re.IGNORECASE):
+    if not is_number(text):
         raise InputError(field, text, accepted, "is not a number")
     return float(text)
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a plain number."""
+    return len(text) <= _LONGEST and re.fullmatch(_NUMBER, text.strip(), re.IGNORECASE) is not None
+
+
+def is_ratio(unit: str) -> bool:
+    """Whether a unit, as another library writes it, is that of a plain number: none, or one like percent."""
+    unit = spelling(unit)
+    if unit in ("", "1", "dimensionless"):
+        return True
+    try:
+        return unit not in COMMON and bool(_UNIT.fullmatch(unit)) and not _judged(unit)[1]
+    except _PINT_SAYS_NO:
+        return False
+
+
+def unit_of(text: str) -> str:
+    """The unit of a number that carries one, as it is written; empty if it is no such number."""
+    match = _QUANTITY.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    return match[2].strip() if match else ""
 
 
 def quantity(text: str, si: str, field: str, accepted: str) -> float:
@@ -164,10 +196,13 @@ def factor(unit: str, si: str | None, field: str, accepted: str, value: object) 
 
 def spelling(unit: str) -> str:
     """Return the canonical spelling of a unit (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
-    for given, ours in (("µ", "u"), ("μ", "u"), ("°", "deg"), ("²", "^2"), ("³", "^3"), ("**", "^")):
+    for given, ours in _LETTERS:
         unit = unit.replace(given, ours)
     unit = re.sub(r"\s*([/^])\s*", r"\1", unit)
-    return " ".join(re.sub(r"[*·⋅]", " ", unit).split())
+    unit = re.sub(r"(?<=[A-Za-z])\.(?=[A-Za-z])", " ", unit)  # Pa.s
+    unit = re.sub(r"(?<![\w^])([A-Za-z]+)(-?[1-9])(?!\w)", r"\1^\2", unit)  # cm3, m-3
+    unit = " ".join(re.sub(r"[*·⋅]", " ", unit).split())
+    return _JOINED.get(unit, unit)
 
 
 def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..errors import InputError
-from .units import factor
+from .units import factor, is_number, is_ratio
 
 
 class Entry(Protocol):
@@ -102,6 +102,18 @@ def _listed(values: list[Any] | tuple[Any, ...], entry: Entry, label: str, level
 def _is_array(value: Any) -> bool:
     """True if a value is an array or has a unit; a class is neither."""
     return not isinstance(value, type) and (hasattr(value, "__array__") or _unit(value)[0] is not None)
+
+
+def carries_unit(values: Any) -> bool:
+    """Whether what is given as numbers is given with a unit, as the first of them is; `array` judges the rest."""
+    while isinstance(values, (list, tuple)) and values:
+        values = values[0]
+    if isinstance(values, np.ndarray) and values.dtype.kind in "OU" and values.size:
+        values = values.reshape(-1)[0]
+    if isinstance(values, str):
+        return not is_number(values)
+    unit = _unit(values)[0]
+    return unit is not None and not is_ratio(unit)
 
 
 def _unit(value: Any) -> tuple[str | None, Any]:

@@ -15,12 +15,12 @@ from ..boundaries.found import STOKES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
 from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
 from .result import Row
 
-_TRACED = ("impact.speed", "impact.stokes")
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
 
@@ -48,7 +48,14 @@ class Moving:
 
 @dataclass(frozen=True)
 class BoundarySensitivities:
-    """The changes of outcome at each angle (rad), ascending in St, with their derivatives."""
+    """The changes of outcome at each angle (rad), ascending in St, with their derivatives.
+
+    Example:
+        >>> from wetdoublet.solvers import boundary_sensitivities
+        >>> found = boundary_sensitivities("granulation", angle=0.785, wrt=["liquid.viscosity"])
+        >>> found.parameters
+        ('liquid.viscosity',)
+    """
 
     boundaries: Boundaries
     changes: tuple[tuple[Moving, ...], ...]
@@ -60,7 +67,10 @@ class BoundarySensitivities:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --wrt NAMES --json`."""
-        return {"angles": list(self.angles), "changes": [[one.to_dict() for one in line] for line in self.changes]}
+        changes = [[one.to_dict() for one in line] for line in self.changes]
+        scene = self.boundaries.scene
+        units = {name: scene.fields[name].unit or "1" for name in self.parameters} if scene else {}
+        return {"angles": list(self.angles), "changes": changes} | self.boundaries.origin(angles="rad", **units)
 
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])
@@ -141,10 +151,10 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
     """The requested parameters; InputError for one that the scene does not have, and for speed and Stokes number."""
     names = check_wrt(scene, wrt, label)
     for name in names:
-        if wrt is not None and name in _TRACED:
-            accepted = ", ".join(one for one in check_wrt(scene, None) if one not in _TRACED)
+        if wrt is not None and name in SPEEDS:
+            accepted = ", ".join(one for one in check_wrt(scene, None) if one not in SPEEDS)
             raise InputError(label, name, accepted, "is what a boundary is followed in")
-    return tuple(name for name in names if name not in _TRACED)
+    return tuple(name for name in names if name not in SPEEDS)
 
 
 def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float = RTOL) -> Moving:

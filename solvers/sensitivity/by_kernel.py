@@ -16,7 +16,7 @@ from ..model.dimensionless import nondimensionalise
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
-from .parameters import SCALES, Kind, parameter_map, references
+from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
 from .problem import Problem, Slopes, sharpened
 from .result import Near
 from .results import QUANTITIES
@@ -33,7 +33,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
 }
 KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
-DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/kernel.md)
+DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
 _TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
 
 
@@ -93,9 +93,13 @@ def gradients_by_kernel(
             paces[:, k] = impacts.speed / speed
         elif quantity == "angle":
             paces[:, k] = impacts.angle / angle
+    steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
-    scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt)
+    bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the first collision
+    if steep is not None:
+        bent[:, wrt.index("impact.angle")] = steep / steep[0]
+    scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt, steep)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
         if angle == 0 and name in _TURNS:
@@ -103,7 +107,11 @@ def gradients_by_kernel(
                 value[place, separated] = 0.0
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
-        first[place] = np.einsum("ck,kp->cp", found.slopes[:, :, column] * paces, rows)  # small: avoid BLAS threads
+        paced = found.slopes[:, :, column] * paces
+        first[place] = np.einsum("ck,kp->cp", paced, rows)  # small: avoid BLAS threads
+        if steep is not None and "speed" in found.quantities:
+            moved = found.quantities.index("speed")
+            first[place] += paced[:, [moved]] * rows[moved] * (bent - 1)
         if name == "final_spin":  # separation at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if QUANTITIES[name].scale is not None:
@@ -130,10 +138,27 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
     return Slopes(found.value[:, 0], found.first[:, 0], None)
 
 
-class _Scales:
-    """SI scales of results: values and logarithmic derivatives."""
+def _steep(angle: np.ndarray) -> np.ndarray:
+    """-d ln(normal speed)/d ln(angle) at fixed relative speed."""
+    steep: np.ndarray = angle * np.tan(angle)
+    return steep
 
-    def __init__(self, scene: Scene, impacts: Impacts, slopes: dict[str, np.ndarray], wrt: tuple[str, ...]) -> None:
+
+class _Scales:
+    """SI scales of results: values and logarithmic derivatives.
+
+    Arguments:
+        falls: -d ln(normal speed)/d ln(angle) at fixed relative speed; None where the normal speed is held.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        impacts: Impacts,
+        slopes: dict[str, np.ndarray],
+        wrt: tuple[str, ...],
+        falls: np.ndarray | None,
+    ) -> None:
         speed, angle = impacts.speed, impacts.angle
         n = nondimensionalise(scene, float(speed[0]), float(angle[0]))
         turn = np.tan(angle) / np.tan(angle[0]) if angle[0] > 0 else np.ones(angle.size)
@@ -143,7 +168,12 @@ class _Scales:
         first = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
         self._relative = {name: np.tile(slopes[name] / first[name], (speed.size, 1)) for name in first}
         if "impact.angle" in wrt:  # derivative of tan(angle), which is no power of the angle
-            self._relative["rate"][:, wrt.index("impact.angle")] *= steep
+            k = wrt.index("impact.angle")
+            if falls is None:
+                self._relative["rate"][:, k] *= steep
+            else:
+                self._relative["time"][:, k] = falls
+                self._relative["rate"][:, k] = 2 * angle / np.sin(2 * angle) - falls
 
     def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""

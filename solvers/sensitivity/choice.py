@@ -1,4 +1,4 @@
-"""Default engine for derivatives, based on the measurement in docs/kernel.md."""
+"""Default engine for derivatives, based on the measurement in docs/engineering/kernel.md."""
 
 from __future__ import annotations
 

@@ -21,11 +21,12 @@ from ..many.batch import validated_batch
 from ..many.collide_many import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
 from ..settings import FEW, RTOL, STEPS, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
 from .choice import chosen
-from .parameters import Kind, check_hold, check_wrt, kind_of, parameter_map, references
+from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, parameter_map, references
 from .problem import NEAR, SHARPEST
 from .result import Near
 from .results import QUANTITIES, check_quantities
@@ -65,6 +66,12 @@ class _Asked:
         self.reason = np.full(size, "", dtype=object)
         self.engine = np.full(size, "", dtype=object)
 
+    @property
+    def relative_speed(self) -> np.ndarray:
+        """Magnitudes of the relative velocities, m/s."""
+        relative: np.ndarray = self.speed / np.cos(self.angle)
+        return relative
+
     def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:
         return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
 
@@ -74,7 +81,9 @@ class _Asked:
         units = np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(first)[1].full()).ravel()
         units = np.tile(units, (which.size, 1))
         for k, name in enumerate(self.wrt):
-            if name in ("impact.speed", "impact.stokes"):
+            if name == RELATIVE:
+                units[:, k] = self.relative_speed[which]
+            elif name in SPEEDS:
                 units[:, k] *= self.speed[which] / self.speed[which[0]]
             elif name == "impact.angle" and self.angle[which[0]] > 0:
                 units[:, k] = self.angle[which]
@@ -83,7 +92,7 @@ class _Asked:
     def reference(self) -> np.ndarray:
         """Values of the parameters, (collisions, parameters)."""
         first = dict(zip(self.kind.entries, references(self.scene, self.kind, 1.0, 0.0).tolist(), strict=True))
-        columns = {"impact.speed": self.speed, "impact.angle": self.angle}
+        columns = {"impact.speed": self.speed, "impact.angle": self.angle, RELATIVE: self.relative_speed}
         columns["impact.stokes"] = self.speed * self.scene.stokes_per_speed
         return np.column_stack([columns.get(name, np.full(self.speed.size, first.get(name, 0.0))) for name in self.wrt])
 
@@ -96,20 +105,21 @@ def gradients_many(
     angle: Any = None,
     wrt: Sequence[str] | str | None = None,
     of: Sequence[str] | str = ("restitution",),
+    relative_speed: Any = None,
     rtol: float = RTOL,
-    hold: str = "speed",
+    hold: str | None = None,
     engine: str | None = None,
 ) -> xarray.Dataset:
     """Derivatives of many collisions of one scene, through their events.
 
     Arguments:
         scene: a Scene, a path or a preset's name.
-        stokes, speed: Stokes numbers, or normal speeds in m/s: 1-D or a single number; default the scene's.
+        stokes, speed, relative_speed: as for `collide_many`; default the scene's.
         angle: impact angles in rad, 1-D or a single number; default the scene's.
         wrt: parameters by dotted name; None for every numeric entry of the scene, and speed, Stokes number and angle.
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
-        hold: quantity held when another parameter varies, the impact's "speed" or "stokes" number.
+        hold: quantity held when another parameter varies, as for `sensitivities`.
         engine: "taylor" (default for more than 100 collisions, and where its kernel is compiled already), "rosenbrock"
             or "cvodes", which take them one after another.
 
@@ -127,10 +137,13 @@ def gradients_many(
         >>> found.gradient.sel(quantity="restitution", parameter="liquid.viscosity").shape
         (2,)
     """
-    names, held = check_quantities(of), check_hold(hold)
-    by = check_engine(engine)
-    request = validated_batch(scene, stokes, speed, angle, {}, rtol, "rosenbrock", ())
+    names, by = check_quantities(of), check_engine(engine)
+    request = validated_batch(
+        scene, {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}, {}, rtol,
+        "rosenbrock", (),
+    )  # fmt: skip
     loaded = request.scene
+    held = hold_of(loaded, hold) if relative_speed is None or hold is not None else "relative_speed"
     warn(loaded)
     velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
     asked = _Asked(

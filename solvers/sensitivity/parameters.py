@@ -16,25 +16,22 @@ from ...generated import scaling
 from ..errors import InputError, did_you_mean
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
-from ..model.contact import GAPS
+from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas
-from ..scene.quantities import quantities
+from ..scene.quantities import Ways, film, normal_speed, quantities
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS
+from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
 
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
-HOLDS = ("speed", "stokes")
+HOLDS = ("speed", "stokes", "relative_speed")
 SCALES = ("length", "time", "rate", "energy")
-_ONE_VARIABLE = ("impact.speed", "impact.stokes")
+RELATIVE = "impact.relative_speed"
 
 
 def known(scene: Scene) -> tuple[str, ...]:
     """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
-    fields = scene.fields
-    own = [
-        name for name in scene.entries if not (fields[name].choices or fields[name].flag or name.startswith("impact."))
-    ]
-    return (*own, *IMPACT)
+    own = [name for name, value in scene.si if not (isinstance(value, str) or name.startswith("impact."))]
+    return (*own, *((RELATIVE,) if RELATIVE in scene.entries else ()), *IMPACT)
 
 
 def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
@@ -42,16 +39,29 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
     everything = known(scene)
     if wrt is None:
         return everything
-    # a parameter even if the scene takes its default
-    more = ("pendulum.gravity",) if scene.pendulum is not None else ()
+    # parameters even if the scene takes their defaults or gives another speed
+    more = (*_defaults(scene), RELATIVE)
     asked = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not asked:
         raise InputError(label, "", ", ".join(everything), "names no parameter")
     return asked
 
 
+def _defaults(scene: Scene) -> dict[str, float]:
+    """Numeric entries that take their defaults."""
+    tables = {name.partition(".")[0] for name, _ in scene.si}
+    return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables}
+
+
+def hold_of(scene: Scene, hold: object, label: str = "hold") -> str:
+    """The held quantity; None means the relative speed where the scene gives that, else the normal speed."""
+    if hold is not None:
+        return check_hold(hold, label)
+    return "relative_speed" if RELATIVE in scene.entries else "speed"
+
+
 def check_hold(hold: object, label: str = "hold") -> str:
-    """The held quantity, "speed" or "stokes"; InputError otherwise."""
+    """The held quantity, one of `HOLDS`; InputError otherwise."""
     if not isinstance(hold, str) or hold not in HOLDS:
         raise InputError(label, hold, ", ".join(HOLDS), "is not known" + did_you_mean(hold, HOLDS))
     return hold
@@ -70,33 +80,36 @@ class Kind:
     def held(self) -> str:
         return f"impact.{self.hold}"
 
+    @property
+    def ways(self) -> Ways:
+        ways = self.shape[0]
+        assert isinstance(ways, Ways)
+        return ways
+
 
 def kind_of(scene: Scene, hold: str) -> Kind:
     """The kind (key of the parameter map) of a scene's collision."""
-    own = [name for name in known(scene) if name not in IMPACT]
-    if scene.pendulum is not None and "pendulum.gravity" not in own:
-        own.append("pendulum.gravity")
+    own = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if not name.startswith("impact."))
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
     return Kind(
         (*own, f"impact.{hold}", "impact.angle"),
         hold,
-        (scene.wall, scene.partner is not None, own_rupture, scene.package),
+        (scene.ways, scene.partner is not None, own_rupture, scene.package),
         formulas(scene),
     )
 
 
 def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarray:
     """Reference values of a kind's entries, SI."""
-    values: dict[str, Any] = dict(scene.entries)
-    if scene.pendulum is not None:
-        values["pendulum.gravity"] = scene.pendulum.gravity
+    values: dict[str, Any] = _defaults(scene) | dict(scene.entries)
     values |= {"impact.speed": speed, "impact.stokes": scene.stokes_of(speed), "impact.angle": angle}
+    values[RELATIVE] = speed / normal_speed(1.0, angle)
     return np.array([float(values[name]) for name in kind.entries])
 
 
 def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
     """Scale of a parameter whose reference value is zero."""
-    return values["liquid.film_thickness"] if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
+    return film(values) if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
 
 
 @dataclass(frozen=True)
@@ -124,14 +137,13 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
     theta = SX.sym("theta", len(wrt))
     base = {name: reference[k] for k, name in enumerate(kind.entries)}
     values, units = dict(base), []
-    wall = bool(kind.shape[0])
     for k, name in enumerate(wrt):
-        moved = kind.held if name in _ONE_VARIABLE else name
+        moved = kind.held if name in SPEEDS else name
         zero = base[moved] == 0
         unit = zero * _scale_of_zero(moved, base) + (1 - zero) * base[moved]
         values[moved] += theta[k] * unit
-        units.append(_impact(base, wall)[name] if name in _ONE_VARIABLE else unit)
-    known_values = quantities(values, wall)
+        units.append(_impact(base, kind.ways)[name] if name in SPEEDS else unit)
+    known_values = quantities(values, kind.ways)
     numbers: dict[str, Any] = dict.fromkeys(GAPS.values(), SX(0))
     numbers |= {name: known_values[name] for name in groups if name in known_values}
     for name, (formula, arguments) in kind.formulas.items():
@@ -154,8 +166,9 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
     )
 
 
-def _impact(base: Mapping[str, SX], wall: bool) -> dict[str, SX]:
-    """Speed and Stokes number as expressions of the reference values."""
-    of = quantities(base, wall)
+def _impact(base: Mapping[str, SX], ways: Ways) -> dict[str, SX]:
+    """Speeds and Stokes number as expressions of the reference values."""
+    of = quantities(base, ways)
     stokes = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], of["speed"])
-    return {"impact.speed": of["speed"], "impact.stokes": stokes}
+    relative = of["speed"] / normal_speed(1, base["impact.angle"])
+    return {"impact.speed": of["speed"], "impact.stokes": stokes, RELATIVE: relative}

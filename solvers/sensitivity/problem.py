@@ -12,11 +12,12 @@ from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
+from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from . import boundary_distance as nearness
 from .derivatives import LANDED_WELL, settled
 from .directions import differentiated, landed, second_derivatives
-from .parameters import SCALES, Kind, ParameterMap, kind_of, parameter_map, references
+from .parameters import RELATIVE, SCALES, Kind, ParameterMap, kind_of, parameter_map, references
 from .result import Near
 from .results import QUANTITIES
 from .trajectory_expression import course_of, influential, trajectory_expression
@@ -147,6 +148,8 @@ class Problem:
         """The value of a parameter, SI."""
         if name == "impact.speed":
             return self.n.speed
+        if name == RELATIVE:
+            return self.n.speed / float(normal_speed(1.0, self.n.angle))
         if name == "impact.stokes":
             return self.n.stokes
         return float(self.reference[self.kind.entries.index(name)])

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..scene.origin import origin
 from .results import QUANTITIES
 
 if TYPE_CHECKING:
@@ -44,6 +45,13 @@ class Sensitivities:
         outcome: outcome of the collision.
         reference: values of the parameters.
         near: the nearest boundary found from the trajectory, None if there is none.
+        rtol: relative tolerance that was asked for.
+
+    Example:
+        >>> from wetdoublet.solvers import sensitivities
+        >>> found = sensitivities("granulation", wrt=["liquid.viscosity"], stokes=0.02, angle="75 deg")
+        >>> round(found.elasticity["restitution"]["liquid.viscosity"], 3)
+        -0.003
     """
 
     value: Mapping[str, float | None]
@@ -54,6 +62,7 @@ class Sensitivities:
     method: str
     engine: str
     hold: str
+    rtol: float
     near: Near | None = None
     hessian: Mapping[str, Mapping[str, Row]] | None = None
     hessian_times: Mapping[str, Row] | None = None
@@ -83,6 +92,10 @@ class Sensitivities:
             "engine": self.engine,
             "hold": self.hold,
             "nearest": near,
+            "rtol": self.rtol,
+            "units": {name: QUANTITIES[name].unit for name in self.value}
+            | {name: self.scene.fields[name].unit or "1" for name in self.parameters},
+            **origin(self.scene),
         }
 
     def to_dataset(self) -> xarray.Dataset:
@@ -116,7 +129,11 @@ class Sensitivities:
     def __str__(self) -> str:
         names = list(self.value)
         blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
-        held = {"speed": "the impact's speed", "stokes": "the Stokes number"}[self.hold]
+        held = {
+            "speed": "the impact's speed",
+            "stokes": "the Stokes number",
+            "relative_speed": "the relative speed",
+        }[self.hold]
         notes = [f"{self.outcome}; {self.method} derivatives by {self.engine}; {held} held"]
         rows = [row.values() for row in self.elasticity.values()]
         if any(value == 0 for row in rows for value in row):

@@ -14,7 +14,7 @@ from ..scene.schema import Field, Range
 from ..settings import check_engine, check_rtol
 from . import by_kernel as kernel
 from .choice import chosen
-from .parameters import check_hold, check_wrt
+from .parameters import check_wrt, hold_of
 from .problem import Along, Problem, Slopes
 from .result import Sensitivities
 from .results import SPENT, check_quantities, computed
@@ -42,7 +42,8 @@ def sensitivities(
     method: str = "forward",
     rtol: float = 1e-9,
     engine: str | None = None,
-    hold: str = "speed",
+    relative_speed: float | str | None = None,
+    hold: str | None = None,
     hessian: bool | Mapping[str, float] = False,
 ) -> Sensitivities:
     """Exact derivatives of a collision's results, through its events.
@@ -51,13 +52,14 @@ def sensitivities(
         scene: a Scene, a path to a scene file, or a preset's name.
         of: results by name: `restitution`, `contact_time`, ..., `energy.capillary`.
         wrt: parameters by dotted name; None for every numeric entry, and `impact.speed`, `.stokes` and `.angle`.
-        stokes, speed, angle: the impact, as for `collide`.
+        stokes, speed, angle, relative_speed: the impact, as for `collide`.
         method: "forward" has a cost proportional to the number of parameters, "adjoint" to that of results.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is rosenbrock's); None:
             taylor where its kernel is compiled already, else rosenbrock, which needs no compiler and is more accurate
             than cvodes.
-        hold: quantity held when another parameter varies, the impact's "speed" or "stokes" number.
+        hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";
+            None for the relative speed where the scene gives that, else the speed.
         hessian: compute second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) requests
             only the Hessian times that vector, at the cost of one direction.
 
@@ -74,20 +76,21 @@ def sensitivities(
         >>> found.gradient["restitution"]["bridge.surface_tension"] < 0
         True
     """
-    of, method, hold = check_quantities(of), check_method(method), check_hold(hold)
+    of, method = check_quantities(of), check_method(method)
     rtol, asked = check_rtol(rtol), check_engine(engine)
     if asked == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
     if hessian is not False and asked not in (None, "rosenbrock"):
         raise InputError("engine", asked, "rosenbrock", "has no second derivatives")
-    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
+    held = hold_of(loaded, hold)
     names = check_wrt(loaded, wrt)
     along = _along(hessian, names)
     v0, angle_ = loaded.need_impact()
     plugin = asked or _BEST
     if asked is None and method == "forward" and hessian is False:
         plugin = chosen(loaded, of, (angle_ > 0,), rtol)
-    problem = Problem.of(loaded, v0, angle_, names, hold)
+    problem = Problem.of(loaded, v0, angle_, names, held)
     path, near = problem.located(of, rtol)
     todo = tuple(name for name in computed(of) if problem.defined(name, path))
     slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
@@ -126,7 +129,8 @@ def sensitivities(
         outcome=path.outcome,
         method=method,
         engine=plugin,
-        hold=hold,
+        hold=held,
+        rtol=rtol,
         near=near,
         scene=loaded,
     )

@@ -24,7 +24,7 @@ from ..scene.scene import Scene
 from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
 from .directions import inverse, landed, spanning
-from .parameters import check_hold, check_wrt, parameter_map
+from .parameters import check_wrt, hold_of, parameter_map
 from .problem import Problem
 from .trajectory_expression import Course, course_of, ending, follow_course, influential, symbols
 
@@ -53,12 +53,13 @@ def trajectory_sensitivities(
     angle: float | str | None = None,
     rtol: float = 1e-9,
     engine: str | None = None,
-    hold: str = "speed",
+    relative_speed: float | str | None = None,
+    hold: str | None = None,
 ) -> xarray.Dataset:
     """The trajectory over time and its derivatives in the parameters, at fixed time, with the jumps at the events.
 
     Arguments:
-        scene, stokes, speed, angle, rtol, engine, hold: as for `sensitivities`.
+        scene, stokes, speed, angle, rtol, engine, relative_speed, hold: as for `sensitivities`.
         wrt: parameters by dotted name; None: all.
 
     Returns:
@@ -69,11 +70,18 @@ def trajectory_sensitivities(
     Raises:
         InputError: a name or option is not acceptable.
         ComputationError: as for `sensitivities`. For a stick, the trajectory ends where the outcome is decided.
+
+    Example:
+        >>> from wetdoublet.solvers import trajectory_sensitivities
+        >>> found = trajectory_sensitivities("granulation", ["liquid.viscosity"], stokes=0.02, angle="75 deg")
+        >>> found.d_gap.dims
+        ('time', 'parameter')
     """
     import xarray as xr
 
-    rtol, plugin, hold = check_rtol(rtol), check_plugin(engine) or "rosenbrock", check_hold(hold)
-    loaded = Scene.load(scene).with_impact(stokes=stokes, speed=speed, angle=angle)
+    rtol, plugin = check_rtol(rtol), check_plugin(engine) or "rosenbrock"
+    loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
+    hold = hold_of(loaded, hold)
     names = check_wrt(loaded, wrt)
     problem = Problem.of(loaded, *loaded.need_impact(), names, hold)
     path, _ = problem.located(("rotation",), rtol)

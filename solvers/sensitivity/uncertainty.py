@@ -15,10 +15,11 @@ from ..host.arguments import check_mapping, check_name, check_whole
 from ..many.batch import QUANTITIES as MANY
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
+from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, Field
+from ..scene.schema import FIELDS, SPEEDS, Field
 from .gradients_many import gradients_many
-from .parameters import check_wrt
+from .parameters import RELATIVE, check_wrt, hold_of
 from .result import Sensitivities
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 _MOST = 2**20  # most samples
 _LEVELS = (0.025, 0.975)
-_OVER = ("impact.stokes", "impact.speed", "impact.angle")
+_OVER = (*SPEEDS, "impact.angle")
 
 
 def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncertainty") -> dict[str, float]:
@@ -59,6 +60,9 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
 def _value(scene: Scene, name: str) -> float:
     if name in ("impact.stokes", "impact.speed"):
         return float((scene.stokes if name == "impact.stokes" else scene.speed) or 0.0)
+    if name == RELATIVE:
+        speed, angle = scene.need_impact()
+        return speed / float(normal_speed(1.0, angle))
     return float(scene.entries[name])
 
 
@@ -93,8 +97,9 @@ def band(
     Arguments:
         scene: a Scene with an impact, a path or a preset's name.
         uncertainty: standard deviations by dotted name, as for `deviations`.
-        over: "impact.stokes", "impact.speed" or "impact.angle".
-        values: values of `over`, SI and radians. The speed of each is held while other parameters vary.
+        over: "impact.stokes", "impact.speed", "impact.relative_speed" or "impact.angle".
+        values: values of `over`, SI and radians. The speed of each is held while other parameters vary; the relative
+            speed where the scene gives that.
         of: restitution, tangential_restitution, rotation, contact_time or smallest_gap.
         samples: number of scrambled Sobol points for each value (a power of two); normal distributions, truncated to
             valid values.
@@ -106,6 +111,12 @@ def band(
     Raises:
         InputError: an invalid name or value.
         ComputationError: scipy is not installed.
+
+    Example:
+        >>> from wetdoublet.solvers import band
+        >>> found = band("granulation", {"impact.angle": "1 deg"}, "impact.stokes", [0.05], samples=4)
+        >>> bool(found.low[0] < found.restitution[0] < found.high[0])
+        True
     """
     import xarray as xr
 
@@ -121,11 +132,12 @@ def band(
     sigma = deviations(at[0], uncertainty)
     relative = {name: str(given).strip().endswith("%") for name, given in uncertainty.items()}
     speeds, angles = np.array(impacts).T
-    found = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol)
+    hold = hold_of(at[0], None)
+    found = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol, hold=hold)
     spreads = np.tile(list(sigma.values()), (len(at), 1))
     for k, (one, (speed, _)) in enumerate(zip(at, impacts, strict=True)):
         if any(relative.values()):
-            spreads[k] = list(deviations(one.with_impact(speed=speed), uncertainty).values())
+            spreads[k] = list(deviations(_held(one, speed), uncertainty).values())
     known = found.outcome.values >= 0
     drawn = _sampled(at, impacts, uncertainty, of, samples, rtol)
     low, high = np.nanquantile(drawn, _LEVELS, axis=1)
@@ -158,7 +170,7 @@ def _sampled(
     columns: dict[str, list[np.ndarray]] = {name: [] for name in uncertainty}
     speeds, angles = [], []
     for one, (speed, angle) in zip(at, impacts, strict=True):
-        held = one.with_impact(speed=speed)
+        held = _held(one, speed)
         varied = {
             name: _possible(held.fields[name], _value(held, name), sigma * normal[:, k])
             for k, (name, sigma) in enumerate(deviations(held, uncertainty).items())
@@ -168,13 +180,22 @@ def _sampled(
         moved = varied.get("impact.speed", np.full(samples, speed))
         if "impact.stokes" in varied:
             moved = np.array([held.speed_of(float(stokes)) for stokes in varied["impact.stokes"]])
-        speeds.append(moved)
         angles.append(varied.get("impact.angle", np.full(samples, angle)))
-    vary = {name: np.concatenate(parts) for name, parts in columns.items() if not name.startswith("impact.")}
+        relative = held.impact.relative_speed
+        if RELATIVE in varied or (relative is not None and not {*SPEEDS} & {*varied}):
+            moved = normal_speed(varied.get(RELATIVE, np.full(samples, relative)), angles[-1])
+        speeds.append(moved)
+    vary = {name: at[0].as_given(name, np.concatenate(parts)) for name, parts in columns.items()
+            if not name.startswith("impact.")}  # fmt: skip
     names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
     speeds_, angles_ = np.concatenate(speeds), np.concatenate(angles)
     found = collide_many(at[0], speed=speeds_, angle=angles_, vary=vary, rtol=rtol, of=names)
     return np.asarray(found[of].values, dtype=float).reshape(len(at), samples)
+
+
+def _held(scene: Scene, speed: float) -> Scene:
+    """The scene at a normal speed, unless what it gives is the relative speed."""
+    return scene if scene.impact.relative_speed is not None else scene.with_impact(speed=speed)
 
 
 def check_samples(samples: object) -> int:
@@ -212,6 +233,12 @@ def draw(found: xarray.Dataset) -> Any:
     Returns:
         The matplotlib Figure.
     """
+    from ..formatting.style import picture
+
+    return picture(_drawn)(found)
+
+
+def _drawn(found: xarray.Dataset) -> Any:
     from matplotlib.figure import Figure
 
     over = str(next(iter(found.dims)))
@@ -235,7 +262,7 @@ def draw(found: xarray.Dataset) -> Any:
     unit = found[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
     axis.set_xlabel({"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "St"))
-    axis.set_title(found.attrs["uncertainty"], fontsize=9)
+    axis.set_title(found.attrs["uncertainty"])
     axis.spines[["top", "right"]].set_visible(False)
-    axis.legend(frameon=False, fontsize=8)
+    axis.legend()
     return figure

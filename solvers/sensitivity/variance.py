@@ -13,6 +13,7 @@ from ..host.arguments import check_mapping, check_name, check_whole
 from ..many.batch import QUANTITIES as MANY
 from ..many.collide_many import FAILED, collide_many
 from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
 from ..settings import check_rtol
 from .parameters import check_wrt
 from .uncertainty import check_samples
@@ -45,6 +46,13 @@ def sobol_indices(
     Raises:
         InputError: an invalid name or range.
         ComputationError: SALib is not installed, a collision failed, or the result is not defined over the whole box.
+
+    Example:
+        >>> from wetdoublet.solvers import sobol_indices
+        >>> box = {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s"), "impact.angle": ("65 deg", "70 deg")}
+        >>> found = sobol_indices("granulation", box, samples=4)  # needs wetdoublet[global]
+        >>> found.first.dims
+        ('parameter',)
     """
     import xarray as xr
 
@@ -62,10 +70,15 @@ def sobol_indices(
     points = sample(problem, samples, calc_second_order=False, seed=seed)
     columns = dict(zip(names, np.asarray(points).T, strict=True))
     speed, angle = loaded.need_impact()
-    impact: dict[str, Any] = {"speed": columns.pop("impact.speed", speed), "angle": columns.pop("impact.angle", angle)}
-    if "impact.stokes" in columns:
-        del impact["speed"]
-        impact["stokes"] = columns.pop("impact.stokes")
+    impact: dict[str, Any] = {"angle": columns.pop("impact.angle", angle)}
+    moved = [name for name in SPEEDS if name in columns]
+    if len(moved) > 1:
+        raise InputError("ranges", moved[1], f"only one of {', '.join(SPEEDS)}", f"is given together with {moved[0]}")
+    if moved:
+        impact[moved[0].partition(".")[2]] = columns.pop(moved[0])
+    elif loaded.impact.relative_speed is None:
+        impact["speed"] = speed
+    columns = {name: loaded.as_given(name, column) for name, column in columns.items()}
     keep = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
     found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep)
     failed = int((found.outcome.values == FAILED).sum())

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..engines.casadi.integrators import EventHit, Locator
+from ..certificates import NoCertificate
 from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
@@ -28,39 +28,25 @@ _PHASES = 300  # most phases of a trajectory that chatters
 SECONDS = 6.0  # s of CPU time; remaining impacts are counted but not integrated
 
 
-class _Long(Exception):
-    """The requested time has been reached."""
+class _Chatters(Exception):
+    """The trajectory has more phases than are worth following."""
 
 
 class WithoutCertificate(EventLocator):
     """A locator without certificates: a trajectory ends at a final event or at a given time."""
 
-    until = math.inf
-
     def on(self, until: float) -> EventSequence:
         """Integrate until time `until` (x0/v0); the path is `separated` if the doublet escaped before."""
-        self.until = until
+        self.proof, self.watch, self.deadline = NoCertificate(), replace(self.watch, certificate=None), until
         try:
-            return self.run()
-        except _Long:
+            return self._followed()
+        except _Chatters:
             return self.path
-
-    def _proved(self, elapsed: float) -> bool:
-        return False
-
-    def _level(self) -> float | None:
-        return None
-
-    def _advance(self, find: Locator, stretch: float, level: float) -> EventHit:
-        left = self.until - self.path.time
-        if left <= 0 or len(self.path.steps) > _PHASES:
-            raise _Long
-        return super()._advance(find, min(stretch, left), level)
 
     def _next(self, step: object, phase: Phase) -> None:
         super()._next(step, phase)  # type: ignore[arg-type]  # a Step
         if len(self.path.steps) > _PHASES:
-            raise _Long
+            raise _Chatters
 
 
 @dataclass
@@ -153,5 +139,5 @@ def _without_proof(found: Audit, scene: Scene, n: DimensionlessGroups, path: Eve
         return
     if on.separated:
         found.escaped.append(f"{where}, certified at {path.time:.3g}, apart at {on.time:.3g} x0/v0")
-    elif on.steps and on.steps[-1].event in ("half_turn", "unwinding") and on.time < locator.until:
+    elif on.steps and on.steps[-1].event in ("half_turn", "unwinding") and on.time < locator.deadline:
         found.cut += 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from ..scene.scene import Scene
-from ..scene.scenefile import PRESETS
+from ..scene.scenefile import OF_THE_PAPER
 from .identities import symbolic
 from .laws import numeric
 from .region import grid
@@ -38,7 +38,7 @@ def verify(scene: Scene | str | None = None, progress: Callable[[Finding], None]
 
 
 def _presets() -> Iterator[Finding]:
-    for name in PRESETS:
+    for name in OF_THE_PAPER:
         preset = Scene.load(name)
         yield from numeric(preset)
         yield from numeric(preset, head_on=True)

@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks.compile_flags [FOLDER]
 
-Writes FOLDER/compile_flags.json (docs/performance).
+Writes FOLDER/compile_flags.json (docs/engineering/performance).
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def _best(rounds: Iterable[list[dict[str, Any]]]) -> list[dict[str, Any]]:
 
 def main() -> None:
     """Measure, and write the record."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/performance")
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/engineering/performance")
     folder.mkdir(parents=True, exist_ok=True)
     measure(TASKS[0], "-O1")  # so that the first one measured does not pay for imports
     rows = [_best([measure(task, level) for level in LEVELS] for _ in range(ROUNDS)) for task in TASKS]

@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.cvodes_share [FOLDER]
 
-Writes FOLDER/cvodes_share.json (docs/performance). The paths are located once, at 1e-13; both engines then integrate
-the same phases and land on the same events, so that only the integrators differ.
+Writes FOLDER/cvodes_share.json (docs/engineering/performance). The paths are located once, at 1e-13; both engines then
+integrate the same phases and land on the same events, so that only the integrators differ.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def summary(task: Task) -> list[dict[str, Any]]:
 
 def main() -> None:
     """Measure, and write the record."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/performance")
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/engineering/performance")
     folder.mkdir(parents=True, exist_ok=True)
     rows = [row for task in TASKS for row in summary(task)]
     record = {"environment": environment(), "rows": rows}

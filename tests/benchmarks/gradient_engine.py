@@ -1,6 +1,7 @@
-"""When the kernel pays for derivatives: at first use, alone, in numbers; rewrites a table of docs/kernel.md.
+"""When the kernel pays for derivatives: at first use, alone, in numbers.
 
-    python -m tests.benchmarks.gradient_engine            measures, prints, writes the page and its JSON file
+    python -m tests.benchmarks.gradient_engine            measures, prints, writes the page
+                                                            (docs/engineering/kernel-figures.md) and its record
     python -m tests.benchmarks.gradient_engine --print    only prints
 
 Derivatives of e_n by all parameters at the default tolerance, at an impact of each scene that separates. Every engine
@@ -30,7 +31,9 @@ from .kernel import table
 from .kinds import scenes as kinds
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "gradient_engine.json"
+PAGE = ROOT / "docs" / "engineering" / "kernel-figures.md"
+RECORD = PAGE.parent / "performance" / "gradient_engine.json"
+
 BEGIN, END = "<!-- gradient engine -->", "<!-- end of gradient engine -->"
 CALLS, MANY = 7, 1000
 USER, PAIR = "a user's bridge law (`generate --template`)", "partner of three times the radius"

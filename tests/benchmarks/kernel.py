@@ -1,6 +1,6 @@
-"""What the Taylor kernel costs and how exact it is; rewrites the figures of docs/kernel.md.
+"""What the Taylor kernel costs and how exact it is; rewrites the figures of docs/engineering/kernel-figures.md.
 
-    python -m tests.benchmarks.kernel            measures, prints, writes docs/performance/kernel.json and the page
+    python -m tests.benchmarks.kernel            measures, prints, writes the record and the page
     python -m tests.benchmarks.kernel --print    only prints
 
 Both tasks of measured/tasks.py, each set repeated 20 times in one call; CPU time over the collisions that are
@@ -25,7 +25,9 @@ from wetdoublet.solvers.host.environment import environment
 from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel.json"
+PAGE = ROOT / "docs" / "engineering" / "kernel-figures.md"
+RECORD = PAGE.parent / "performance" / "kernel.json"
+
 BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 TASKS = (Task("granulation", 60, (0.005, 0.5), 85.0), Task("pendulum", 20, (0.3, 3.0), 80.0))
 REPEATS, RUNS = 20, 5

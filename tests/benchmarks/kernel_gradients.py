@@ -1,4 +1,4 @@
-"""What the kernel's derivatives cost and how exact they are, beside heyoka's; rewrites a table of docs/kernel.md.
+"""What the kernel's derivatives cost and how exact they are, beside heyoka's (docs/engineering/kernel-figures.md).
 
     python -m tests.benchmarks.kernel_gradients            measures, prints, writes the page and its JSON file
     python -m tests.benchmarks.kernel_gradients --print    only prints
@@ -32,7 +32,9 @@ from .measured.gradient_task import Gradients
 from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kernel_gradients.json"
+PAGE = ROOT / "docs" / "engineering" / "kernel-figures.md"
+RECORD = PAGE.parent / "performance" / "kernel_gradients.json"
+
 BEGIN, END = "<!-- gradients -->", "<!-- end of gradients -->"
 TASKS = (Task("granulation", 60, (0.005, 0.5), 85.0), Task("pendulum", 20, (0.3, 3.0), 80.0))
 COLLISIONS, RUNS = 1000, 5  # of a call, so that what a call costs beside them does not show

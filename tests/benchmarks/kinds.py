@@ -1,6 +1,6 @@
-"""What the kernel saves for scenes beyond the paper's; rewrites a table of docs/kernel.md.
+"""What the kernel saves for scenes beyond the paper's; rewrites a table of docs/engineering/kernel-figures.md.
 
-    python -m tests.benchmarks.kinds            measures, prints, writes docs/performance/kinds.json and the page
+    python -m tests.benchmarks.kinds            measures, prints, writes the record and the page
     python -m tests.benchmarks.kinds --print    only prints
 
 60 impacts of granulation (St 0.005 to 0.5, 0 to 85 degrees) by the kernel and by Rosenbrock compiled to C, both on one
@@ -31,7 +31,9 @@ from .kernel import table
 from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE, RECORD = ROOT / "docs" / "kernel.md", ROOT / "docs" / "performance" / "kinds.json"
+PAGE = ROOT / "docs" / "engineering" / "kernel-figures.md"
+RECORD = PAGE.parent / "performance" / "kinds.json"
+
 BEGIN, END = "<!-- kinds -->", "<!-- end of kinds -->"
 RTOL, RUNS, REPEATS = 1e-9, 3, 20
 
@@ -63,7 +65,9 @@ def measured(kind: str, scene: Scene) -> dict[str, Any]:
 
     def request(rtol: float, engine: str, repeats: int = 1) -> Batch:
         of = ("outcome", "restitution")
-        return validated_batch(scene, np.tile(stokes, repeats), None, np.tile(angle, repeats), {}, rtol, engine, of)
+        return validated_batch(
+            scene, {"stokes": np.tile(stokes, repeats), "angle": np.tile(angle, repeats)}, {}, rtol, engine, of
+        )
 
     def kernel() -> many.Block:
         repeated = request(RTOL, "taylor", REPEATS)

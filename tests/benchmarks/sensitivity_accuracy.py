@@ -1,4 +1,4 @@
-"""Errors of sensitivities on the twelve collisions, as the table of docs/sensitivities.md.
+"""Errors of sensitivities on the twelve collisions, as the table of docs/engineering/sensitivity-figures.md.
 
 python -m tests.benchmarks.sensitivity_accuracy     (a minute)
 """

@@ -1,4 +1,4 @@
-"""What a gradient to twelve parameters costs, as the table of docs/sensitivities.md.
+"""What a gradient to twelve parameters costs, as the table of docs/engineering/sensitivity-figures.md.
 
 python -m tests.benchmarks.sensitivity_cost     (half a minute)
 """

@@ -96,8 +96,8 @@ def test_files_are_written(record: dict[str, Any], tmp_path: Path) -> None:
 
 
 def test_the_page_is_that_of_its_records() -> None:
-    """docs/performance.md, and the figures of README.md, are what the committed records give."""
-    folder = document.README.parent / "docs" / "performance"
+    """docs/engineering/performance.md, and the figures of README.md, are what the committed records give."""
+    folder = document.README.parent / "docs" / "engineering" / "performance"
     records = [json.loads((folder / f"{name}.json").read_text()) for name in document.RECORDS]
     stress = json.loads((folder / "stress.json").read_text())
     assert document.page(*records, stress, folder.name) == folder.with_suffix(".md").read_text()

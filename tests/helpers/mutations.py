@@ -41,7 +41,7 @@ KEYS = ("a.b", '"a b"', "liquid", "particles.radius", "''", "a" * 300, ".".join(
 def seeds() -> list[bytes]:
     """Scene files to begin with: the presets, and those of the documentation."""
     texts = [read_text(name)[0] for name in PRESETS]
-    for page in sorted((_ROOT / "docs").glob("*.md")):
+    for page in sorted((_ROOT / "docs" / "reference").glob("*.md")):
         texts += re.findall(r"```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
     return [text.encode() for text in texts]
 

@@ -11,6 +11,7 @@ from .modules import _PROVENANCE, digest
 _DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
 _CRITERION_FIELDS = {
     "limit": "str",
+    "name": "str",
     "contact": "bool",
     "symbol": "str",
     "removed_by": "tuple[str, float] | None",

@@ -11,6 +11,7 @@ from ...physics.laws import LAWS, Law
 from ...physics.mechanics import F_c, S_n, S_t
 from ...user_model.declarations import latex_names
 from ...user_model.structures import UserModel
+from ...vocabulary.quantities import p_gt
 from .latex import latex, naming
 from .theory import Equation, theory
 
@@ -77,7 +78,7 @@ def document(title: str, laws: Mapping[str, str], own: UserModel | None, absent:
     Arguments:
         laws: slot -> name of its law, of the library or of `own`.
         own: the user's model, if there is one.
-        absent: slots that the scene lacks (`bridge`, `strings`): their terms are left out.
+        absent: slots that the scene lacks (`bridge`, `strings`, `glass`): their terms are left out.
     """
     found: dict[str, Law] = {slot: law_of(slot, name, own) for slot, name in laws.items()}
     with naming(_names(own)):
@@ -110,7 +111,8 @@ def _names(own: UserModel | None) -> dict[str, str]:
 def _without(lines: Sequence[Equation], absent: Sequence[str]) -> list[Equation]:
     headings = {_ABSENT[slot][0] for slot in absent if slot in _ABSENT}
     nothing = {force: 0 for slot in absent if slot in _ABSENT for force in _ABSENT[slot][1]}
-    kept = [line for line in lines if line.group not in headings]
+    glass = latex(p_gt) if "glass" in absent else None
+    kept = [line for line in lines if line.group not in headings and line.left != glass]
     return [replace(line, expression=line.expression.subs(nothing)) if nothing else line for line in kept]
 
 

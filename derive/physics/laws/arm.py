@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from .base import Law, LawFunction
+from .references import PAPER
 
 distance = sp.Symbol("distance", positive=True)  # r/a
 
@@ -20,7 +21,8 @@ ARMS = (
         slot="arm",
         name="surface",
         meaning="leading-order arm R = 2a: conserves angular momentum only to O(x/4a)",
-        source="Donahue et al., leading order in the gap",
+        source=f"{PAPER.short}: leading order in the gap",
         functions=(LawFunction("lever", (distance,), sp.Integer(2), "Arm over a: the sphere radius."),),
+        references=(PAPER,),
     ),
 )

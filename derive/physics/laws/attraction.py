@@ -8,9 +8,9 @@ import sympy as sp
 
 from ...vocabulary.quantities import A_H, a, gap, x, x0
 from .base import Law, LawFunction
+from .references import DERJAGUIN, HAMAKER
 
 _h = sp.Symbol("h", positive=True)
-SOURCE = "Hamaker, Physica 4, 1058 (1937); Derjaguin, Kolloid-Z. 69, 155 (1934)"
 
 
 @cache
@@ -47,7 +47,8 @@ ATTRACTIONS = (
         slot="attraction",
         name="van-der-waals",
         meaning="van der Waals attraction of nearly touching spheres, neither retarded nor cut off",
-        source=SOURCE,
+        source=f"{HAMAKER.short}; {DERJAGUIN.short}",
+        references=(HAMAKER, DERJAGUIN),
         functions=(
             LawFunction(
                 "force",

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .references import Reference
+
 Definition = tuple[sp.Symbol, sp.Expr]
 
 
@@ -19,6 +21,7 @@ class LawFunction:
         definitions: named intermediates, in the order in which `result` needs them.
         for_proof: used by a stick certificate only. A law may lack it; then that certificate is not available.
         falls: the function does not increase with its first argument (proved in `checks`), as certificates require.
+        references: its publications, if not those of the law.
     """
 
     name: str
@@ -28,6 +31,7 @@ class LawFunction:
     definitions: tuple[Definition, ...] = ()
     for_proof: bool = False
     falls: bool = False
+    references: tuple[Reference, ...] = ()
 
     def __post_init__(self) -> None:
         known = set(self.arguments)
@@ -66,7 +70,9 @@ class Law:
     """A selectable law: fills the slot `slot` under the name that scene files use.
 
     Arguments:
+        source: its origin, as text.
         validity: range in which it is valid, if known.
+        references: its publications.
     """
 
     slot: str
@@ -75,6 +81,7 @@ class Law:
     source: str
     functions: tuple[LawFunction, ...]
     validity: Validity | None = None
+    references: tuple[Reference, ...] = ()
 
     @property
     def module(self) -> str:

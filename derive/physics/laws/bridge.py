@@ -10,6 +10,7 @@ import sympy as sp
 from ...vocabulary.quantities import contact_angle as phi
 from ...vocabulary.quantities import volume as V
 from .base import Definition, Law, LawFunction, Validity
+from .references import DERJAGUIN, LAMBERT, MIKAMI, RABINOVICH, SOULIE, WILLETT, Reference
 from .rupture import own_rupture
 
 h = sp.Symbol("gap_over_radius", positive=True)
@@ -24,20 +25,29 @@ def _n(text: str) -> sp.Rational:
 def _law(
     name: str,
     meaning: str,
-    source: str,
+    published: Reference,
     result: sp.Expr,
     definitions: tuple[Definition, ...] = (),
     rupture: str | None = None,
     validity: Validity | None = None,
     falls: bool = False,
+    remark: str = "",
 ) -> Law:
     functions = [LawFunction("force", (h, V, phi), result, _D, definitions, falls=falls)]
     functions += [own_rupture(rupture)] if rupture else []
-    return Law("bridge", name, meaning, source, tuple(functions), validity)
+    return Law("bridge", name, meaning, published.short + remark, tuple(functions), validity, (published,))
 
 
 def _exponential(
-    name: str, meaning: str, source: str, slope: str, offset: str, tail: str, logarithm: sp.Expr, rupture: str
+    name: str,
+    meaning: str,
+    published: Reference,
+    slope: str,
+    offset: str,
+    tail: str,
+    logarithm: sp.Expr,
+    rupture: str,
+    remark: str = "",
 ) -> Law:
     """Mikami's form exp(A h + B) + C; B and C are linear in ln V with the given coefficients."""
     log_volume, A, B, C = sp.symbols("log_volume decay offset tail", real=True)
@@ -47,7 +57,7 @@ def _exponential(
         (B, (_n(slope) * log_volume - _n("0.96")) * phi**2 + _n(offset) * log_volume + _n("0.48")),
         (C, _n(tail) * log_volume + _n("0.078")),
     )
-    return _law(name, meaning, source, sp.exp(A * h + B) + C, definitions, rupture, falls=True)
+    return _law(name, meaning, published, sp.exp(A * h + B) + C, definitions, rupture, falls=True, remark=remark)
 
 
 def _willett() -> Law:
@@ -87,7 +97,7 @@ def _willett() -> Law:
     return _law(
         "willett",
         "fit to Young-Laplace solutions over h/(2 sqrt V), full form",
-        "Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)",
+        WILLETT,
         result,
         tuple(definitions),
         rupture="willett",
@@ -98,7 +108,7 @@ def _willett() -> Law:
 def _fitted_up_to(largest: str) -> Validity:
     """The fitted range of Willett et al.: bridge volume up to a bound, contact angles up to 50 deg."""
     return Validity(
-        source="Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)",
+        source=WILLETT.short,
         volume=(None, _n(largest)),
         contact_angle=(None, 5 * sp.pi / 18),
     )
@@ -116,7 +126,7 @@ def _rabinovich() -> Law:
     return _law(
         "rabinovich",
         "lambert's pressure term and the surface tension along the contact line at the half-filling angle",
-        "Rabinovich, Esayanur & Moudgil, Langmuir 21, 10992 (2005)",
+        RABINOVICH,
         gorge + tension,
         (reach, (half_filling, sp.sqrt(s - h))),
     )
@@ -127,7 +137,7 @@ def _lambert() -> Law:
     return _law(
         "lambert",
         "energy approach with a cylindrical bridge, exact at constant volume",
-        "Lambert, Chau, Delchambre & Regnier, Langmuir 24, 3157 (2008)",
+        LAMBERT,
         gorge,
         (reach,),
         falls=True,
@@ -139,7 +149,7 @@ def _willett_simple() -> Law:
     return _law(
         "willett-simple",
         "closed-form approximation of the full fit, for small bridges",
-        "Willett, Adams, Johnson & Seville, Langmuir 16, 9396 (2000)",
+        WILLETT,
         2 * sp.cos(phi) / (1 + _n("1.05") * scaled + _n("2.5") * scaled**2),
         ((scaled, h / sp.sqrt(V)),),
         rupture="willett",
@@ -148,21 +158,20 @@ def _willett_simple() -> Law:
     )
 
 
-_MIKAMI = "Mikami, Kamiya & Horio, Chem. Eng. Sci. 53, 1927 (1998)"
-
 BRIDGES = (
     _exponential(
-        "mikami", "regression of Young-Laplace solutions", _MIKAMI, "-0.34", "-0.019", "0.0042", sp.log(V), "mikami"
+        "mikami", "regression of Young-Laplace solutions", MIKAMI, "-0.34", "-0.019", "0.0042", sp.log(V), "mikami"
     ),
     _exponential(
         "mikami-log10",
         "mikami with decimal logarithms in B and C (closer to Young-Laplace for phi > 0)",
-        _MIKAMI + ", read with log10",
+        MIKAMI,
         "-0.34",
         "-0.019",
         "0.0042",
         sp.log(V) / sp.log(10),
         "mikami",
+        ", read with log10",
     ),
     _willett(),
     _willett_simple(),
@@ -171,7 +180,7 @@ BRIDGES = (
     _exponential(
         "soulie",
         "mikami's form refitted for polydisperse spheres",
-        "Soulie, Cherblanc, El Youssoufi & Saix, Int. J. Numer. Anal. Meth. Geomech. 30, 213 (2006)",
+        SOULIE,
         "-0.148",
         "-0.0082",
         "0.0018",
@@ -181,8 +190,9 @@ BRIDGES = (
     _law(
         "constant",
         "gap-independent upper bound, the force at contact",
-        "2 cos(phi): Derjaguin limit at h = 0",
+        DERJAGUIN,
         2 * sp.cos(phi),
+        remark=": 2 cos(phi), the limit at h = 0",
         falls=True,
     ),
 )

@@ -8,6 +8,7 @@ import sympy as sp
 
 from ...vocabulary.quantities import R, a, aspect, gap, mu, u, volume, x, x0
 from .base import Law, LawFunction
+from .references import BARNOCKY, KANTAK, PITOIS, RAGER
 
 _h = sp.Symbol("h", positive=True)
 _rim = sp.Symbol("rim", positive=True)
@@ -98,7 +99,8 @@ FILMS = (
         slot="film",
         name="finite",
         meaning="Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
-        source="Kantak & Davis, Powder Technol. 168, 42 (2006); derived: pressure integrated over the disc h < x0",
+        references=(KANTAK,),
+        source=f"{KANTAK.short}; derived: pressure integrated over the disc h < x0",
         functions=(
             LawFunction(
                 name="resistance",
@@ -113,7 +115,8 @@ FILMS = (
         slot="film",
         name="infinite",
         meaning="no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
-        source="Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002); derived: the limit x0 -> infinity of `finite`",
+        references=(RAGER,),
+        source=f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`",
         functions=(
             LawFunction(
                 name="resistance",
@@ -128,7 +131,8 @@ FILMS = (
         slot="film",
         name="cavitating",
         meaning="`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
-        source="Barnocky & Davis, Phys. Fluids 31, 1324 (1988); derived: the pressure cut off at ambient",
+        references=(BARNOCKY,),
+        source=f"{BARNOCKY.short}; derived: the pressure cut off at ambient",
         functions=(
             LawFunction(
                 name="resistance",
@@ -148,7 +152,8 @@ FILMS = (
         slot="film",
         name="constant-volume",
         meaning="the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
-        source="Pitois, Moucheront & Chateau, J. Colloid Interface Sci. 231, 26 (2000); derived: a disc of that volume",
+        references=(PITOIS,),
+        source=f"{PITOIS.short}; derived: a disc of that volume",
         functions=(
             LawFunction(
                 name="resistance",

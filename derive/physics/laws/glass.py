@@ -9,6 +9,7 @@ import sympy as sp
 from ...vocabulary.quantities import a, gap, glass_number, mu, u, x, x0
 from .base import Law, LawFunction
 from .film import axis_pressure
+from .references import CRADLE
 
 approach = sp.Symbol("approach", real=True)  # -u/v0, positive while closing
 
@@ -49,8 +50,9 @@ def _law(name: str, pressure: sp.Expr, meaning: str) -> Law:
         "glass",
         name,
         meaning,
-        "Donahue et al., J. Fluid Mech. 650, 479 (2010); derived from the film pressure",
+        f"{CRADLE.short}; derived from the film pressure",
         functions,
+        references=(CRADLE,),
     )
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ...vocabulary.quantities import E, a, mu, nu, v0
+from .references import RAGER, SERAYSSOL
 
-ELASTIC_SOURCE = "Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002), after Davis, Serayssol & Hinch (1986)"
+ELASTIC = (RAGER, SERAYSSOL)  # publications of the elastic length
 
 
 def elastic_compliance() -> sp.Expr:
@@ -16,5 +17,8 @@ def elastic_compliance() -> sp.Expr:
 
 
 def elastic_length() -> sp.Expr:
-    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which elastic deformation stops the approach."""
+    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which elastic deformation stops the approach.
+
+    From Davis, Rager & Good 2002, after Davis, Serayssol & Hinch 1986.
+    """
     return (3 * sp.pi * elastic_compliance() * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)

@@ -13,6 +13,7 @@ import sympy as sp
 
 from ...vocabulary.quantities import a, aspect, gap, mu, omega, x, x0, xi
 from .base import Law, LawFunction
+from .references import ONEILL, Reference
 
 _h, _outer = sp.symbols("h h_outer", positive=True)
 
@@ -38,13 +39,14 @@ def log_factor(outer: sp.Expr) -> sp.Expr:
     return sp.simplify(scaled.subs(x0, aspect * a))
 
 
-def _law(name: str, outer: sp.Expr, meaning: str, source: str) -> Law:
+def _law(name: str, outer: sp.Expr, meaning: str, source: str, references: tuple[Reference, ...] = ()) -> Law:
     edge = sp.simplify((outer / x0).subs(x0, aspect * a))
     return Law(
         slot="shear",
         name=name,
         meaning=meaning,
         source=source,
+        references=references,
         functions=(
             LawFunction(
                 "log_factor",
@@ -64,7 +66,8 @@ SHEARS = (
         "immersed",
         2 * a,
         "leading logarithm of nearly touching, fully immersed spheres: cut off at the sphere radius 2a",
-        "O'Neill & Majumdar, ZAMP 21, 164 (1970), without its constant term",
+        f"{ONEILL.short}, without its constant term",
+        (ONEILL,),
     ),
     _law(
         "film",

@@ -8,6 +8,7 @@ import sympy as sp
 
 from ...vocabulary.quantities import a, beta, g, l_s, m, string_ratio
 from .base import Law, LawFunction
+from .references import DOUBLETS
 
 r = sp.Symbol("r", positive=True)  # distance between the centres
 offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, with d the horizontal swing of either sphere
@@ -66,7 +67,8 @@ def _law(name: str, small_angle: bool, meaning: str) -> Law:
         slot="strings",
         name=name,
         meaning=meaning,
-        source="Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight",
+        references=(DOUBLETS,),
+        source=f"{DOUBLETS.short}: vertical tension balances the weight",
         functions=(
             LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
             LawFunction(

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from ..laws.references import GOLDMAN, JEFFREY, Reference
 from . import pair, wall
 from .base import Rotation
+
+PUBLISHED: dict[str, tuple[Reference, ...]] = {"pair": (JEFFREY,), "wall": (GOLDMAN,)}
+"""Publications of the friction of a partner, to its leading logarithm."""
 
 
 def rotation(partner: str) -> Rotation:
@@ -11,4 +15,4 @@ def rotation(partner: str) -> Rotation:
     return pair.rotation() if partner == "pair" else wall.rotation()
 
 
-__all__ = ["Rotation", "rotation"]
+__all__ = ["PUBLISHED", "Rotation", "rotation"]

@@ -3,7 +3,7 @@
 
 /* arm law `surface`: leading-order arm R = 2a: conserves angular momentum only to O(x/4a).
  *
- * Source: Donahue et al., leading order in the gap. */
+ * Source: Donahue, Davis, Kantak & Hrenya, Phys. Rev. E 86, 021303 (2012): leading order in the gap. */
 
 typedef struct { char none[0]; } arm_lever_constants;
 

@@ -3,7 +3,7 @@
 
 /* bridge law `constant`: gap-independent upper bound, the force at contact.
  *
- * Source: 2 cos(phi): Derjaguin limit at h = 0. */
+ * Source: Derjaguin, Kolloid-Z. 69, 155 (1934): 2 cos(phi), the limit at h = 0. */
 
 typedef struct { vec volume, contact_angle, level; } bridge_force_constants;
 

@@ -3,7 +3,8 @@
 
 /* strings law `exact`: strings of length l, exact geometry.
  *
- * Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight. */
+ * Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. 708, 128 (2012): vertical tension balances the
+ * weight. */
 
 typedef struct { vec string_ratio, combination_offset; } strings_rise_constants;
 

@@ -3,7 +3,8 @@
 
 /* strings law `small-angle`: linearised in the swing: sqrt(l^2 - d^2) -> l.
  *
- * Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. (2012): vertical tension balances the weight. */
+ * Source: Donahue, Brewer, Davis & Hrenya, J. Fluid Mech. 708, 128 (2012): vertical tension balances the
+ * weight. */
 
 typedef struct { vec string_ratio, result_per_offset_squared; } strings_rise_constants;
 

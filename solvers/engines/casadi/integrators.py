@@ -91,8 +91,8 @@ class Tolerance:
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
 
-# At a given tolerance the global error of CVODES is 20 to 600 times that of Rosenbrock (docs/performance.md), so it is
-# given a tighter tolerance: rtol then means about the same for both.
+# At a given tolerance the global error of CVODES is 20 to 600 times that of Rosenbrock (measured in docs/engineering),
+# so it is given a tighter tolerance: rtol then means about the same for both.
 _CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
 
 

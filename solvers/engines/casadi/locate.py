@@ -5,7 +5,7 @@ The events, their effects and the rules of a rebound are those of `generated/aut
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -26,11 +26,11 @@ from ....generated.automaton import (
     Event,
     EventKind,
 )
-from ...certificates import Certainty, Certificate, OrbitalMomentumCertificate, at_maximum, proof_for
+from ...certificates import Certainty, Certificate, NoCertificate, OrbitalMomentumCertificate, at_maximum, proof_for
 from ...errors import CheckFailed, ComputationError
-from ...model.contact import contact_gap, contact_word
 from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
+from ...scene.contact import contact_gap, contact_word
 from ...settings import CALL, STEPS
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance
 
@@ -77,6 +77,7 @@ class EventSequence:
     smallest_gap: float = 1.0
     extras: tuple[str, ...] = ()
     dry_loss: float = 0.0  # dissipated by rebounds and rests, over m v0^2
+    decided: float | None = None  # time at which the stick was certain, if the trajectory continues beyond it
 
     @property
     def kinds(self) -> list[str]:
@@ -105,6 +106,7 @@ class EventLocator:
         extras: tuple[str, ...] = (),
         machine_code: bool = False,
         steps: int = STEPS,
+        until: float = 0.0,
     ) -> None:
         rtol = min(rtol, LOOSEST)
         self.model, self.rtol, self.machine_code = model, rtol, machine_code
@@ -124,16 +126,34 @@ class EventLocator:
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
         self.spent, self.steps = 0, steps
+        self.until, self.deadline = until, np.inf
         self._maxima: list[np.ndarray] = []  # states at maxima of the gap
 
     def run(self) -> EventSequence:
-        """Integrate the collision to separation, to a certificate, or to a cut-off."""
+        """Integrate the collision to separation, to a cut-off, or to a certificate, and from there up to `until`."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error(
                 "at this angle the rotation reverses the approach within a rounding error of the film thickness",
                 "try a smaller angle",
             )
-        while True:
+        path = self._followed()
+        if not path.separated and path.steps[-1].event is None and path.time < self.until:
+            self._follow_on()
+        return path
+
+    def _follow_on(self) -> None:
+        """Continue the integration beyond the certificate of a stick."""
+        path, proved = self.path, self.path.certified
+        path.decided, self.deadline = path.time, self.until
+        self.proof, self.watch, self.spent = NoCertificate(), replace(self.watch, certificate=None), 0
+        self._followed()
+        if path.separated:
+            word = "proved" if proved else "decided, not proved,"
+            message = f"a stick that is {word} separates when it is followed on"
+            raise self._error(message, "please report the scene" if proved else "leave out --until")
+
+    def _followed(self) -> EventSequence:
+        while self.path.time < self.deadline:
             if self._proved(0.0):
                 return self.path
             if self._held_in_chatter():
@@ -145,6 +165,7 @@ class EventLocator:
                 return self.path
             if self.path.separated:
                 return self.path
+        return self.path
 
     def _held_in_chatter(self) -> bool:
         """True if the orbital-momentum certificate holds for a doublet in long chatter, which is then a stick."""
@@ -168,6 +189,9 @@ class EventLocator:
         if self.spent > self.steps:
             phases = len(self.path.steps)
             why = "the doublet rebounds again and again" if phases > CHATTER_PHASES else "the gap changes too slowly"
+            if self.path.decided is not None:
+                message = f"{self.steps} steps have not led from the proof to the time that was asked for"
+                raise self._error(message, "try an earlier --until")
             raise self._error(
                 f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
                 f"{why}: try a larger --rtol, or another impact",
@@ -203,8 +227,8 @@ class EventLocator:
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         elapsed, stretch = 0.0, self._first_stretch()
         for _ in range(STRETCHES):
-            level = self._level()
-            stop = self._advance(find, stretch, -np.inf if level is None else level)
+            level, left = self._level(), self.deadline - self.path.time
+            stop = self._advance(find, min(stretch, left), -np.inf if level is None else level)
             elapsed += stop.time
             self.path.time += stop.time
             self.y = self.path.y = stop.y
@@ -214,6 +238,10 @@ class EventLocator:
                     return True
             elif stop.event is not None:
                 return self._act(EVENT_OF[stop.event], elapsed)
+            elif stop.time >= left:
+                self.path.time = self.deadline
+                self._stop(PhaseRun(self.phase, elapsed, None, ()))
+                return True
             elif self._proved(elapsed):
                 return True
             else:
@@ -357,7 +385,7 @@ class EventLocator:
         """A rebound; a weak one becomes resting contact, one at the rupture gap separates the doublet.
 
         The contact that holds a resting doublet is that of the rebound criterion, the glassy liquid included
-        (docs/physics.md).
+        (docs/explanation/events.md).
         """
         after = self.model.values("rebound", self.y, self.p)
         self.path.dry_loss += self.model.values("rebound_loss", self.y, self.p)["dry_contact"]
@@ -404,15 +432,21 @@ class EventLocator:
 
 
 def locate(
-    model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = (), machine_code: bool = False
+    model: Model,
+    groups: dict[str, float],
+    rtol: float,
+    extras: tuple[str, ...] = (),
+    machine_code: bool = False,
+    until: float = 0.0,
 ) -> EventSequence:
     """Phases and events of a collision.
 
     Arguments:
         extras: additional quadratures (`rotation`), included in the sequence's last state.
         machine_code: use integrators compiled to C.
+        until: time (x0/v0) to which a stick is followed on after its proof.
 
     Raises:
         ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
     """
-    return EventLocator(model, groups, rtol, extras, machine_code).run()
+    return EventLocator(model, groups, rtol, extras, machine_code, until=until).run()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 
 import numpy as np
@@ -62,18 +62,27 @@ class Stretch:
 
 def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
     """A phase of a replay, integrated again through the requested times; ComputationError if that fails."""
-    size, names = len(model.state), (*model.state, *replayed.extras)
-    offset = replayed.offset if "rotation" in replayed.extras else 0.0
+    size, turned = len(model.state), tuple(name for name in replayed.extras if name == "rotation")
+    names, offset = (*model.state, *turned), replayed.offset if turned else 0.0
+    kept = [*range(size), *(size + replayed.extras.index(name) for name in turned)]
 
     def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         try:
-            inside = plain(piece.flow, plugin, tolerance, tuple(parts[1:]))(piece.start, p, piece.duration)
+            inside = integrated(parts)
         except IntegrationFailed as failure:  # the located trajectory, with smaller steps, may succeed
             state = dict(zip(model.state, piece.start.tolist(), strict=False))
             message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
             raise ComputationError(message, piece.name, piece.time, state, advice) from None
-        y = np.column_stack([piece.start, inside])
+        y = np.column_stack([piece.start[kept], inside])
         return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
+
+    def integrated(parts: np.ndarray) -> np.ndarray:
+        grid = tuple(parts[1:])
+        try:
+            return plain(piece.flow, plugin, tolerance, grid)(piece.start, p, piece.duration)[kept]
+        except IntegrationFailed:  # possibly due to the ledger, which is not needed here
+            flow = replace(piece.flow, extras=turned)
+            return plain(flow, plugin, tolerance, grid)(piece.start[kept], p, piece.duration)
 
     return Stretch(piece.name, piece.time, piece.duration, sample)
 

@@ -39,7 +39,7 @@ FLAGS = (
     "-std=gnu11",
     "-w",
 )
-# For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/kernel.md).
+# For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 LARGEST_ORDER = 16
 _ONCE = "#pragma once"
@@ -70,6 +70,12 @@ class Variant:
     few: bool = False
     ledger: bool = False
     trajectory: bool = False
+
+    def __post_init__(self) -> None:
+        """Reset options without effect, so that equal kernels are compiled once."""
+        structure = self.choice.structure
+        if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
+            object.__setattr__(self, "rotation", False)
 
 
 @cache

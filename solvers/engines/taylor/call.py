@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...model.contact import NEVER_MET
 from ...model.model import ModelKey, select_model
+from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
@@ -46,7 +46,7 @@ RunKernel = Callable[[Impacts, np.ndarray], None]
 
 
 def order_for(rtol: float) -> int:
-    """Order of the series with the least cost for a tolerance (docs/kernel.md)."""
+    """Order of the series with the least cost for a tolerance (docs/engineering/kernel.md)."""
     return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
 
 

@@ -1,10 +1,10 @@
-"""Measure everything anew and write docs/performance.md: one command, on a quiet machine.
+"""Measure everything anew and write docs/engineering/performance.md: one command, on a quiet machine.
 
     python -m tests.benchmarks.measured [FOLDER] [SCENES]
 
-FOLDER is docs/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With the usual
-folder the figures of README.md and docs/kernel.md are written as well. What fails is named at the end, and the rest is
-measured all the same; the page is then made from the older record of that part.
+FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
+the usual folder the figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is
+named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from pathlib import Path
 from .page.record import as_json
 
 ROOT = Path(__file__).resolve().parents[3]
-USUAL = ROOT / "docs" / "performance"
+USUAL = ROOT / "docs" / "engineering" / "performance"
 
 
 def run(module: str, *arguments: str, check: bool = True) -> None:

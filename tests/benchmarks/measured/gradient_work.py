@@ -233,17 +233,5 @@ def gradient_work_text(found: Sequence[Record]) -> str:
             "CPU us a gradient (times the cheapest): cheapest setting with none refused and a largest error of at most"
         )
         parts += [title, said, table(["method", *(f"{bound:.0e}" for bound in BOUNDS)], cells)]
-        rows = [
-            [
-                row["method"], f"{row['rtol']:.0e}", us(row["cpu"]), _shown(row["error_largest"]),
-                _shown(row["error_median"]), str(row["failed"]),
-            ]
-            for row in task["rows"]
-        ]  # fmt: skip
-        parts.append(table(["method", "rtol, or step", "CPU us", "largest error", "median", "refused"], rows))
         parts += [f"* {name}: {why}" for name, why in task["missing"].items()]
     return "\n\n".join(parts)
-
-
-def _shown(value: float | None) -> str:
-    return "-" if value is None else f"{value:.1e}"

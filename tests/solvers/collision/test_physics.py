@@ -154,7 +154,7 @@ def test_similarity(length: float, mass: float, time: float, stokes: float, angl
 def test_energy_and_angular_momentum(data: st.DataObject) -> None:
     """Any scene: kinetic energy is accounted for, dissipation is not negative, L is kept where it must be.
 
-    A doublet may visit its film for ever without a proof (docs/known-issues.md): that is said, and no result.
+    A doublet may visit its film for ever without a proof (known-issues.md): that is said, and no result.
     """
     law = data.draw(
         st.sampled_from(

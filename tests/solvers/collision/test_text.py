@@ -75,7 +75,7 @@ def test_a_stick_without_proof_says_so(collisions):
 
 def test_a_stick_says_where_integration_stopped(collisions):
     """`until` is where the outcome was certain, not an event: the table says so, unless a cut-off does."""
-    stick = replace(collisions["sticks later"], until=5.889e-3)
+    stick = replace(collisions["sticks later"], until=5.889e-3, decided=5.889e-3)
     assert "integration stopped there, 5.889 ms after initial contact" in table(stick)
     for name in ("sticks at touch", "half turn", "escapes"):
         assert "integration stopped" not in table(collisions[name])

@@ -2,15 +2,19 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import warnings
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from wetdoublet.solvers.commands.options import entry_range
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.ranges import parse_range
 from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.scene.schema import FIELDS
 from wetdoublet.solvers.settings import check_engine, check_rtol
 
 from ...helpers.command import run
@@ -53,7 +57,9 @@ BAD = [
     ("collide granulation --stokes 1 --speed 1m/s", "--speed", '"1m/s"', "only one of --stokes, --speed"),
     ("collide granulation --speed 1", "--speed", "no unit", "with its unit"),
     ("collide granulation --speed 1Pa", "--speed", "pressure, not a speed", "with its unit"),
-    ("collide granulation --angle 60", "--angle", '"60" has no unit', "< 90 deg"),
+    ("collide granulation --angle 95", "--angle", '"95 deg"', "< 90 deg"),
+    ("collide granulation --stokes 1 --relative-speed 1m/s", "--relative-speed", "--stokes = 1", "--speed"),
+    ("collide granulation --relative-speed 1", "--relative-speed", "has no unit", "with its unit"),
     ("collide granulation --angle 90deg", "--angle", '"90deg"', "< 90 deg"),
     ("collide granulation --angle -5deg", "--angle", '"-5deg"', ">= 0 deg"),
     ("collide granulation --rtol 1e-2", "--rtol", '"1e-2"', "1e-13 to 1e-3"),
@@ -92,7 +98,7 @@ BAD = [
     ("collide granulation --set bridge.law=foo", "bridge.law", '"foo"', "mikami"),
     ("collide granulation --set impact.stokes=1 --stokes 2", "--stokes", '"2"', "only one"),
     ("collide pendulum --set pendulum.length=1cm", "pendulum.length", '"1cm"', "4a + x_f/2"),
-    ("collide pendulum --set bridge.volume=1", "bridge.surface_tension", "bridge.contact_angle", "with its unit"),
+    ("collide pendulum --set bridge.volume=1", "bridge.surface_tension", "missing", "with its unit"),
     ("collide pendulm", "scene", "did you mean pendulum?", "granulation, pendulum"),
     ("collide", "SCENE", "missing", "granulation, pendulum"),
     ("collide --engine foo", "--engine", '"foo"', "cvodes, rosenbrock"),
@@ -219,7 +225,7 @@ def test_failures(collision, monkeypatch):
 def test_scenes():
     """`scenes` lists the presets; `scenes NAME` prints one that loads as itself, changed if asked."""
     lines = run("scenes").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == ["granulation", "pendulum", "granulation-dry-bridge"]
+    assert [line.split()[0] for line in lines] == [*PRESETS]
     assert all(len(line.split()) > 5 and len(line) < 100 for line in lines)
     assert Scene.from_toml(run("scenes", "pendulum").stdout) == Scene.load("pendulum")
     changed = run("scenes", "granulation", "--set", "liquid.viscosity=3 Pa s", "--angle", "10 deg").stdout
@@ -292,6 +298,38 @@ def test_closed_streams():
 
 
 @pytest.mark.slow
+def test_a_new_scene(tmp_path, monkeypatch):
+    """`scenes --new NAME` writes a commented scene that runs as it is, and overwrites nothing."""
+    monkeypatch.chdir(tmp_path)
+    assert run("scenes", "--new", "mine").stdout == "mine.toml\n"
+    assert run("collide", "mine.toml").exit_code == 0
+    text = (tmp_path / "mine.toml").read_text()
+    assert 'name = "mine"' in text and all("#" in line for line in text.splitlines() if line.startswith("# "))
+    uncommented = re.sub(r"^# (?=youngs|poisson|glass_|coating_fraction)", "", text, flags=re.MULTILINE)
+    assert Scene.from_toml(uncommented).bridge is not None  # what is offered is right as well
+    again = run("scenes", "--new", "mine")
+    assert again.exit_code == 2 and again.stderr.startswith('--new: "mine" would overwrite mine.toml; accepted: ')
+    assert run("scenes", "lactose-pvp", "--new", "other").exit_code == 2
+    assert (tmp_path / "mine.toml").read_text() == text and not (tmp_path / "other.toml").exists()
+
+
+def test_angles_are_degrees_on_the_command_line():
+    """A bare angle is in degrees, alone and in ranges; either end of a range may carry the unit of both."""
+    one = [run("collide", "granulation", "--angle", angle, "--json").stdout for angle in ("75", "75 deg")]
+    assert one[0] == one[1]
+    assert run("scenes", "granulation", "--set", "bridge.contact_angle=20").stdout.count('"20 deg"') == 1
+    lines = [
+        run("boundary", "granulation", "--angle", angle, "--json").stdout
+        for angle in ("40", "40:40:1", "40 deg:40 deg:1", "40:40deg:1")
+    ]
+    assert len(set(lines)) == 1 and lines[0]
+    angle = FIELDS["impact.angle"]
+    assert entry_range(angle, "20 deg:70 deg:26", "--angle") == entry_range(angle, "20:70:26", "--angle")
+    assert entry_range(angle, "0:1 rad:2", "--angle") == [0.0, 1.0]
+    speeds = entry_range(FIELDS["impact.speed"], "0.1:5 m/s:20", "--speed")
+    assert speeds == entry_range(FIELDS["impact.speed"], "0.1 m/s:5:20", "--speed") and speeds[-1] == 5.0
+
+
 def test_a_home_that_cannot_be_written(tmp_path):
     """Matplotlib then works from a temporary folder, and standard error stays clean."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}
@@ -302,21 +340,26 @@ def test_a_home_that_cannot_be_written(tmp_path):
     assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "a.png").is_file()
 
 
+def floats(low, high):
+    """Read both ends of a range as plain numbers, an empty one as 0."""
+    return float(low or "0"), float(high or "0")
+
+
 @pytest.mark.parametrize(
-    "text", ["1", "1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
+    "text", ["1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
 )
 def test_bad_ranges(text):
     """A range that is none, runs backwards or has the wrong count names its option."""
     with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
-        parse_range(text, "--stokes", lambda end: float(end or "0"))
+        parse_range(text, "--stokes", floats)
 
 
 def test_ranges():
     """Both ends are included exactly; log is even in the logarithm; one value is a range too."""
-    assert parse_range("0:60:4", "--angle", float) == [0, 20, 40, 60]
-    assert parse_range("log:0.01:100:5", "--stokes", float) == pytest.approx([0.01, 0.1, 1, 10, 100])
-    assert parse_range("log:0.1:0.7:3", "--stokes", float)[::2] == [0.1, 0.7]
-    assert parse_range("5:5:1", "--angle", float) == [5]
+    assert parse_range("0:60:4", "--angle", floats) == [0, 20, 40, 60]
+    assert parse_range("log:0.01:100:5", "--stokes", floats) == pytest.approx([0.01, 0.1, 1, 10, 100])
+    assert parse_range("log:0.1:0.7:3", "--stokes", floats)[::2] == [0.1, 0.7]
+    assert parse_range("5:5:1", "--angle", floats) == parse_range("5", "--angle", floats) == [5]
 
 
 def test_a_warning_is_said_once(module):

@@ -23,7 +23,7 @@ from wetdoublet.solvers.model.model import load, select_model
 from ...helpers.command import run
 
 GENERATED = Path(differences.__file__).parents[2] / "generated"
-RULES = ("__init__.py", "assemble.py", "automaton.py")  # no equations
+RULES = ("__init__.py", "assemble.py", "automaton.py", "references.py")  # no equations
 MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in RULES)
 
 

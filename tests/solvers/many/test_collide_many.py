@@ -175,7 +175,7 @@ def test_parallel_equals_serial(monkeypatch):
 def test_without_a_compiler(monkeypatch, capfd):
     """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
-    request = many.validated_batch("granulation", stokes, None, angle, {}, 1e-9, None, EVERYTHING)
+    request = many.validated_batch("granulation", {"stokes": stokes, "angle": angle}, {}, 1e-9, None, EVERYTHING)
     fast = many.run(request, machine_code=True)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)

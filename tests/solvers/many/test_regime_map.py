@@ -119,10 +119,10 @@ def test_bad_input_in_python(arguments, field):
 BAD = [
     ("--angle 0:80:3", "--stokes: missing"),
     ("--stokes 0.1:0.2:3", "--angle: missing"),
-    ("--stokes 0.1 --angle 0:80:3", '--stokes: "0.1" is not a range'),
+    ("--stokes 0.1:0.2 --angle 0:80:3", '--stokes: "0.1:0.2" is not a range'),
     ("--stokes 2:1:3 --angle 0:80:3", '--stokes: "2:1:3" is not a range'),
     ("--stokes 0.1:0.2:3 --angle 0:95:3", '--angle: "95 deg" is out of range'),
-    ("--stokes 0.1:0.2:3 --angle 0deg:80deg:3", '--angle: "0deg" is not a number'),
+    ("--stokes 0.1:0.2:3 --angle 0deg:80kg:3", '--angle: "80kg" is a mass'),
     ("--speed 0.1:0.2:3 --angle 0:80:3", '--speed: "0.1" has no unit'),
     ("--stokes 0.1:0.2:3 --speed 1m/s:2m/s:3", "--speed: "),
     ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity", "--vary: "),
@@ -251,3 +251,13 @@ def test_pictures(data, unlucky, tmp_path):
     result = run("map", "granulation", *SMALL, "--plot", picture)
     assert (result.exit_code, result.output) == (0, "")
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_relative_speed_is_an_axis():
+    """Over relative speed and angle each collision has its own normal speed, which the map carries."""
+    data = regime_map("granulation", relative_speed=[0.5, 1.0], angle=["0 deg", "60 deg"])
+    assert data.outcome.dims == ("angle", "relative_speed")
+    assert data.speed.values == pytest.approx(np.array([[0.5, 1.0], [0.25, 0.5]]), rel=1e-14)
+    one = regime_map("granulation", speed=[0.25, 0.5], angle=["60 deg"])
+    assert data.restitution.values[1] == pytest.approx(one.restitution.values[0], rel=1e-9, nan_ok=True)
+    assert data.centrifugal.values[1] == pytest.approx(one.centrifugal.values[0], rel=1e-12)

@@ -7,7 +7,7 @@ import pytest
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.scene.groups import si_values
-from wetdoublet.solvers.scene.quantities import quantities
+from wetdoublet.solvers.scene.quantities import Ways, quantities
 from wetdoublet.solvers.scene.schema import FIELDS
 
 NUMBERS = [name for name, field in FIELDS.items() if not (field.choices or field.flag)]
@@ -22,7 +22,13 @@ FULL = {
 OTHERS = {
     "particles.reduced_radius": ("particles.radius", 5e-5), "particles.reduced_mass": ("particles.density", 5e-9),
     "particles.mass": ("particles.density", 1e-8), "partner.mass": ("partner.density", 7e-8),
-    "impact.speed": ("impact.stokes", 0.5),
+    "impact.speed": ("impact.stokes", 0.5), "impact.relative_speed": ("impact.stokes", 0.5),
+    "particles.diameter": ("particles.radius", 2e-4), "partner.diameter": ("partner.radius", 3e-4),
+    "liquid.coating_thickness": ("liquid.film_thickness", 4e-6),
+    "partner.coating_thickness": ("liquid.film_thickness", 4e-6, ("liquid.coating_thickness", 4e-6)),
+    "bridge.coating_fraction": (
+        "liquid.film_thickness", 0.1, ("liquid.coating_thickness", 4e-6), ("bridge.volume", "from coating"),
+    ),
 }  # fmt: skip
 
 
@@ -31,11 +37,12 @@ def test_every_number_reaches_the_model(name: str) -> None:
     """What an entry is, or takes part in, are quantities of the derivation; and they change with it."""
     entries = dict(FULL)
     if name in OTHERS:
-        instead, value = OTHERS[name]
+        instead, value, *others = OTHERS[name]
         del entries[instead]
-        entries[name] = value
-    before = quantities(entries)
-    after = quantities(entries | {name: entries[name] * 1.01})
+        entries |= {name: value, **dict(others)}
+    ways = Ways.of(entries)
+    before = quantities(entries, ways)
+    after = quantities(entries | {name: entries[name] * 1.01}, ways)
     assert {key for key in before if before[key] != after[key]}
     assert set(before) <= set(VOCABULARY)
     if FIELDS[name].quantity not in ("", "reduced_radius", "reduced_mass"):  # those are the pair's
@@ -48,7 +55,7 @@ def test_arrays_take_the_same_way_as_scenes() -> None:
     scene = Scene.load("granulation").with_entries({"partner.radius": 1.5e-4, "partner.density": 2200.0})
     columns = {"particles.radius": np.array([8e-5, 1.1e-4]), "partner.density": np.array([1500.0, 2700.0])}
     entries = {name: value for name, value in scene.si if name not in ("particles.reduced_radius", "impact.stokes")}
-    found = quantities(entries | columns)
+    found = quantities(entries | columns, scene.ways)
     for k in range(2):
         given = {name: float(column[k]) for name, column in columns.items()}
         one = Scene.from_dict(

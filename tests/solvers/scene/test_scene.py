@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wetdoublet.solvers import collide
 from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.scene import scenefile
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
@@ -30,9 +31,29 @@ def test_preset_round_trips(name):
     assert Scene.load(scene) is scene
 
 
+@pytest.mark.parametrize("name", PRESETS)
+def test_presets_run_and_say_where_they_are_from(name):
+    """Every preset collides, every entry has a comment, and what is no one's number is marked as assumed."""
+    scene = Scene.load(name)
+    assert collide(scene, ledger=False, engine="rosenbrock").outcome in ("bounce", "stick-rotate-separate")
+    assert {entry for entry, _ in scene.comments} == set(scene.entries)
+    assert set(dict(scene.guesses)) < set(scene.entries)
+    assert len(scenefile.description(name)) < 80
+
+
+def test_comments_stay_with_their_entries():
+    """Comments behind entries survive a change of another entry, and a # within text is none."""
+    text = Scene.load("lactose-pvp").to_toml().replace('name = "lactose-pvp"', 'name = "a # b"')
+    scene = Scene.from_toml(text).with_entries({"liquid.viscosity": "9 mPas"})
+    assert "liquid.viscosity" not in dict(scene.comments)
+    assert "impact.angle" not in dict(scene.with_impact(angle="30 deg").guesses)
+    assert dict(scene.comments)["particles.diameter"] == "a sieve fraction of granules"
+    assert Scene.from_toml(scene.to_toml()).comments == scene.comments
+
+
 def test_presets_are_the_papers():
     """Presets hold the printed values, an impact, and say what is assumed."""
-    granulation, pendulum, dry = (Scene.load(name) for name in PRESETS)
+    granulation, pendulum, dry = (Scene.load(name) for name in scenefile.OF_THE_PAPER)
     assert (granulation.stokes, granulation.angle) == (0.03, pytest.approx(math.radians(60)))
     assert (pendulum.stokes, pendulum.angle) == (1.3, pytest.approx(math.radians(45)))
     assert pendulum.bridge is None and pendulum.pendulum is not None and pendulum.pendulum.length == 0.5
@@ -111,7 +132,7 @@ def test_with_entries_and_impact_leave_the_original_alone():
     assert scene.with_impact(angle=1.0).angle == 1.0 and scene.with_impact() is scene
     with pytest.raises(InputError, match=r"impact.speed: 1.0 is given together with impact.stokes"):
         scene.with_impact(stokes=1.0, speed=1.0)
-    with pytest.raises(InputError, match="bridge.surface_tension: missing .*bridge.contact_angle"):
+    with pytest.raises(InputError, match="bridge.surface_tension: missing"):
         Scene.load("pendulum").with_entries({"bridge.volume": 0.1})
     with pytest.raises(InputError, match="particles.radius.*particles.reduced_radius"):
         scene.with_entries({"particles.radius": "100 um"})

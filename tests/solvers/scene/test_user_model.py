@@ -217,8 +217,8 @@ def test_a_film_may_depend_on_the_speed(tmp_path: Path):
 
 
 def test_the_page_on_models_is_true(tmp_path: Path):
-    """The model file that docs/models.md shows is the template, and its checks hold."""
-    page = (Path(__file__).resolve().parents[3] / "docs" / "models.md").read_text(encoding="utf-8")
+    """The model file that docs/reference/models.md shows is the template, and its checks hold."""
+    page = (Path(__file__).resolve().parents[3] / "docs" / "reference" / "models.md").read_text(encoding="utf-8")
     shown = page.partition("```python\n")[2].partition("```")[0]
     assert shown == TEMPLATE
     checks = model_checks(Path("mine.py"), shown)[1]

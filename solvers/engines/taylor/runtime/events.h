@@ -152,6 +152,7 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
     /* the next gap with an event: contact, or the film edge from outside; film edge or rupture while opening */
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
+    edge &= ~(closing & (f->contact >= 1.0)); /* soft solids touch outside the film */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
     mask event = (edge & splat_mask(AT_FILM_EDGE)) |
                  (~edge & ((closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE))));

@@ -9,7 +9,6 @@ from wetdoublet.solvers.formatting.markdown import ms, table
 
 from ..cold import first_table
 from ..digits import us
-from ..features import FEATURES, TOGETHER
 from ..gradient_work import gradient_work_text
 from ..lines import line_table
 from ..near import near_text
@@ -46,19 +45,6 @@ def sample(task: Record) -> str:
         against = ", ".join(f"{value:.0e} from {name}" for name, value in known["differences"].items())
         lines.append(f"Reference values by {known['reference']} at rtol 1e-13; e_n differs by at most {against}.")
     return "\n".join(lines + known["left_out"])
-
-
-def work_table(task: Record) -> str:
-    """Time and error by engine and tolerance."""
-    rows = []
-    for point in task["points"]:
-        s = point["summary"]
-        times = [us(s[name]) for name in ("cpu_median", "cpu_mean", "wall_mean")]
-        errors = [_error(s["error_largest"]), _error(s["error_median"])]
-        rows.append([point["engine"], f"{point['rtol']:.1e}", *times, *errors, str(s["wrong"]), str(s["failed"])])
-    rows.sort(key=lambda row: [each["engine"] for each in task["points"]].index(row[0]))
-    head = ["engine", "rtol", "CPU us: median", "mean", "wall us: mean"]
-    return table([*head, "error in e_n: largest", "median", "wrong", "failed"], rows)
 
 
 def equal_error(task: Record) -> str:
@@ -100,24 +86,6 @@ def _some(places: list[str]) -> str:
     return ", ".join(places) if len(places) < 4 else f"{places[0]} and {len(places) - 1} others"
 
 
-def cost_table(record: Record) -> str:
-    """CPU time of the bare collision, and ratios with the features on."""
-    rows = []
-    for task in record["tasks"]:
-        groups: dict[tuple[str, str, int], dict[tuple[str, ...], Record]] = {}
-        for cost in task["costs"]:
-            key = (cost["outcome"], cost["engine"], cost["collisions"])
-            groups.setdefault(key, {})[tuple(cost["on"])] = cost
-        for (outcome, engine, count), found in groups.items():
-            if len(found) == 1:
-                continue  # nothing that could be switched on
-            ratios = [
-                f"{found[on]['ratio']:.2f}" if on in found else "-" for on in (*((f,) for f in FEATURES), TOGETHER)
-            ]
-            rows.append([f"{task['preset']}, {count} {outcome}", engine, ms(found[()]["cpu"]), *ratios])
-    return table(["collisions", "engine", "bare ms", *FEATURES, "the first two"], rows)
-
-
 COST_NOTE = (
     "Mean CPU time at rtol 1e-9; ratios to the bare collision. Engines of many collisions keep neither ledger nor "
     "trajectory; the others always know the rotation."
@@ -140,7 +108,7 @@ def others(record: Record) -> list[str]:
     if record["lines"]:
         parts += ["## Boundaries, traced and searched for", line_table(record["lines"])]
     if record["growth"]:
-        parts += ["## From one collision to many", growth_table(record["growth"])]
+        parts += ["## From one collision to many"]
     if record["first_use"]:
         parts += ["## First use", first_table(record["first_use"])]
     return parts
@@ -159,15 +127,3 @@ def gradient_table(found: Sequence[Record]) -> str:
     """CPU time of a gradient by method and number of parameters."""
     rows = [[each["method"], str(each["parameters"]), ms(each["cpu"]), f"{each['ratio']:.2f}"] for each in found]
     return table(["method", "parameters", "CPU ms", "times the collision"], rows)
-
-
-def growth_table(found: Sequence[Record]) -> str:
-    """Wall and CPU time a collision, and memory, by size."""
-    rows = []
-    for each in found:
-        per = each["collisions"]
-        memory = f"{each['memory'] / 2**20:.0f} (+{(each['memory'] - each['before']) / 2**20:.0f})"
-        times = [us(each["wall"] / per), us(each["cpu"] / per), f"{each['wall']:.3g}"]
-        rows.append([each["engine"], str(each["cores"]), str(per), *times, memory])
-    head = ["engine", "cores", "collisions", "wall us each", "CPU us each", "wall s", "peak memory MB (grown)"]
-    return table(head, rows)

@@ -198,3 +198,21 @@ def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     library.kernel.cache_clear()
     assert kept[0] == kept[1]
     assert [(name.partition("-")[0], Path(name).suffix) for name, _ in kept[0]] == [("taylor", ".so")]
+
+
+def test_soft_solids_meet_beyond_the_film():
+    """Where the elastic length exceeds x0, a doublet that falls back from beyond the film rebounds there, not at x0."""
+    scene = Scene.load("pendulum").with_entries(
+        {
+            "liquid.glass_transition_pressure": "1e6 GPa",
+            "bridge.surface_tension": "0.03 N/m",
+            "bridge.volume": 0.02,
+            "bridge.contact_angle": "0 deg",
+            "particles.youngs_modulus": "12437.52 Pa",  # an elastic length of 1.5 x0
+        }
+    )
+    kinds = [
+        [event.kind for event in collide(scene, stokes=0.02, angle="60 deg", engine=each, ledger=False).events]
+        for each in ("rosenbrock", "taylor")
+    ]
+    assert kinds[0] == kinds[1] and kinds[0].count("elastic") > 1 and "film edge" not in kinds[0]

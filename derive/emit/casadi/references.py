@@ -1,0 +1,50 @@
+"""The publications of laws as a Python module, read by `wetdoublet cite`."""
+
+from __future__ import annotations
+
+from ...physics.laws import LAWS
+from ...physics.laws.rebound import ELASTIC
+from ...physics.laws.references import PAPER, Reference
+from ...physics.laws.rupture import COMMON
+from ...physics.partners import PUBLISHED
+from .modules import _PROVENANCE
+
+_DOC = "Where the equations and the laws are published."
+_FIELDS = {
+    "authors": "tuple[str, ...]  # family, initials", "title": "str", "journal": "str", "volume": "str",
+    "pages": "str  # first–last, or the number of the article", "year": "int", "doi": 'str  # "" where it is not known',
+}  # fmt: skip
+
+
+def cited() -> dict[str, tuple[Reference, ...]]:
+    """Publications by what they describe: the paper, laws by slot and name, and parts that fill no slot."""
+    found: dict[str, tuple[Reference, ...]] = {"paper": (PAPER,)}
+    for slot, laws in LAWS.items():
+        for law in laws.values():
+            found[f"{slot} {law.name}"] = law.references
+            for function in law.functions:
+                if function.name == "rupture_distance":
+                    found[f"rupture {law.name}"] = function.references
+    found["rupture common"] = COMMON
+    found |= {f"friction {partner}": references for partner, references in PUBLISHED.items()}
+    return found | {"elastic length": ELASTIC}
+
+
+def references_module() -> str:
+    """Text of `generated/references.py`."""
+    uses = cited()
+    lines = [f"# {_PROVENANCE}", f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
+    lines += ["from typing import NamedTuple", "", "", "class Reference(NamedTuple):"]
+    lines += [
+        '    """An article in a journal."""',
+        "",
+        *(f"    {name}: {kind}" for name, kind in _FIELDS.items()),
+        "",
+        "",
+    ]
+    lines += ["REFERENCES = {"]
+    for one in dict.fromkeys(each for those in uses.values() for each in those):
+        lines += [f'    "{one.key}": Reference(', *(f"        {getattr(one, name)!r}," for name in _FIELDS), "    ),"]
+    lines += ["}", "CITED: dict[str, tuple[str, ...]] = {"]
+    lines += [f'    "{use}": {tuple(one.key for one in those)!r},' for use, those in uses.items()]
+    return "\n".join([*lines, "}", ""])

@@ -1,0 +1,108 @@
+"""Runs every command and Python snippet of README.md and the site's pages, in a folder of its own a page.
+
+    python docs/_ext/snippets.py [PAGE ...]
+
+Blocks of `python` on a page run one after another in one process; blocks of `console` and `sh` line by line. A command
+whose line ends in `# exit status N` has to leave with that. Notebooks are executed when the site is built; commands
+beside their cells run here.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+MADE = ("_build", "_emitted", "auto_gallery", "api", "laws")
+SET_UP = re.compile(r"^\s*(python3 -m venv|test -d|\.venv/bin/pip|pip install|python -m (pip|pytest|sphinx|tests))")
+"""What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
+LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress")
+"""Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do."""
+
+
+def pages() -> list[Path]:
+    """README.md and what was written by hand for the site."""
+    site = (path for path in (ROOT / "docs").rglob("*.md") if not {*path.relative_to(ROOT).parts} & {*MADE})
+    return [ROOT / "README.md", *sorted(site)]
+
+
+def blocks(page: Path) -> list[tuple[str, str]]:
+    """Language and text of every block of code to be run."""
+    found = re.findall(
+        r"^```(python|console|sh)\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
+    )
+    return [(language, text) for language, text in found if "from wetdoublet.derive.user import" not in text]
+
+
+def commands(text: str, language: str) -> list[str]:
+    """The command lines of a block; of a console those behind a dollar sign."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    if language == "console":
+        lines = [line.removeprefix("$ ") for line in lines if line.startswith("$ ")]
+    return [line for line in lines if not SET_UP.match(line) and not LONG.search(line)]
+
+
+def run(page: Path) -> list[str]:
+    """Run a page; what failed, a line each."""
+    failures: list[str] = []
+    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    with tempfile.TemporaryDirectory() as folder:
+        prepared = [Path(folder) / name for name in ("my-scene.toml", "my.toml", "mine.py")]
+        python = "".join(text for language, text in blocks(page) if language == "python")
+        lines = [line for language, text in blocks(page) if language != "python" for line in commands(text, language)]
+        if any(path.name in line for path in prepared for line in lines) or "--model mine" in " ".join(lines):
+            _prepare(prepared, folder, environment)
+        for path in prepared:
+            if f"--new {path.stem} " in " ".join(lines):
+                path.unlink(missing_ok=True)  # the page makes it
+        for line in lines:
+            failures += _one(page, line, folder, environment)
+        if python:
+            done = subprocess.run(
+                [sys.executable, "-c", PREAMBLE + python], cwd=folder, env=environment, capture_output=True, text=True
+            )
+            if done.returncode:
+                failures.append(f"{page.name}: python: {done.stderr.strip().splitlines()[-1]}")
+    return failures
+
+
+PREAMBLE = "import numpy as np\nst, theta = np.array([0.02, 0.03]), np.array([1.3, 1.3])\n"
+"""What snippets take for given: arrays of Stokes numbers and angles."""
+
+
+def _prepare(files: list[Path], folder: str, environment: dict[str, str]) -> None:
+    """A scene and a model of the reader's, where a page speaks of them."""
+    for path, command in zip(files, ("scenes granulation", "scenes granulation", "generate --template"), strict=True):
+        text = subprocess.run(["wetdoublet", *command.split()], env=environment, capture_output=True, check=True).stdout
+        path.write_bytes(text)
+    wrong = files[-1].read_text(encoding="utf-8").replace("stress * neck", "stress * R")
+    files[-1].with_name("bad.py").write_text(wrong, encoding="utf-8")
+    made = ["wetdoublet", "generate", "mine.py", "--out", "mine"]
+    subprocess.run(made, cwd=folder, env=environment, check=True, capture_output=True)
+
+
+def _one(page: Path, line: str, folder: str, environment: dict[str, str]) -> list[str]:
+    line = re.sub(r"\S*/bin/wetdoublet", "wetdoublet", line)
+    expected = re.search(r"# exit status (\d+)", line)
+    done = subprocess.run(["bash", "-c", line], cwd=folder, env=environment, capture_output=True, text=True)
+    if done.returncode == (int(expected[1]) if expected else 0):
+        return []
+    said = (done.stderr.strip().splitlines() or ["nothing on standard error"])[-1]
+    return [f"{page.relative_to(ROOT)}: `{line}` left with {done.returncode}: {said}"]
+
+
+def main() -> None:
+    """Run all pages, two at a time."""
+    chosen = [Path(name).resolve() for name in sys.argv[1:]] or pages()
+    with ThreadPoolExecutor(2) as pool:
+        failures = [line for found in pool.map(run, chosen) for line in found]
+    sys.exit("\n".join(failures) or 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""What to cite for a scene: the paper, and where each law that it uses is published."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ...generated.references import CITED, REFERENCES, Reference
+from ..model.model import select_model
+from ..scene.scene import Scene
+
+_LATEX = str.maketrans(
+    {"&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "$": r"\$", "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}",
+     "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\n": " ",
+     "ä": r'{\"a}', "ö": r'{\"o}', "ü": r'{\"u}', "é": r"{\'e}", "–": "--"}
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Citation:
+    """A publication, what of the scene it stands for, and its BibTeX entry.
+
+    Arguments:
+        key: of the entry; "" where a user's model gives an entry of its own.
+        uses: such as "bridge law willett".
+        reference: what the entry is made of; None for a user's law.
+    """
+
+    key: str
+    uses: tuple[str, ...]
+    bibtex: str
+    reference: Reference | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `wetdoublet cite --json` has it."""
+        known = {} if self.reference is None else self.reference._asdict()
+        return {"key": self.key or None, "uses": list(self.uses), **known, "bibtex": self.bibtex}
+
+
+def citations(scene: Scene) -> tuple[Citation, ...]:
+    """What to cite for a scene, the paper first; each publication once.
+
+    Without an impact angle the collision is taken to be oblique.
+    """
+    found: dict[str, list[str]] = {}
+    for use, name in _uses(scene):
+        for key in CITED.get(name, ()):
+            found.setdefault(key, []).append(use)
+    listed = [Citation(key, tuple(uses), _entry(key, REFERENCES[key]), REFERENCES[key]) for key, uses in found.items()]
+    return (*listed, *_own(scene))
+
+
+def as_bibtex(found: tuple[Citation, ...]) -> str:
+    """The entries, each below a comment that says what it stands for."""
+    return "\n\n".join(f"% {', '.join(each.uses)}\n{each.bibtex}" for each in found)
+
+
+def _oblique(scene: Scene) -> bool:
+    return scene.angle is None or scene.angle > 0
+
+
+def _uses(scene: Scene) -> Iterator[tuple[str, str]]:
+    """What the scene uses in words, and its name in the table of what is published."""
+    choice = select_model(scene, _oblique(scene), full=True, fold=True)
+    yield "equations", "paper"
+    for slot, law in choice.laws:
+        if slot != "glass" or "liquid.glass_transition_pressure" in scene.entries:
+            yield f"{slot} law {law}", f"{slot} {law}"
+    if scene.bridge is not None:
+        which = scene.bridge.law if scene.bridge.rupture == "own" else "common"
+        yield f"{which} rupture distance", f"rupture {which}"
+    for partner, what in (("pair", "friction of unequal spheres"), ("wall", "friction beside a wall")):
+        if partner in choice.structure.split("_"):
+            yield what, f"friction {partner}"
+    if scene.particles.youngs_modulus is not None:
+        yield "elastic criterion", "elastic length"
+
+
+def _entry(key: str, one: Reference) -> str:
+    fields = {
+        "author": " and ".join(one.authors), "title": one.title, "journal": one.journal, "volume": one.volume,
+        "pages": one.pages, "year": str(one.year),
+    }  # fmt: skip
+    written = {name: text.translate(_LATEX) for name, text in fields.items()}
+    written["title"] = f"{{{written['title']}}}"  # capitals as they are
+    if one.doi:
+        written["doi"] = one.doi
+    return _bibtex("article", key, written)
+
+
+def _own(scene: Scene) -> Iterator[Citation]:
+    """The laws of a user's model that are used: their BibTeX, or an entry that holds their source as text."""
+    used = dict(select_model(scene, _oblique(scene), full=True, fold=True).laws)
+    for law in [] if scene.package is None else scene.package.manifest["laws"]:
+        use, key = f"{law['slot']} law {law['name']}", f"{law['slot']}-{law['name']}"
+        if used.get(law["slot"]) != law["name"]:
+            continue
+        if law.get("bibtex"):
+            yield Citation("", (use,), law["bibtex"].strip())
+        else:
+            fields = {"title": law["meaning"], "note": law.get("source", "no source given")}
+            written = {name: text.translate(_LATEX) for name, text in fields.items()}
+            yield Citation(key, (use,), _bibtex("misc", key, written))
+
+
+def _bibtex(kind: str, key: str, fields: dict[str, str]) -> str:
+    lines = [f"  {name:<7} = {{{text}}}," for name, text in fields.items()]
+    return "\n".join([f"@{kind}{{{key},", *lines, "}"])

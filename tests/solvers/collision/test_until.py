@@ -1,0 +1,132 @@
+"""`collide(until=...)`: a stick is followed on after it is certain."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Collision, InputError, Scene, collide
+
+from ...helpers.command import run
+
+STICK = {"stokes": 0.02, "angle": "30 deg"}
+LONG = Scene.load("pendulum").with_entries({"pendulum.length": "5 m"})  # which turns half around before it is proved
+
+
+@pytest.fixture(scope="module")
+def proved() -> Collision:
+    """A stick of granulation, as it is integrated up to its proof."""
+    return collide("granulation", **STICK)
+
+
+@pytest.fixture(scope="module")
+def followed() -> Collision:
+    """The same, followed on for a millisecond."""
+    return collide("granulation", **STICK, until="1 ms", trajectory=True)
+
+
+def test_what_is_known_at_the_proof_stays(proved: Collision, followed: Collision) -> None:
+    """Outcome, certificate, criterion and the time at which the stick was certain are those of the proof."""
+    for name in ("outcome", "certified", "reversal", "restitution", "contact_time"):
+        assert getattr(followed, name) == getattr(proved, name)
+    assert proved.decided == proved.until
+    assert followed.decided == pytest.approx(proved.until, rel=1e-6)
+    assert followed.certified
+
+
+def test_it_ends_where_it_was_asked_to(proved: Collision, followed: Collision) -> None:
+    """`until` and the trajectory's last time are the time that was asked for; ledger and momentum hold up to there."""
+    assert followed.until == pytest.approx(1e-3, rel=1e-6)
+    assert followed.trajectory is not None
+    assert float(followed.trajectory["time"][-1]) == pytest.approx(1e-3, rel=1e-6)
+    assert np.all(np.diff(followed.trajectory["time"]) >= 0)
+    assert followed.energy is not None
+    assert proved.energy is not None
+    assert followed.energy.final < proved.energy.final
+    assert abs(followed.energy.residual) < 1e-7 * followed.energy.largest
+    assert followed.angular_momentum_drift is not None
+    assert followed.angular_momentum_drift < 1e-9
+
+
+@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock", "taylor"])
+def test_the_film_stops_the_spheres_where_the_closed_form_says(engine: str) -> None:
+    """Head-on in an unbounded film x' = -v0 [1 + ln(x/x0)/St]: proved at contact, the gap comes to x0 exp(-St)."""
+    entries = {
+        "model.film": "infinite", "liquid.glass_transition_pressure": "1e9 GPa", "particles.youngs_modulus": "1e9 GPa",
+    }  # fmt: skip
+    scene = Scene.load("granulation-dry-bridge").with_entries(entries)
+    stick = collide(scene, stokes=0.7, angle=0, engine=engine, until="2 ms", trajectory=True)
+    assert (stick.outcome, stick.decided, stick.events) == ("stick", 0.0, ())
+    assert stick.trajectory is not None
+    gap = float(stick.trajectory["gap"][-1])
+    assert gap == pytest.approx(scene.liquid.film_thickness * math.exp(-0.7), rel=1e-6)
+
+
+def test_events_after_the_proof_are_listed() -> None:
+    """The pendulum's stick falls back, is proved, and goes on to the experiment's cut-off, which ends it earlier."""
+    proved = collide("pendulum", stokes=0.5, angle="20 deg")
+    on = collide("pendulum", stokes=0.5, angle="20 deg", until="10 s")
+    assert [each.kind for each in on.events] == [*(each.kind for each in proved.events), "rotation reverses"]
+    assert proved.certified
+    assert on.certified
+    assert proved.until is not None
+    assert on.until is not None
+    assert proved.until < on.until == on.events[-1].time < 10
+
+
+def test_until_changes_nothing_before_the_proof(proved: Collision) -> None:
+    """A time before the proof, or a collision that separates: the same result as without it."""
+    assert collide("granulation", **STICK, until=1e-6) == proved
+    apart = collide("granulation")
+    assert apart.decided is None
+    assert collide("granulation", until=1.0) == apart
+
+
+def test_the_table_names_its_state(proved: Collision, followed: Collision) -> None:
+    """Final is said of what has separated; a stick's energy is that at the proof, at a cut-off or at the end."""
+    assert "kinetic, at the proof" in str(proved)
+    assert "integration stopped there, 5.181 us" in str(proved)
+    assert "kinetic, at the end" in str(followed)
+    assert "certain 5.181 us after initial contact, followed on to 1 ms" in str(followed)
+    assert "kinetic, final" in str(collide("granulation"))
+    cut_off = collide(LONG, stokes=0.8, angle="30 deg")
+    assert (cut_off.outcome, cut_off.certified) == ("stick", False)
+    assert "kinetic, at the cut-off" in str(cut_off)
+    for one in (proved, followed, cut_off):
+        assert "final" not in str(one)
+
+
+def test_the_command(tmp_path: Path) -> None:
+    """`--until` with its unit, in the JSON object and in a picture that says so."""
+    picture = tmp_path / "stick.svg"
+    line = ("collide", "granulation", "--stokes", 0.02, "--angle", "30 deg", "--until", "1 ms", "--json")
+    done = run(*line, "--plot", picture)
+    assert done.exit_code == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["until"] == pytest.approx(1e-3, rel=1e-6)
+    assert 0 < told["decided"] < 1e-5
+    assert (told["units"]["until"], told["units"]["decided"]) == ("s", "s")
+    assert picture.stat().st_size > 0
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [
+        ("5", "has no unit"),
+        ("-1 ms", "out of range"),
+        ("3 m", "not a time"),
+        ("soon", "accepted: a time"),
+        ("nan s", "is not finite"),
+    ],
+)
+def test_times_that_are_none_are_refused(value: str, says: str) -> None:
+    """The option is named with the value and what is accepted; from Python the argument is."""
+    done = run("collide", "granulation", "--until", value)
+    assert done.exit_code == 2
+    assert done.stderr.startswith("--until: ")
+    assert says in done.stderr
+    with pytest.raises(InputError, match="^until: "):
+        collide("granulation", until=value)

@@ -1,0 +1,68 @@
+"""What JSON objects say of where their numbers come from."""
+
+from __future__ import annotations
+
+import json
+from importlib.metadata import version
+from typing import Any
+
+import pytest
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.collision.outcome import UNITS
+
+from ...helpers.command import run
+
+SMALL = ("--stokes", "0.02:0.2", "--rtol", "1e-7")
+COMMANDS = {
+    "collide": ("collide", "granulation", "--rtol", "1e-7"),
+    "sensitivity": ("sensitivity", "granulation", "--wrt", "liquid.viscosity,impact.angle", "--rtol", "1e-7"),
+    "boundary": ("boundary", "granulation", "--angle", "50:50:1", *SMALL),
+    "boundary, moving": ("boundary", "granulation", "--angle", "50:50:1", *SMALL, "--wrt", "liquid.viscosity"),
+    "atlas": ("boundary", "granulation", "--angle", "50:51", *SMALL),
+}
+EXPECTED = {
+    "collide": {"contact_time": "s", "energy": "J", "final_spin": "rad/s", "restitution": "1"},
+    "sensitivity": {"restitution": "1", "liquid.viscosity": "Pa s", "impact.angle": "rad"},
+    "boundary": {"angles": "rad", "stokes": "1"},
+    "boundary, moving": {"angles": "rad", "liquid.viscosity": "Pa s"},
+    "atlas": {"x": "rad", "stokes": "1"},
+}
+
+
+@pytest.fixture(scope="module", params=COMMANDS)
+def told(request: pytest.FixtureRequest) -> tuple[str, dict[str, Any]]:
+    """A command, and its JSON object for granulation with another viscosity."""
+    done = run(*COMMANDS[request.param], "--set", "liquid.viscosity=3 Pa s", "--json")
+    assert done.exit_code == 0, done.stderr
+    return request.param, json.loads(done.stdout)
+
+
+def test_version_scene_and_tolerance(told: tuple[str, dict[str, Any]]) -> None:
+    """The version, the scene's entries in SI as changed, and the tolerance that was asked for."""
+    scene = Scene.load("granulation").with_entries({"liquid.viscosity": "3 Pa s"})
+    assert told[1]["version"] == version("wetdoublet")
+    assert told[1]["scene"] == dict(scene.si)
+    assert told[1]["rtol"] == 1e-7
+
+
+def test_units(told: tuple[str, dict[str, Any]]) -> None:
+    """Units are given by key, of parameters by their dotted name."""
+    name, found = told
+    assert EXPECTED[name].items() <= found["units"].items()
+
+
+def test_every_number_of_a_collision_has_a_unit() -> None:
+    """Each key of the object that holds a number has a unit, and no other has one but events and energy."""
+    for scene in ("granulation", "pendulum"):
+        found = collide(scene).to_dict()
+        numbers = {
+            key for key, value in found.items() if isinstance(value, int | float) and not isinstance(value, bool)
+        }
+        assert numbers <= set(found["units"]) <= set(UNITS) & set(found)
+
+
+def test_a_collision_can_be_repeated_from_its_object() -> None:
+    """The scene, the tolerance and the engine of the object give the same numbers again."""
+    first = collide("granulation", stokes=0.05, angle="40 deg", rtol=1e-8).to_dict()
+    scene = Scene("", tuple(first["scene"].items()))
+    assert collide(scene, rtol=first["rtol"], engine=first["engine"]).to_dict() == first

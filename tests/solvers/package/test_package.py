@@ -1,0 +1,131 @@
+"""`import wetdoublet`: what it offers, what it costs, and what type checkers see of it."""
+
+from __future__ import annotations
+
+import ast
+import json
+import shutil
+import subprocess
+import sys
+import tomllib
+import venv
+from importlib.machinery import PathFinder
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+import wetdoublet as wd
+from wetdoublet import solvers
+
+ROOT = Path(__file__).resolve().parents[3]
+SCRIPT = """\
+import wetdoublet as wd
+
+one = wd.collide("granulation", stokes=0.02, angle="75 deg")
+text: str = one.outcome
+text = one.restitution
+wd.colide("granulation")
+"""
+
+
+def loaded(program: str) -> set[str]:
+    """The packages that a program has loaded at its end."""
+    tail = "import json, sys; print(json.dumps(sorted({name.split('.')[0] for name in sys.modules})))"
+    done = subprocess.run([sys.executable, "-c", f"{program}\n{tail}"], capture_output=True, text=True, check=True)
+    return set(json.loads(done.stdout))
+
+
+def test_dir_is_the_public_names() -> None:
+    """`dir()` is `__version__` and what `wetdoublet.solvers` offers; each name is the same object."""
+    assert dir(wd) == sorted([*solvers.__all__, "__version__"])
+    assert all(getattr(wd, name) is getattr(solvers, name) for name in solvers.__all__)
+    assert dir(wd) == sorted([*solvers.__all__, "__version__"])  # what was loaded does not add to it
+
+
+def test_docstring_and_version() -> None:
+    """The docstring says what the package is for; the version is the distribution's."""
+    assert wd.__doc__ is not None
+    assert "liquid-coated particles" in wd.__doc__
+    assert wd.__version__ == version("wetdoublet")
+
+
+def test_a_name_that_is_not_there() -> None:
+    """An unknown attribute is an AttributeError that names it."""
+    with pytest.raises(AttributeError, match="'wetdoublet' has no attribute 'colide'"):
+        _ = wd.colide  # type: ignore[attr-defined]
+
+
+def test_import_loads_no_other_package() -> None:
+    """`import wetdoublet` loads nothing outside the standard library; that is what makes it fast."""
+    third_party = loaded("import wetdoublet") - loaded("pass") - set(sys.stdlib_module_names)
+    assert third_party == {"wetdoublet"}
+
+
+def test_public_names_load_nothing_heavy() -> None:
+    """All public names together load neither sympy, xarray, matplotlib nor pint."""
+    packages = loaded("import wetdoublet\nfor name in wetdoublet.__all__: getattr(wetdoublet, name)")
+    assert not packages & {"sympy", "xarray", "matplotlib", "pint"}
+
+
+def test_type_checkers_see_every_public_name() -> None:
+    """The imports under TYPE_CHECKING, here and in `wetdoublet.solvers`, are the public names."""
+    for module in (wd, solvers):
+        assert module.__file__ is not None
+        tree = ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
+        (block,) = [node for node in tree.body if isinstance(node, ast.If) and isinstance(node.test, ast.Name)]
+        names = [alias.name for node in block.body if isinstance(node, ast.ImportFrom) for alias in node.names]
+        assert sorted(names) == sorted(solvers.__all__)
+
+
+def test_the_package_is_a_command() -> None:
+    """`python -m wetdoublet` is the command `wetdoublet`."""
+    done = subprocess.run(
+        [sys.executable, "-m", "wetdoublet", "scenes"], check=True, capture_output=True, text=True, timeout=600
+    )
+    assert "granulation" in done.stdout
+
+
+def test_every_folder_is_packaged() -> None:
+    """pyproject.toml lists each folder of the three trees that holds Python or C files."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
+    home = settings["package-dir"]["wetdoublet"]
+    folders = {
+        path.parent.relative_to(ROOT).as_posix()
+        for top in ("derive", "generated", "solvers")
+        for path in (ROOT / top).rglob("*.*")
+        if path.suffix in {".py", ".h", ".toml"}
+    }
+    assert {f"wetdoublet.{folder.replace('/', '.')}" for folder in folders - {home}} | {"wetdoublet"} == set(
+        settings["packages"]
+    )
+
+
+@pytest.fixture
+def interpreter(tmp_path: Path) -> Path:
+    """An interpreter beside whose packages lies wetdoublet in a folder, as `pip install .` lays it out.
+
+    This interpreter, unless its installation is an editable one through an import hook, which no type checker follows.
+    """
+    if PathFinder.find_spec("wetdoublet") is not None:
+        return Path(sys.executable)
+    venv.create(tmp_path / "venv", with_pip=False)
+    (site,) = (tmp_path / "venv" / "lib").glob("python*/site-packages")
+    (site / "others.pth").write_text("\n".join(path for path in sys.path if path.endswith("site-packages")))
+    mapped = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["package-dir"]
+    for package, folder in mapped.items():
+        shutil.copytree(ROOT / folder, site / package.replace(".", "/"))
+    return tmp_path / "venv" / "bin" / "python"
+
+
+@pytest.mark.slow
+def test_a_users_script_is_type_checked(interpreter: Path, tmp_path: Path) -> None:
+    """mypy, strict, finds in a user's script the wrong type of a result and the misspelt name, and nothing else."""
+    (tmp_path / "script.py").write_text(SCRIPT)
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--config-file=", "--cache-dir=cache",
+         f"--python-executable={interpreter}", "script.py"],
+        capture_output=True, text=True, cwd=tmp_path, timeout=900,
+    )  # fmt: skip
+    assert [line.split(": ", 1)[0] for line in done.stdout.splitlines()] == ["script.py:5", "script.py:6"]
+    assert 'expression has type "float", variable has type "str"' in done.stdout
+    assert 'maybe "collide"?' in done.stdout
