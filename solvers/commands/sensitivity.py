@@ -81,7 +81,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
     scene.need_impact()
     deviation = deviations(scene, _assigned(uncertain), "--uncertainty") if uncertain else {}

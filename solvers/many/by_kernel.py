@@ -25,7 +25,7 @@ _NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to di
 _NEAR = 1e-9  # relative distance to a limit of valid input below which the scene itself is validated
 
 
-def collided(
+def collide_by_kernel(
     request: Batch, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
     """Compute the collisions `which` of a batch; returns the indices of those that need another engine.

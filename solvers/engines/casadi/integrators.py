@@ -96,7 +96,7 @@ class Tolerance:
 _CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
 
 
-def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
+def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
     """Tolerance of an integrator for results accurate to about `rtol`.
 
     The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a

@@ -32,7 +32,7 @@ from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
 from ...scene.contact import contact_gap, contact_word
 from ...settings import CALL, STEPS
-from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance
+from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
@@ -110,7 +110,7 @@ class EventLocator:
     ) -> None:
         rtol = min(rtol, LOOSEST)
         self.model, self.rtol, self.machine_code = model, rtol, machine_code
-        self.tolerance = tolerance(rtol, "rosenbrock", groups)
+        self.tolerance = tolerance_for(rtol, "rosenbrock", groups)
         self.p = model.group_values(groups)
         self.groups = groups
         self.proof: Certificate = proof_for(model, self.p, rtol)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....generated.automaton import OUTCOMES, STICK, Status
-from ...certificates import OrbitalMomentumCertificate, comes_to, proof_for
+from ...certificates import OrbitalMomentumCertificate, limit_of_circling, proof_for
 from ...model.dimensionless import nondimensionalise
 from ...model.model import ModelKey, load
 from ...scene.scene import Scene
@@ -20,13 +20,17 @@ def decide(
     the last state does. `shown` has that state from the normal velocity on.
     """
     for k in np.flatnonzero(answers["status"] == Status.CHATTER).tolist():
-        told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
+        answer, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
         if proof is None:
             continue
-        y = _state(proof, told)
+        y = _state(proof, answer)
         if proof.holds(y) or proof.settles(y):
-            told["status"], told["outcome"], told["certified"] = Status.DECIDED, OUTCOMES.index(STICK), proof.proves
-            told["shown"] = 0.0
+            answer["status"], answer["outcome"], answer["certified"] = (
+                Status.DECIDED,
+                OUTCOMES.index(STICK),
+                proof.proves,
+            )
+            answer["shown"] = 0.0
 
 
 def limits(
@@ -46,9 +50,9 @@ def limits(
     found: list[bool | None] = []
     for k in range(answers.size):
         both = earlier[k], answers[k]
-        circles = all(told["status"] in (Status.NO_BUDGET, Status.CHATTER) for told in both)
+        circles = all(answer["status"] in (Status.NO_BUDGET, Status.CHATTER) for answer in both)
         proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
-        found.append(None if proof is None else comes_to(proof, *(_state(proof, told) for told in both)))
+        found.append(None if proof is None else limit_of_circling(proof, *(_state(proof, answer) for answer in both)))
     return found
 
 
@@ -62,5 +66,5 @@ def _proof(
     )  # strings may transfer energy to the slip
 
 
-def _state(proof: OrbitalMomentumCertificate, told: np.void) -> np.ndarray:
-    return np.array([told["final_gap"], *told["shown"][: len(proof.model.state) - 1]])
+def _state(proof: OrbitalMomentumCertificate, answer: np.void) -> np.ndarray:
+    return np.array([answer["final_gap"], *answer["shown"][: len(proof.model.state) - 1]])
