@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d
+# Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 CLOSING, OPENING = -1, 1
 
-STICK = "stick"  # it is proved that the two never separate, or the collision is cut off
+STICK = "stick"  # a certificate excludes separation, or the collision is cut off
 ROTATE = "stick-rotate-separate"  # separated, and no rebound criterion was met
 BOUNCE = "bounce"  # separated after a rebound criterion was met
 OUTCOMES = (STICK, ROTATE, BOUNCE)  # by number
@@ -25,7 +25,7 @@ class EventKind(IntEnum):
     FELL_BACK = 4  # the normal velocity falls through zero
     FILM_EDGE = 5  # the gap passes x0
     TANGENTIAL_EDGE = 6  # the gap passes the reach of the tangential force
-    RESTS = 7  # a rebound too weak to leave is taken for resting contact
+    RESTS = 7  # a rebound too weak to open the gap is replaced by resting contact
     RELEASED = 8  # the normal force on a resting doublet turns outward
     RUPTURE = 9  # the bridge ruptures; without a bridge, the films part
     ROTATION_REVERSES = 10  # the strings turn the rotation back
@@ -48,7 +48,7 @@ KINDS = (
 
 
 class Criterion(NamedTuple):
-    """A rebound criterion: the group at which it is met, its name and symbol, and what removes it."""
+    """A rebound criterion; `derive/equations/automaton.py` explains the fields."""
 
     limit: str
     name: str
@@ -65,7 +65,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
         contact=False,
         symbol="",
         removed_by=None,
-        sentence="rebound by the glass criterion, the liquid's own pressure",
+        sentence="rebounded because the liquid reached its glass transition",
     ),
     "elastic": Criterion(
         limit="elastic_gap",
@@ -73,7 +73,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
         contact=True,
         symbol="x_r",
         removed_by=("youngs_modulus", 1e+300),
-        sentence="rebound by the elastic criterion, the spheres' deformation",
+        sentence="rebounded by elastic deformation of the spheres",
     ),
     "rough": Criterion(
         limit="rough_gap",
@@ -81,19 +81,19 @@ CRITERIA = {  # by word, in the order in which they apply on entry
         contact=True,
         symbol="x_b",
         removed_by=("roughness", 0.0),
-        sentence="rebound by contact of the surfaces' roughness",
+        sentence="rebounded by contact at the surface roughness",
     ),
 }
 
 
 class Status(IntEnum):
-    """What the kernel says of a collision; up to LAST_ANSWER its outcome stands."""
+    """Status returned by the kernel; up to LAST_ANSWER the outcome is valid."""
 
     DECIDED = 0  # the outcome is decided
-    PROVED_AT_TOUCH = 1  # a stick that is proved at initial contact
-    NO_BUDGET = 2  # the steps are spent
+    PROVED_AT_TOUCH = 1  # a stick with a certificate at initial contact
+    NO_BUDGET = 2  # the budget of steps is exhausted
     NOT_FINITE = 3  # the state is not finite
-    CHATTER = 4  # the steps are spent in more than CHATTER_PHASES phases
+    CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
 
 
@@ -101,25 +101,25 @@ LAST_ANSWER = Status.PROVED_AT_TOUCH
 
 
 class Purpose(IntEnum):
-    """What the kernel integrates a collision for."""
+    """Part of a trajectory that the kernel integrates."""
 
-    WHOLE = 0  # to its end
-    APPROACH = 1  # until it turns or is reversed; without the glass criterion, and nothing is proved
-    ESCAPE = 2  # until it separates, falls back or rests; proved a stick only while it approaches
+    WHOLE = 0  # to the end of the collision
+    APPROACH = 1  # to the first turning point or rebound; without the glass criterion and certificates
+    ESCAPE = 2  # until the doublet separates, falls back or rests; with certificates only while it approaches
 
 
-REST_SPEED = 1e-09  # of v0: a slower rebound into an inward force rests
-MOST_OBLIQUE = 1000000000.0  # of v0^2/x0: a larger centrifugal force turns the motion within rounding of x0
-LOOSEST = 1e-06  # relative tolerance: a looser one is tightened to it, or sticks stay unproved
-SAFETY = 30.0  # a proof holds by more than this many times the tolerance of the largest energy: an error made when the motion was fastest stays in it, and errors of many steps add up
-CHATTER_PHASES = 100  # phases: more are rebound after rebound, and no approach and escape
-FILM_DEPTHS = 16  # steps of equal ratio from the gap to contact, at each of which the film certificate bounds the pressure
-ATTRACTED_FILM_DEPTHS = 48  # the same beside an attraction, which a small gap makes large
-LEAST_DEPTH = 1e-40  # of the gap: where no contact is met, the film certificate looks no deeper
+REST_SPEED = 1e-09  # in v0: a slower rebound against an inward force rests
+MOST_OBLIQUE = 1000000000.0  # in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0
+LOOSEST = 1e-06  # largest relative tolerance; a larger one is reduced to it, as certificates need it
+SAFETY = 30.0  # least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up
+CHATTER_PHASES = 100  # number of phases beyond which a trajectory is treated as chatter
+FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film certificate bounds the pressure
+ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
+LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 
 class Event(NamedTuple):
-    """A guard and its effect; `generated/automaton.md` explains them."""
+    """An event: its guard and its effect; `generated/automaton.md` explains them."""
 
     name: str
     functions: tuple[str, ...]
@@ -133,7 +133,7 @@ class Event(NamedTuple):
     chosen_by: str
 
 
-# Conditions on a part of the mode that are void where a structure lacks an event function.
+# Component of the mode -> event; conditions on it are ignored in structures without that event.
 VOID_WITHOUT = {
     "film": "film_edge",
 }

@@ -122,7 +122,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
 
 def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -160,7 +160,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
 
 def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).
+    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
 
     Total operations: 10
     """
@@ -178,7 +178,7 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
 
     Total operations: 24
     """
@@ -203,8 +203,8 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
-    (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
+    velocity (negative while closing), `release` in resting contact.
 
     Total operations: 33
     """
@@ -241,7 +241,7 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u, all else continues.
+    """State just after a rebound: u -> -e_dry u; the other states are continuous.
 
     Total operations: 2
     """
@@ -302,7 +302,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -357,7 +357,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular momentum over its start value.
+    """Angular momentum over its initial value.
 
     Total operations: 25
     """
@@ -377,7 +377,7 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What a separated doublet shows: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over omega0.
 
     Total operations: 10
     """
@@ -401,8 +401,8 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
-    slope with it.
+    """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
+    the least energy along the gap, capillary work included.
 
     Total operations: 53
     """
@@ -434,7 +434,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
 
 
 def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state that has this least energy: at rest in the gap, turning as one body.
+    """The state with this least energy: no normal velocity, rigid rotation.
 
     Total operations: 32
     """

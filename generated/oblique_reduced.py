@@ -87,7 +87,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
 
 def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -111,7 +111,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
 
 def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).
+    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
 
     Total operations: 7
     """
@@ -127,7 +127,7 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
 
     Total operations: 11
     """
@@ -144,8 +144,8 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
-    (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
+    velocity (negative while closing), `release` in resting contact.
 
     Total operations: 19
     """
@@ -172,7 +172,7 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u, all else continues.
+    """State just after a rebound: u -> -e_dry u; the other states are continuous.
 
     Total operations: 2
     """
@@ -220,7 +220,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -248,7 +248,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What a separated doublet shows: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over omega0.
 
     Total operations: 14
     """
@@ -269,8 +269,8 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
-    slope with it.
+    """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
+    the least energy along the gap, capillary work included.
 
     Total operations: 21
     """
@@ -287,7 +287,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
 
 
 def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state that has this least energy: at rest in the gap, turning as one body.
+    """The state with this least energy: no normal velocity, rigid rotation.
 
     Total operations: 10
     """
@@ -304,8 +304,8 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; the
-    work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.
+    """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
+    work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
 
     Total operations: 18
     """

@@ -104,7 +104,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
 
 def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -136,7 +136,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
 
 def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).
+    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
 
     Total operations: 7
     """
@@ -152,7 +152,7 @@ def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
 
     Total operations: 30
     """
@@ -176,8 +176,8 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
-    (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
+    velocity (negative while closing), `release` in resting contact.
 
     Total operations: 39
     """
@@ -213,7 +213,7 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u, all else continues.
+    """State just after a rebound: u -> -e_dry u; the other states are continuous.
 
     Total operations: 2
     """
@@ -271,7 +271,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -309,7 +309,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular momentum over its start value.
+    """Angular momentum over its initial value.
 
     Total operations: 6
     """
@@ -323,7 +323,7 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What a separated doublet shows: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over omega0.
 
     Total operations: 7
     """
@@ -343,7 +343,8 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.
+    """Margins of the pendulum certificate (lever arm at mid-gap): outward < pull, film < 0 and recoil < 0
+    exclude separation.
 
     Total operations: 67
     """

@@ -79,7 +79,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
 
 def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.
+    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -96,7 +96,7 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
 
 def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What holds a doublet at rest together, over m v0^2/x0: positive inward.
+    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
 
     Total operations: 0
     """
@@ -106,8 +106,8 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: the criteria while closing, `turning` the normal velocity
-    (its sign tells closing from opening), `release` in resting contact.
+    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
+    velocity (negative while closing), `release` in resting contact.
 
     Total operations: 8
     """
@@ -128,7 +128,7 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u, all else continues.
+    """State just after a rebound: u -> -e_dry u; the other states are continuous.
 
     Total operations: 2
     """
@@ -173,7 +173,7 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.
+    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
@@ -211,7 +211,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """What a separated doublet shows: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over omega0.
 
     Total operations: 37
     """
@@ -230,8 +230,8 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
-    slope with it.
+    """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
+    the least energy along the gap, capillary work included.
 
     Total operations: 0
     """
@@ -242,7 +242,7 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
 
 
 def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state that has this least energy: at rest in the gap, turning as one body.
+    """The state with this least energy: no normal velocity, rigid rotation.
 
     Total operations: 0
     """
@@ -256,7 +256,8 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def escape_energy(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy over m v0^2 of the motion along the line of centres, which alone can part the two.
+    """Kinetic energy over m v0^2 of the motion along the line of centres, the only one that can separate sphere
+    and wall.
 
     Total operations: 2
     """

@@ -2,7 +2,7 @@
 # Equations sha256 96918df81499d1e64bb7aa21105484fda70a97679cfe9d72868f5c8150535b6c
 """Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.
 
-A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order.
+Each is a function of floats or CasADi expressions; ARGUMENTS has the names of its arguments, in order.
 """
 
 from __future__ import annotations

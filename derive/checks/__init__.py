@@ -1,7 +1,7 @@
-"""What must hold of the derivation: dimensions, conservation laws, signs of losses, limits, groups, and what follows.
+"""Checks of the derivation: dimensions, conservation laws, signs of losses, limits, groups, and certificates.
 
-Every check works on the expressions that are emitted (or on the SI equations they come from), symbolically: a check
-that holds, holds for all values. `symbolic_checks` runs them all.
+Every check works symbolically on the expressions that are emitted, or on the SI equations they derive from: a check
+that passes holds for all values. `symbolic_checks` runs them all.
 """
 
 from __future__ import annotations
@@ -46,16 +46,16 @@ __all__ = ["Certificate", "Check", "certificate", "symbolic_checks"]
 
 @cache
 def _once(checks: Callable[[], Check | Iterable[Check]]) -> tuple[Check, ...]:
-    """Checks in which no law is chosen: the same for every scene, so made once a process."""
+    """Checks that do not depend on laws: the same for every scene, computed once per process."""
     made = checks()
     return (made,) if isinstance(made, Check) else tuple(made)
 
 
 def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
-    """Every check, in the order of the derivation, each made when it is asked for.
+    """Every check, in the order of the derivation, computed lazily.
 
     Arguments:
-        laws: slot -> law of the scene in question; what depends on a law is then checked for it alone, and for all of
+        laws: slot -> law of the scene in question; checks that depend on a law are restricted to it, and for all of
             the library's laws in a slot that is left out.
     """
     own = dict(laws or {})
@@ -63,7 +63,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     def of(slot: str) -> list[Law]:
         return [own[slot]] if slot in own else list(LAWS[slot].values())
 
-    # a rim that moves with the gap has no place in the structures that these look at; `law_checks` looks at it
+    # these structures do not have a rim that depends on the gap; `law_checks` covers it
     films = [law for law in of("film") if law["resistance"].arguments == (gap,)]
     yield from _once(dimension_checks)
     yield from _once(inertia_is_rigid_rotation)

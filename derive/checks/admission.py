@@ -1,4 +1,4 @@
-"""Which stick certificate a model admits: its preconditions, each computed, and why there is none where one fails."""
+"""The stick certificate that a model admits: its preconditions, each computed, or the reason for having none."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": 
 
 @dataclass(frozen=True)
 class Certificate:
-    """A proof that a doublet never separates, as far as the model has one.
+    """The stick certificate of a model, if it admits one.
 
     Arguments:
         structure: of the model.
-        argument: the proof, or "" if there is none.
-        held: preconditions that were computed and hold.
-        against: why there is no proof, empty if there is one.
+        argument: the kind of certificate, or "" if there is none.
+        held: preconditions that were computed and are satisfied.
+        against: why there is no certificate, empty if there is one.
     """
 
     structure: Structure
@@ -55,8 +55,8 @@ class Certificate:
 def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> Certificate:
     """The certificate of a structure with these laws (slot -> law; where left out, the default).
 
-    Its preconditions: solids, film and shear take energy and give none; bridge and strings have a potential; the
-    angular momentum, if there is any, is among the invariants found; and the potential has a barrier to stay behind.
+    Its preconditions: solids, film and shear only dissipate; bridge and strings have a potential; the angular momentum,
+    if there is any, is among the invariants found; and the potential has a barrier.
     """
     chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
     checks = [film_dissipates(chosen["film"]), rebound_dissipates()[1]]
@@ -78,7 +78,7 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
 def _rotation(
     structure: Structure, laws: Mapping[str, Law], checks: list[Check], held: list[str], against: list[str]
 ) -> None:
-    """Whether angular momentum is conserved, and whether the shear takes energy."""
+    """Preconditions of the rotation: angular momentum is conserved and the shear dissipates."""
     lever, shear = laws["arm"], laws["shear"]
     conserved = [each.describe() for each in found(lever, structure) if each.is_angular_momentum]
     held += [f"conserved: {text}" for text in conserved]
@@ -93,7 +93,7 @@ def _rotation(
 
 
 def _on_strings(structure: Structure, laws: Mapping[str, Law], checks: list[Check], against: list[str]) -> None:
-    """Strings exert a torque, so no argument from energy; without a bridge there is one from the momenta."""
+    """The certificate on strings, whose torque rules out the energy argument; without a bridge the margins apply."""
     if structure.bridge:
         against.append(
             "strings exert a torque, dL/dt = -r S_t: no least energy at fixed L, and beside a bridge no other"
@@ -105,10 +105,10 @@ def _on_strings(structure: Structure, laws: Mapping[str, Law], checks: list[Chec
 
 
 def _has_barrier(structure: Structure) -> bool:
-    """Whether the least energy can rise with the gap: it cannot where its slope is the centrifugal term alone."""
+    """True if the least energy can rise with the gap: not if its slope is the centrifugal term only."""
     model = derive(structure)
     if structure.strings or not structure.oblique:
-        return True  # head-on with a film alone needs none: the film's momentum integral decides
+        return True  # head-on with a film only, the film's momentum integral decides instead
     slope = model.expanded(dict(model["effective_potential"].outputs)["slope"])
     start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states if s != gap}
     return not sp.factor(-slope.subs(start)).is_nonnegative
@@ -124,13 +124,13 @@ def _argument(structure: Structure) -> str:
 
 
 def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
-    """The certificate of every structure, for each arm in question; a model without one is a note that says why."""
+    """The certificate of every structure, for each applicable arm; a note gives the reason where there is none."""
     checks = []
     for structure in structures():
         if structure.reduced:
             continue
         own = [laws["arm"]] if laws and "arm" in laws else []
-        decides = structure.oblique and structure.bridge != structure.strings  # elsewhere there is no proof for any arm
+        decides = structure.oblique and structure.bridge != structure.strings  # elsewhere no arm admits a certificate
         levers: Iterable[Law] = own or (LAWS["arm"].values() if decides else [LAWS["arm"]["midgap"]])
         for lever in levers:
             proof = certificate(structure, {**(laws or {}), "arm": lever})

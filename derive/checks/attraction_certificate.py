@@ -1,4 +1,4 @@
-"""The proof that attraction holds for good: its margins as emitted, and the laws whose force falls with the gap."""
+"""Checks of the attraction certificate: its margins as emitted, and the laws whose force decreases with the gap."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from ..vocabulary.quantities import (
 )
 from .base import Check, vanishing
 
-_COSINE = sp.Symbol("cosine", nonnegative=True)  # of a contact angle up to 90 deg
+_COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
 
 def force_falls(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """dF/dx <= 0 of every law that is said to fall."""
+    """dF/dx <= 0 for every law declared to decrease with the gap."""
     checks = []
     for law in laws:
         for each in law.functions:
@@ -45,7 +45,7 @@ def force_falls(laws: Iterable[Law]) -> tuple[Check, ...]:
 
 
 def margins_are_the_forces() -> Check:
-    """`hold`, `escape` and `rebound` out of the emitted inward force at the gaps and momenta that bound it."""
+    """`hold`, `escape` and `rebound` from the emitted inward force at the gaps and momenta that bound it."""
     left: list[sp.Expr] = []
     for structure in structures():
         if not admits(structure) or structure.reduced:
@@ -73,6 +73,6 @@ def margins_are_the_forces() -> Check:
 
 
 def attraction_certificate() -> tuple[Check, ...]:
-    """Every check of the proof."""
+    """Every check of the attraction certificate."""
     laws = [law for slot in ("bridge", "attraction") for law in LAWS[slot].values()]
     return (*force_falls(laws), margins_are_the_forces())

@@ -1,4 +1,4 @@
-"""Films and attractions: dimensions and limits of the laws beside the paper's, and what a number made of them says."""
+"""Films and attractions: dimensions and limits of the laws added to the paper's, and the generalised number Ce_F."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _ATTRACTED = (
 
 
 def films() -> tuple[Check, ...]:
-    """Each film's force is one, and tends to the unbounded film's where its rim is far."""
+    """Each film law is a force and tends to the force of an unlimited film as the rim goes to infinity."""
     rim = sp.Symbol("rim", positive=True)
     lengths = {**DIMENSIONS, rim: LENGTH}
     forces = (film.normal_force(), film.unbounded_force(), film.sustained_force(), film.constant_volume_force())
@@ -52,7 +52,7 @@ def films() -> tuple[Check, ...]:
 
 
 def resistances() -> Check:
-    """Every film resists: its resistance is nowhere negative, so that lubrication only dissipates."""
+    """The resistance of every film is nowhere negative, so that lubrication only dissipates."""
     wrong = []
     for law in LAWS["film"].values():
         for function in (each for each in law.functions if not each.for_proof):
@@ -63,7 +63,7 @@ def resistances() -> Check:
 
 
 def generalised_number() -> Check:
-    """Ce_F is Ce times a constant for the constant bridge: Ce/(4 pi cos(phi))."""
+    """Ce_F is a constant times Ce for the constant bridge: Ce/(4 pi cos(phi))."""
     force = fill(force_laws()[F_c], {"bridge": LAWS["bridge"]["constant"]})
     own = sp.simplify(generalised_centrifugal(force) / _centrifugal())
     return vanishing(
@@ -79,7 +79,7 @@ def _centrifugal() -> sp.Expr:
 
 
 def slopes() -> Check:
-    """The certificate's slope is that of its energy and of the work against every attraction."""
+    """The certificate's slope is that of its energy plus the work against every attraction."""
     left = []
     for structure in _ATTRACTED:
         model = derive(structure)

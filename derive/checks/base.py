@@ -1,4 +1,4 @@
-"""What a check is: a statement, and the expressions that must vanish identically for it to hold."""
+"""Checks: a statement, and expressions that must vanish identically for it to hold."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..vocabulary.quantities import VOCABULARY
 
 @dataclass(frozen=True)
 class Check:
-    """A statement about the derivation, whether it holds (None: reported, held to nothing), and what was found."""
+    """A statement about the derivation, its result (None: reported, not required), and the figure found."""
 
     name: str
     statement: str
@@ -23,9 +23,9 @@ def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", 
     """A check that every expression of `left` vanishes identically; the first that does not is the figure.
 
     Arguments:
-        holds: what `ok` is if they do; None for a known violation, which is reported and held to nothing.
+        holds: the value of `ok` if they do; None for a known violation, which is reported but not required to pass.
     """
-    rest = next((value for value in map(settled, left) if value != 0), None)  # the others may take long to settle
+    rest = next((value for value in map(settled, left) if value != 0), None)  # the others may be expensive to simplify
     shown = figure or (f"{len(left)} identities" if len(left) > 1 else "identity")
     if rest is not None:
         return Check(name, statement, False, f"left over: {readable(rest)}")
@@ -33,7 +33,7 @@ def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", 
 
 
 def settled(expression: sp.Expr) -> sp.Expr:
-    """Zero if the expression vanishes identically: expanded, and simplified only where that is not enough."""
+    """Zero if the expression vanishes identically: expanded, and simplified only if that does not suffice."""
     quick = sp.expand(expression)
     if quick == 0:
         return quick
@@ -41,7 +41,7 @@ def settled(expression: sp.Expr) -> sp.Expr:
 
 
 def readable(expression: sp.Expr) -> str:
-    """The expression as text, its quantities under the literature's symbols instead of their full names."""
+    """The expression as text, with the literature's symbols for quantities."""
     short = {
         quantity.symbol: sp.Symbol(_plain(quantity.latex))
         for name, quantity in VOCABULARY.items()

@@ -1,4 +1,4 @@
-"""The stick certificate: its energy is the least there is at fixed angular momentum, and its slope that energy's."""
+"""Energy certificate: its energy is the least one at fixed angular momentum, and its slope that of the energy."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .closed import slope_along
 
 
 def least_energy() -> Check:
-    """The certificate's energy is L^2/(2 I) (and U_s), and its slope that energy's, at fixed L, and the bridge's."""
+    """The certificate's energy is L^2/(2 I) (+ U_s), its slope the derivative at fixed L plus the bridge force."""
     left = []
     for structure in structures():
         model = derive(structure)
@@ -47,7 +47,7 @@ def least_energy() -> Check:
 def least_energy_is_a_minimum() -> Check:
     """At fixed gap and L the energy T + W_c (+ U_s) is least in rigid rotation: stationary, convex, and of that value.
 
-    T alone depends on the velocities; its gradient over (u, orbit), with the spin that L leaves, vanishes at
+    Only T depends on the velocities; its gradient over (u, orbit), with the spin given by L, vanishes at
     `rigid_rotation`, its Hessian is positive definite there and everywhere, and its value is the emitted energy's.
     """
     left: list[sp.Expr] = []
@@ -55,7 +55,7 @@ def least_energy_is_a_minimum() -> Check:
     tangent, momentum = sp.symbols("tangent L", positive=True)
     for structure in structures():
         if structure.reduced or structure.strings:
-            continue  # the strings' energy holds no velocity; the reduced form is the full one (`reduced form`)
+            continue  # the strings' energy does not depend on velocities; `reduced form` covers the reduced equations
         model = derive(structure)
         kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"]).subs(obliquity, tangent)
         least = model.expanded(dict(model["effective_potential"].outputs)["energy"]).subs(obliquity, tangent)

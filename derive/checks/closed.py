@@ -1,4 +1,4 @@
-"""A model's emitted expressions in closed form: intermediates put back in, laws filled, slopes through the laws."""
+"""A model's emitted expressions in closed form: intermediates substituted, laws filled, derivatives through laws."""
 
 from __future__ import annotations
 
@@ -16,16 +16,17 @@ __all__ = ["emitted_rates", "filled", "slope_along"]
 
 @cache
 def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
-    """The emitted right-hand side by state, every intermediate put back in."""
+    """The emitted right-hand side by state, with every intermediate substituted."""
     named = dict(model["right_hand_side"].outputs)
     return {state: model.expanded(named[state.name]) for state in model.states}
 
 
-SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")  # of an unequal pair, by name
+# of an unequal pair, kept as symbols
+SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
 
 
 def opened(model: Model, expression: sp.Expr) -> sp.Expr:
-    """`Model.expanded`, but for the sizes of an unequal pair: what holds for any, holds for theirs."""
+    """`Model.expanded`, except for the sizes of an unequal pair: results hold for any sizes."""
     for symbol, value in reversed(model.definitions):
         if symbol.name not in SIZES:
             expression = expression.subs(symbol, value)
@@ -33,13 +34,13 @@ def opened(model: Model, expression: sp.Expr) -> sp.Expr:
 
 
 def opened_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
-    """`emitted_rates` in the sizes of an unequal pair."""
+    """`emitted_rates`, except for the sizes of an unequal pair."""
     named = dict(model["right_hand_side"].outputs)
     return {state: opened(model, named[state.name]) for state in model.states}
 
 
 def slope_along(energy: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-    """Derivative of an energy, with d rise/d offset_squared = stiffness/2 (which strings_are_conservative checks)."""
+    """Derivative of an energy, with d rise/d offset_squared = stiffness/2 (checked by strings_are_conservative)."""
     heights = {node: sp.Dummy("height") for node in energy.atoms(AppliedUndef) if is_slot_call(node)}
     flat = energy.xreplace(heights)
     slope = flat.diff(variable)

@@ -1,4 +1,4 @@
-"""Conservation: energy along the emitted equations, for all laws; the rate of angular momentum for a chosen arm."""
+"""Conservation: energy along the emitted equations for all laws, and the rate of angular momentum for a given arm."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def energy_balance(structure: Structure) -> sp.Expr:
 
 
 def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
-    """Mechanical energy is taken by the film, the shear and the bridge, and by nothing else; strings give back."""
+    """Film, shear and bridge are the only forces that change the mechanical energy; strings are conservative."""
     return tuple(
         vanishing(
             f"energy: {structure.name}",

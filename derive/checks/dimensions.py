@@ -1,4 +1,4 @@
-"""Dimensions: every SI equation of the model is homogeneous, and of the dimension that it must have."""
+"""Dimensions: every SI equation of the model is homogeneous and has the expected dimension."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ Equations = dict[str, tuple[sp.Expr, Dimension]]
 
 
 def si_equations() -> dict[str, Equations]:
-    """Every SI expression of the model by room and name, with the dimension it must have."""
+    """Every SI expression of the model by room and name, with its expected dimension."""
     motion = equations_of_motion()
     moment = MASS * LENGTH**2
     mechanics: Equations = {
@@ -93,15 +93,15 @@ def si_equations() -> dict[str, Equations]:
 
 
 def symbol_dimensions() -> dict[sp.Basic, Dimension]:
-    """Dimensions of the vocabulary and of the names that the SI equations use beside it."""
+    """Dimensions of the vocabulary and of further names in the SI equations."""
     forces = dict.fromkeys((F_n, F_c, F_w, F_t, S_n, S_t), FORCE)
-    thicknesses = sp.symbols("h h_outer", positive=True)  # local, and where the tangential logarithm ends
+    thicknesses = sp.symbols("h h_outer", positive=True)  # local, and the outer thickness of the tangential logarithm
     lengths = dict.fromkeys((arm, strings.r, *thicknesses), LENGTH)
     return {**DIMENSIONS, **forces, **lengths, FILM: ONE, SHEAR: ONE}
 
 
 def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Check, ...]:
-    """One check a room of `si_equations`: each equation homogeneous in every term, and of the dimension expected."""
+    """One check per room of `si_equations`: each equation is homogeneous and has the expected dimension."""
     dimensions = symbol_dimensions()
     checks = []
     for room, equations in (si_equations() if rooms is None else rooms).items():

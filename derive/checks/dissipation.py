@@ -1,8 +1,9 @@
-"""Dissipation, term by term: what film, shear and solids take is shown not to be negative.
+"""Dissipation, term by term: the energy taken by film, shear and solids is not negative.
 
-The arm of the tangential force decides two things at once. Its torque on the doublet is F_t (2 arm - r), and the
-shear's power F_t (r omega - 2 arm xi) with F_t ~ omega - xi vanishes at xi = omega and at xi = omega r/(2 arm): it is
-a square, and L conserved, only where arm = r/2. An arm that is not is told the range where the shear gives energy.
+The lever arm of the tangential force determines both its torque on the doublet, F_t (2 arm - r), and the shear's power
+F_t (r omega - 2 arm xi). With F_t ~ omega - xi the power vanishes at xi = omega and at xi = omega r/(2 arm): it is a
+square, and L is conserved, only for arm = r/2. For any other arm the check reports the range in which shear gives
+energy.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ _OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 
 
 def _taken(model: Model, term: str) -> sp.Expr:
-    """An emitted loss with the forces put back in; distance and orbital rate stay names, of known sign."""
+    """An emitted loss with the forces substituted; distance and orbital rate stay symbols of known sign."""
     expression = dict(model["energy_rates"].outputs)[term]
     for symbol, value in reversed(model.definitions):
         if symbol not in (ORBITAL_RATE, DISTANCE):
@@ -58,7 +59,7 @@ def _taken(model: Model, term: str) -> sp.Expr:
 
 @cache
 def film_dissipates(law: Law) -> Check:
-    """What the film takes, F_n u, is not negative for any gap inside it."""
+    """The power of the film, F_n u, is not negative at any gap inside it."""
     rate = filled(_taken(derive(_OBLIQUE), "normal_lubrication"), {"film": law})
     sign = nonnegative(rate, gap, sp.Integer(1))
     return Check(f"film dissipates: {law.name}", "F_n u >= 0 for 0 < x <= x0", sign.proved, sign.shown)
@@ -66,7 +67,7 @@ def film_dissipates(law: Law) -> Check:
 
 @cache
 def shear_dissipates(law: Law, lever: Law) -> Check:
-    """What the shear takes, F_t (r omega - 2 arm xi), is not negative inside its edge, with an arm that conserves L."""
+    """The power of the shear, F_t (r omega - 2 arm xi), is not negative inside its edge if the arm conserves L."""
     rate = filled(_taken(derive(_OBLIQUE), "tangential_lubrication"), {"shear": law, "arm": lever})
     sign = nonnegative(rate, gap, law["edge"](aspect))
     statement = "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
@@ -75,7 +76,7 @@ def shear_dissipates(law: Law, lever: Law) -> Check:
 
 @cache
 def torque(lever: Law) -> sp.Expr:
-    """dL/dt of a free doublet for an arm, in SI and in F_t: the orbit's torque and both spins'."""
+    """dL/dt of a free doublet for an arm, in SI and in terms of F_t: the torques on the orbit and on both spins."""
     motion = equations_of_motion()
     whole = motion.orbital_momentum_rate.subs(S_t, 0) + 2 * sphere_inertia() * motion.spin_acceleration
     return sp.factor(sp.expand(filled(whole.subs(arm, force_laws()[arm]), {"arm": lever})))
@@ -83,7 +84,7 @@ def torque(lever: Law) -> sp.Expr:
 
 @cache
 def conserves(lever: Law) -> bool:
-    """Whether angular momentum is among the invariants found for the free doublet with this arm."""
+    """True if angular momentum is among the invariants found for the free doublet with this arm."""
     return any(each.is_angular_momentum for each in found(lever))
 
 
@@ -94,12 +95,12 @@ def found(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
 
 
 def is_known(lever: Law) -> bool:
-    """Whether an arm that does not conserve L is the paper's leading-order one, dL/dt = -x F_t."""
+    """True for the paper's leading-order arm, which does not conserve L: dL/dt = -x F_t."""
     return settled(torque(lever) + x * F_t) == 0
 
 
 def angular_momentum(lever: Law) -> Check:
-    """dL/dt for an arm along the emitted equations, for any tangential and bridge law: none, -x F_t, or a failure."""
+    """dL/dt for an arm along the emitted equations, for any tangential and bridge law: zero, -x F_t, or a failure."""
     name, left = f"angular momentum, {lever.name} arm", []
     expected = torque(lever)
     per_time = x0 / (v0 * m * a**2 * omega0)
@@ -125,9 +126,9 @@ def angular_momentum(lever: Law) -> Check:
 
 
 def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """Of an arm that does not conserve L: the shear's power, both ends of xi/omega where it is negative, its least.
+    """The power of the shear for an arm that does not conserve L, where it is negative in xi/omega, its least.
 
-    In SI, at given omega and gap inside the edge; the least is half-way between the ends.
+    In SI, at given omega and gap inside the edge; the least is half-way between the ends of the range.
     """
     ratio, log_factor = sp.Symbol("ratio", real=True), sp.Symbol("log_factor", positive=True)
     force = force_laws()[F_t].subs(SHEAR, 1)
@@ -144,7 +145,7 @@ def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Exp
 
 @cache
 def indefinite_shear(law: Law, lever: Law) -> Check:
-    """The shear's power for an arm that does not conserve L: where it gives energy and how much at most, by name."""
+    """The range and the largest rate at which shear gives energy, by name, for an arm that does not conserve L."""
     rate, low, high, least = shear_range(law, lever)
     known = is_known(lever)
     name = f"shear dissipates: {law.name}, {lever.name} arm"
@@ -161,7 +162,7 @@ def indefinite_shear(law: Law, lever: Law) -> Check:
 
 
 def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
-    """For each arm its dL/dt, and for each tangential law with it the sign of the shear's power."""
+    """For each arm dL/dt, and for each tangential law with it the sign of the shear's power."""
     checks = []
     for lever in levers:
         checks.append(angular_momentum(lever))
@@ -172,7 +173,7 @@ def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
 
 @cache
 def bridge_does_work() -> Check:
-    """The bridge's force depends on the gap alone, so that its work is a potential's, W_c(x), the same both ways."""
+    """The bridge force depends on the gap only, so it has a potential W_c(x), the same while closing and opening."""
     left = []
     for structure in structures():
         if structure.bridge:
@@ -186,7 +187,7 @@ def bridge_does_work() -> Check:
 
 @cache
 def rebound_dissipates() -> tuple[Check, ...]:
-    """A rebound takes exactly the kinetic energy it is charged with, and never gives any for 0 <= e_dry <= 1."""
+    """A rebound loses exactly the kinetic energy of `rebound_loss`, which is not negative for 0 <= e_dry <= 1."""
     left, charged = [], sp.Integer(0)
     for structure in structures():
         model = derive(structure)

@@ -1,4 +1,4 @@
-"""What is emitted beside the right-hand side: resting contact, events, momentum, outputs, against SI definitions."""
+"""Emitted functions besides the right-hand side, against SI definitions: resting contact, events, momentum, outputs."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def resting_is_held() -> Check:
 
 
 def inward_is_minus_the_acceleration() -> Check:
-    """What holds a doublet in contact, and what lets it go, is minus m du/dt without the film."""
+    """The inward force that keeps a doublet in contact is minus m du/dt without the film."""
     left = []
     for structure in structures():
         model = derive(structure)
@@ -78,7 +78,7 @@ def inward_is_minus_the_acceleration() -> Check:
 
 
 def momentum_is_the_bodies() -> Check:
-    """The emitted angular momentum is L = m (r^2 omega + (32/5) a^2 xi) over its start value."""
+    """The emitted angular momentum is L = m (r^2 omega + (32/5) a^2 xi) over its initial value."""
     whole = equations_of_motion().angular_momentum
     expected = nondimensional(whole / whole.subs(start_values()).subs(sp.tan(theta0), obliquity))
     left = []
@@ -106,7 +106,7 @@ def outputs_are_the_definitions() -> Check:
 
 
 def _si_events() -> dict[str, sp.Expr]:
-    """The events as the paper states them, over the scales they are emitted in; x_f is not among them."""
+    """The events as stated in the paper, over their emitted scales; x_f is not among them."""
     compliance = 2 * (1 - nu**2) / (sp.pi * E)
     elastic = (3 * sp.pi * compliance * mu * sp.sqrt(a) ** 3 * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)
     definitions = group_definitions()
@@ -124,7 +124,7 @@ def _si_events() -> dict[str, sp.Expr]:
 
 
 def events_are_the_definitions(those: Iterable[Structure] | None = None) -> Check:
-    """Every event function, its groups by their definitions, is the criterion in SI; of all structures, or of these."""
+    """Every event function, with the groups' definitions, is the criterion in SI; of all structures, or of these."""
     back = {gap: x / x0, normal_velocity: u / v0, **group_definitions()}
     laws = {"glass": LAWS["glass"]["literal"], "shear": LAWS["shear"]["immersed"]}
     defined = _si_events()
@@ -134,14 +134,14 @@ def events_are_the_definitions(those: Iterable[Structure] | None = None) -> Chec
         end = 2 * a * volume ** sp.Rational(1, 3) * (1 + contact_angle / 2) if structure.bridge else x0
         expected = {**defined, "rupture": (end - x) / x0}
         for name, value in model["events"].outputs:
-            if name != "release":  # `inward force` is about it
+            if name != "release":  # `inward_is_minus_the_acceleration` covers it
                 own = filled(model.expanded(value), laws).subs(back, simultaneous=True)
                 left.append((own - expected[name]).subs(R, 2 * a))
     return vanishing("events", "glass, elastic, rough, rupture and the rest = their SI definitions", left)
 
 
 def tangential_force_is_the_published() -> Check:
-    """F_t = 8 pi mu a^2 (omega - xi) ln(2a/x), in SI and as what spins a sphere up in the emitted equations."""
+    """F_t = 8 pi mu a^2 (omega - xi) ln(2a/x), in SI and as the torque on a sphere in the emitted equations."""
     published = 8 * sp.pi * mu * a**2 * (omega - xi) * sp.log(2 * a / x)
     force = filled(force_laws()[F_t], _MIDGAP).subs(SHEAR, 1)
     spun = published * r / 2 / sphere_inertia() * x0 / (v0 * omega0)
@@ -155,7 +155,7 @@ def tangential_force_is_the_published() -> Check:
 
 
 def emitted() -> tuple[Check, ...]:
-    """Every check of the functions beside the right-hand side."""
+    """Every check of the functions other than the right-hand side."""
     return (
         resting_is_held(),
         inward_is_minus_the_acceleration(),

@@ -1,4 +1,4 @@
-"""Groups: how many are independent, and how the centrifugal number follows from the others."""
+"""Groups: the number of independent ones, and the centrifugal number in terms of the others."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from .base import Check, readable, vanishing
 
 
 def centrifugal_number() -> Check:
-    """Ce depends on the other groups once the angle is counted among them."""
+    """Ce is a function of the other groups if the angle is counted among them."""
     expected = sp.pi / 8 * aspect * obliquity**2 * stokes * capillary
     found = centrifugal_identity()
     return vanishing(
@@ -56,7 +56,7 @@ def normalisation_of_the_paper() -> Check:
 
 
 def number_of_groups() -> Check:
-    """Buckingham: the independent groups are as many as the quantities less the rank of their dimension matrix."""
+    """Buckingham: as many independent groups as quantities minus the rank of their dimension matrix."""
     motion = {time, x, u, omega, xi, omega0}
     used = {s for group in group_definitions().values() for s in group.free_symbols}
     given = [q.symbol for q in VOCABULARY.values() if any(q.dimension.exponents) and q.symbol in used - motion]
@@ -72,7 +72,7 @@ def number_of_groups() -> Check:
 
 
 def groups_span_the_nullspace() -> Check:
-    """St, Ca and Ce out of the nullspace: each a combination of the dimensionless monomials of its quantities."""
+    """St, Ca and Ce are combinations of the dimensionless monomials of their quantities (nullspace)."""
     left, shown = [], []
     for group, label in ((stokes, "St"), (capillary, "Ca"), (centrifugal, "Ce")):
         definition = group_definitions()[group]

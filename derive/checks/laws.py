@@ -1,4 +1,4 @@
-"""Limits of the laws: where each force vanishes, and the strings' variants as limits of each other."""
+"""Limits of the laws: where each force vanishes, and limits that relate the string laws."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .base import Check, vanishing
 
 
 def rigid_rotation_is_free() -> Check:
-    """A doublet that turns as one body feels no tangential force, in SI and as emitted, for any tangential law."""
+    """The tangential force vanishes in rigid rotation, in SI and as emitted, for any tangential law."""
     left = [force_laws()[F_t].subs(xi, omega)]
     for structure in structures():
         if structure.oblique and not structure.reduced:
@@ -32,12 +32,12 @@ def rigid_rotation_is_free() -> Check:
 
 
 def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
-    """No film force at the film's rim x = x0, no tangential force at its own edge."""
+    """The film force vanishes at the rim x = x0, the tangential force at its own edge."""
     checks = []
     for law in films:
         left = filled(force_laws()[F_n], {"film": law}).subs(x, x0)
         name, statement = f"film's rim: {law.name}", "x -> x0: no film force"
-        if law.name == "infinite":  # its definition: no rim in the pressure
+        if law.name == "infinite":  # by definition this law has no rim in the pressure
             checks.append(Check(name, statement, None, f"ends at {left}: known, the film has no rim"))
         else:
             checks.append(vanishing(name, statement, [left]))
@@ -48,7 +48,7 @@ def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
 
 
 def long_strings_vanish(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """Strings of infinite length pull nothing, at fixed weight and swing."""
+    """Strings of infinite length exert no force, at fixed weight and swing."""
     swing = sp.Symbol("swing", positive=True)  # (d/a)^2
     checks = []
     for law in laws:
@@ -81,7 +81,7 @@ def small_angle_is_linear() -> Check:
 
 
 def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """Head-on with a film alone: u = -v0 (1 - Lf(s)/St) solves the emitted equations, Lf the integral of resistance."""
+    """Head-on with a film only, u = -v0 (1 - Lf(s)/St) solves the emitted equations, Lf the integral of resistance."""
     head_on = next(s for s in structures() if not (s.oblique or s.bridge or s.strings))
     model = derive(head_on)
     closing, film_flag, stokes = model.states[1], sp.Symbol("film", nonnegative=True), model.groups[0]

@@ -1,4 +1,4 @@
-"""Limits: reduced and head-on equations are the full oblique ones, with the spin eliminated or at rest."""
+"""Limits: reduced and head-on equations as special cases of the full oblique equations."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .closed import emitted_rates, filled
 
 
 def reduced_is_full() -> Check:
-    """With the spin that a conserved L leaves, the full equations are the reduced ones, and so is the spin's rate."""
+    """With the spin eliminated by conserved L, the full equations and the spin's rate are the reduced ones."""
     left = []
     midgap = {"arm": LAWS["arm"]["midgap"]}
     for structure in structures():
@@ -24,7 +24,7 @@ def reduced_is_full() -> Check:
         eliminated = {spin: (initial - orbital_momentum) * sp.Rational(5, 32)}
         rates, full_rates = emitted_rates(reduced), emitted_rates(full)
         left += [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]
-        # the spin eliminated turns as the full equations say it does
+        # the eliminated spin has the rate of the full equations
         left.append(
             eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
             - filled(full_rates[spin], midgap).subs(eliminated)
@@ -39,7 +39,7 @@ def reduced_is_full() -> Check:
 
 
 def head_on_is_oblique_at_rest() -> Check:
-    """An oblique doublet that does not rotate is the head-on one, and does not start to rotate."""
+    """An oblique doublet without rotation follows the head-on equations, and does not start to rotate."""
     still = {orbital_momentum: 0, spin: 0, beta: 0}
     left = []
     for head_on in structures():
@@ -51,7 +51,7 @@ def head_on_is_oblique_at_rest() -> Check:
         left += [rates[s].subs(still) for s in wide.states if s not in narrow.states]
         for name in ("events", "energies", "energy_rates", "inward_force", "effective_potential", "outputs"):
             if name not in [function.name for function in wide.functions]:
-                continue  # no least-energy argument for rotating strings
+                continue  # rotating strings have no least-energy argument
             there = dict(wide[name].outputs)
             left += [
                 wide.expanded(there[key]).subs(still) - narrow.expanded(value) for key, value in narrow[name].outputs

@@ -1,4 +1,4 @@
-"""The emitted margins of the pendulum certificate: the bounds that its checks prove, at their extremal arguments."""
+"""Emitted margins of the pendulum certificate: they equal the proved bounds at their worst-case arguments."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 
 
 def _bounds() -> dict[str, tuple[sp.Expr, str]]:
-    """Each margin with its lemma put in at the gap, angle and speed where it is worst, and in words."""
+    """Each margin with its lemma at the gap, angle and speed of the worst case, and a description."""
     contact, touch = contact_gap, sp.Integer(1)
     largest = sp.Max(orbital_momentum, rigid_momentum(orbital_momentum + sp.Rational(32, 5) * spin, 4 + aspect * touch))
     fastest = sp.sqrt(sp.Min(normal_velocity, 0) ** 2 + 2 * pull_at(touch, sp.pi))
@@ -45,12 +45,12 @@ def _bounds() -> dict[str, tuple[sp.Expr, str]]:
 
 
 def margins_are_the_lemmas() -> tuple[Check, ...]:
-    """What is emitted, opened, is each lemma's bound: at contact, initial contact and half a turn, now."""
+    """The emitted margins are the lemmas' bounds: at contact, at initial contact and half a turn, and at present."""
     model = derive(_PENDULUM)
     emitted = {name: model.expanded(value) for name, value in model["pendulum_margins"].outputs}
     checks = []
     for name, (bound, words) in _bounds().items():
-        rest = sp.expand(emitted[name] - model.expanded(bound))  # the same Max and calls on both sides: no simplify
+        rest = sp.expand(emitted[name] - model.expanded(bound))  # same Max and calls: simplification not needed
         checks.append(
             Check(
                 f"margin of the stick proof: {name}",
@@ -63,18 +63,18 @@ def margins_are_the_lemmas() -> tuple[Check, ...]:
 
 
 def closing_gains_the_pull() -> Check:
-    """u_max: nothing but the strings speeds a closing doublet up, by their pull over the gap, which is at most x0."""
+    """u_max: while closing, only the strings increase the speed, by their pull over a gap of at most x0."""
     model = derive(_PENDULUM)
     left = [
         rates(_PENDULUM)[normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
-        model.expanded(STRING_PULL) - pull_at(gap, beta),  # what the lemmas bound is what is emitted
+        model.expanded(STRING_PULL) - pull_at(gap, beta),  # the bound of the lemmas is the emitted one
         model.expanded(CENTRIFUGAL_FORCE) - outward_at(orbital_momentum, 4 + aspect * gap),
     ]
     return vanishing("closing gains the pull", "d(u^2/2)/dx = -S_n/m + what slows: u_max^2 - u^2 <= 2 S x0/m", left)
 
 
 def stopping_falls() -> Check:
-    """Lf falls with the gap, so that what the film stops at x_R it stops from any smaller gap."""
+    """Lf decreases with the gap, so a velocity stopped by the film from x_R is stopped from any smaller gap."""
     slope = sp.factor(LAWS["film"]["finite"]["stopping"].result.diff(gap))
     falls = sp.factor(-slope).is_nonnegative is True
     return Check("stopping falls", "dLf/dx <= 0: the furthest rebound is the worst", falls, f"dLf/dx = {slope}")

@@ -1,4 +1,4 @@
-"""Mechanics: the inertia is that of the kinetic energy, the strings' forces are those of their potential."""
+"""Mechanics: the inertia is that of the kinetic energy, the string forces are those of their potential."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .closed import filled
 
 
 def inertia_is_rigid_rotation() -> Check:
-    """I(x), by the parallel-axis theorem, is what the kinetic energy says of a doublet that turns as one body."""
+    """I(x) from the parallel-axis theorem gives the kinetic energy of a doublet in rigid rotation."""
     rigid = equations_of_motion().kinetic_energy.subs({u: 0, xi: omega})
     left = sp.expand(2 * rigid / omega**2 - doublet_inertia())
     left_paper = sp.expand(doublet_inertia() - m * a**2 * ((4 + x / a) ** 2 + sp.Rational(32, 5)))
@@ -26,13 +26,13 @@ def inertia_is_rigid_rotation() -> Check:
 
 
 def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """The strings' forces are minus the gradient of their potential, and `stiffness` twice the slope of `rise`."""
+    """The string forces are minus the gradient of their potential, and `stiffness` is twice the slope of `rise`."""
     return tuple(map(_conservative, laws))
 
 
 @cache
 def _conservative(law: Law) -> Check:
-    """The potential is that of `rise`, 4 m g a for both spheres; for the library's laws also the one they come from."""
+    """The potential is 4 m g a `rise` for both spheres; for the library's laws also the one they were derived from."""
     swing = strings.swing_squared() / a**2
     rise, stiffness = law["rise"], law["stiffness"]
     potentials = [4 * m * g * a * rise(l_s / a, swing)]

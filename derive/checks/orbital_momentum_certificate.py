@@ -1,4 +1,4 @@
-"""Orbital-momentum certificate: what F_t exchanges, and that it never adds to the margin."""
+"""Checks of the orbital-momentum certificate: the exchange by F_t, and that it never increases the margin."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ from .base import Check, vanishing
 from .closed import emitted_rates, filled
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
-_P, _Q = sp.symbols("root_J root_xi", positive=True)  # square roots of momentum and spin: all is rational in them
+# square roots of momentum and spin, in which all expressions are rational
+_P, _Q = sp.symbols("root_J root_xi", positive=True)
 _EDGE = sp.Symbol("edge", positive=True)  # centre distance over a beyond which no shear acts
 _CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
 _FULL = Structure(oblique=True, bridge=True, strings=False)
@@ -31,7 +32,7 @@ _REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <=
 
 
 def exchange() -> Check:
-    """The emitted rates of J and xi are in the ratio that `exchanged` says, for every arm."""
+    """The emitted rates of J and xi have the ratio `exchanged`, for every arm."""
     left = []
     rates = emitted_rates(derive(_FULL))
     here = 4 + aspect * gap
@@ -42,7 +43,7 @@ def exchange() -> Check:
 
 
 def stationary() -> Check:
-    """The slip energy is zero where omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
+    """The slip energy vanishes at omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
     left: list[sp.Expr] = []
     for lever, energy in (("midgap", _midgap()), ("surface", _surface())):
         left += [_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q))]
@@ -62,27 +63,27 @@ def _surface() -> sp.Expr:
 
 
 def _change(lever: str, energy: sp.Expr) -> sp.Expr:
-    """Change of the margin per dxi by what is exchanged at the distance `near`."""
+    """Change of the margin per dxi by the exchange at the distance `near`."""
     margin = _P**4 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + energy
     rate = exchanged(_NEAR, LAWS["arm"][lever]["lever"](_NEAR))
     return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
 
 
 def midgap_takes() -> Check:
-    """Midgap: d(margin)/dxi = -(32/5)(omega - xi) a^2, which F_t never adds to; the rest is the energy of a slip."""
+    """Lever arm at mid-gap: d(margin)/dxi = -(32/5)(omega - xi) a^2, so that F_t never increases the margin."""
     ratio = _settled(_change("midgap", _midgap()) / (_P**2 / _NEAR**2 - _Q**2))
     ok = ratio.is_number and bool(ratio < 0)
     return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
 
 
 def midgap_ends() -> Check:
-    """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and above zero before."""
+    """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
     within = midgap_within(_FAR, _EDGE, _P**2, _Q**2)
     left = [
         _settled(_change("midgap", within) - _change("midgap", _midgap())),
         _settled(within.subs(_P, _EDGE * _Q)),
     ]
-    # one way to the edge: J grows while xi > J/e^2, and what it takes a step is xi - J/d^2
+    # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
     to_spin = 1 / exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
     ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
@@ -93,10 +94,10 @@ def midgap_ends() -> Check:
 
 
 def surface_takes() -> Check:
-    """Surface: the same sign at every distance r <= d of the exchange, for rho between 4 and d, d - rho <= 4.
+    """Lever arm at the surface: the same sign at every distance r <= d, for rho between 4 and d, d - rho <= 4.
 
     r d(margin)/dxi is quadratic in r; omega = xi at r = rho is one root, (rho xi/(dh/dJ)) the other, where h is the
-    slip energy less J^2/(2 d^2). It has the sign that takes while dh/dJ < xi rho/r.
+    slip energy less J^2/(2 d^2). The sign is the dissipative one while dh/dJ < xi rho/r.
     """
     rest = _surface() - _P**4 / (2 * _FAR**2)
     rho = sp.Symbol("rho", positive=True)
@@ -120,7 +121,7 @@ def _no_negative(part: sp.Expr) -> bool:
 
 
 def as_emitted() -> Check:
-    """What is emitted is this energy, in units of m v0^2, and the slip."""
+    """The emitted margins are this energy, in units of m v0^2, and the slip."""
     left: list[sp.Expr] = []
     for structure in (_FULL, replace(_FULL, reduced=True)):
         model = derive(structure)
@@ -137,5 +138,5 @@ def as_emitted() -> Check:
 
 
 def orbital_momentum_certificate() -> tuple[Check, ...]:
-    """Every check of the proof."""
+    """Every check of the orbital-momentum certificate."""
     return (exchange(), stationary(), midgap_takes(), midgap_ends(), surface_takes(), as_emitted())

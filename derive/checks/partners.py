@@ -1,4 +1,4 @@
-"""Unequal partners: what a general pair conserves (found, not assumed), its friction, its equal and its wall limit."""
+"""Unequal partners: conserved quantities of a general pair (found by nullspace), friction, equal and wall limits."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ _PAIR, _WALL = (Structure(True, True, False, attraction=True, partner=partner) f
 
 
 def conserved_momenta() -> list[dict[str, sp.Expr]]:
-    """Every linear combination of the pair's momenta whose rate vanishes whatever the forces, by their coordinates.
+    """Linear combinations of the pair's momenta, by coordinate, whose rate vanishes for any forces.
 
-    The tangential force is the one that the torques leave: r F_t = T_1 + T_2.
+    The tangential force follows from the torques: r F_t = T_1 + T_2.
     """
     motion = bodies.equations_of_motion()
     balance = {bodies.F_t: (bodies.T_1 + bodies.T_2) / bodies.r}
@@ -51,7 +51,7 @@ def conserved_momenta() -> list[dict[str, sp.Expr]]:
 
 
 def momenta_are_found() -> Check:
-    """Linear momentum and total angular momentum, and nothing else that is linear in the momenta."""
+    """Linear momentum and total angular momentum are the only invariants linear in the momenta."""
     found = conserved_momenta()
     expected = [{"X": 1}, {"Y": 1}, {"beta": 1, "alpha_1": 1, "alpha_2": 1}]
     missing = [each for each in expected if each not in found] + [each for each in found if each not in expected]
@@ -64,7 +64,7 @@ def momenta_are_found() -> Check:
 
 
 def angular_momentum_is_kept() -> Check:
-    """The emitted equations keep the emitted angular momentum, for any laws with the midgap arm."""
+    """The emitted equations conserve the emitted angular momentum, for any laws with the lever arm at mid-gap."""
     model = derive(_PAIR)
     momentum = opened(model, dict(model["angular_momentum"].outputs)["angular_momentum"])
     rates = opened_rates(model)
@@ -76,7 +76,7 @@ def angular_momentum_is_kept() -> Check:
 
 
 def energy_is_accounted_for() -> Check:
-    """Kinetic energy changes by what film, shear, bridge and attraction take, beside pair and wall."""
+    """The kinetic energy changes by the work of film, shear, bridge and attraction only, for pair and wall."""
     left = []
     for structure in (_PAIR, _WALL):
         model = derive(structure)
@@ -87,11 +87,11 @@ def energy_is_accounted_for() -> Check:
 
 
 def friction_dissipates() -> Check:
-    """The torque matrix is symmetric (Lorentz) and positive definite, and no force is left in rigid rotation."""
+    """The torque matrix is symmetric (Lorentz) and positive definite, and the force vanishes in rigid rotation."""
     matrix = rolling.torque_matrix()
     positive = bool(matrix[0, 0].is_positive and sp.expand(matrix.det()).is_positive)
     left = [matrix[0, 1] - matrix[1, 0]]
-    # the force by stress and pressure on a sphere is what the torques leave of dL/dt = 0
+    # the force from stress and pressure on a sphere agrees with the torques and dL/dt = 0
     reduced = rolling.R_1 * rolling.R_2 / (rolling.R_1 + rolling.R_2)
     by_torque = (matrix[0, :] + matrix[1, :]) / (rolling.R_1 + rolling.R_2)
     left += [sp.simplify(each.subs(a, reduced)) for each in by_torque - rolling.force_on_second()]
@@ -131,7 +131,7 @@ def published_logarithms() -> Check:
 
 
 def equal_is_the_doublet() -> Check:
-    """A pair of ratio 1 keeps its spins equal, and is then the doublet of two equal spheres."""
+    """A pair of ratio 1 keeps its spins equal, and is then the doublet of equal spheres."""
     left = []
     pair, equal = derive(_PAIR), derive(Structure(True, True, False, attraction=True))
     together = {radius_ratio: 1, mass_ratio: 1, partner_spin: spin}
@@ -154,10 +154,10 @@ def _outputs_differ(pair: Model, equal: Model, together: dict[sp.Symbol, sp.Expr
 
 
 def slip_energy_adds() -> Check:
-    """The energy of a state is that of rigid rotation with its angular momentum and that of its deviation from it.
+    """The energy of a state is that of rigid rotation with its angular momentum plus that of its deviation from it.
 
-    So the orbit of a doublet that keeps gap and angular momentum never exceeds the rigid one by more than what its slip
-    energy takes (`solvers.proofs.barrier`, resting contact).
+    So at a given gap and angular momentum, J exceeds its value in rigid rotation by no more than its slip energy allows
+    (`solvers.certificates.barrier`, resting contact).
     """
     left = []
     for structure in (_PAIR, replace(_PAIR, partner="")):
@@ -171,10 +171,10 @@ def slip_energy_adds() -> Check:
 
 
 def wall_is_head_on() -> Check:
-    """Beside a wall the motion along the line of centres is the head-on one, whatever goes on across it.
+    """Beside a wall the motion along the line of centres is the head-on one, independent of the tangential motion.
 
-    Its rates, what reverses and ends it, and what proves it are those of the head-on structure, expression by
-    expression: a head-on stick, bounce or proof is the oblique one.
+    Its rates, its events and its certificate are those of the head-on structure, expression by expression: a stick,
+    bounce or certificate of the head-on structure is one of the oblique structure.
     """
     beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
     rates, expected = emitted_rates(beside), emitted_rates(alone)

@@ -1,6 +1,7 @@
-"""Certificate on strings: each of its steps, on the emitted equations (equations/certificates/pendulum.py joins them).
+"""Checks of the pendulum certificate: each of its steps, on the emitted equations.
 
-That the emitted margins are these bounds where they are worst is for `margins`.
+`equations/certificates/pendulum.py` combines the steps; `margins` checks that the emitted margins are these bounds in
+the worst case.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ from .margins import margins
 _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
 _COS = sp.Symbol("half_angle_cosine", nonnegative=True)
-_BEYOND = sp.Symbol("beyond", nonnegative=True)  # what is left of a quantity above its least value
+_BEYOND = sp.Symbol("beyond", nonnegative=True)  # a quantity minus its least value
 
 
 def _model() -> Model:
@@ -49,7 +50,7 @@ def _midgap(expression: sp.Expr) -> sp.Expr:
 
 
 def momentum_falls() -> Check:
-    """dL/dt = -r S_t, and S_t has the sign of sin(beta): without the strings nothing turns the doublet."""
+    """dL/dt = -r S_t, and S_t has the sign of sin(beta); only the strings exert a torque on the doublet."""
     found = emitted_rates(_model())
     total = _midgap(found[orbital_momentum] + sp.Rational(32, 5) * found[spin])
     lever = sp.sin(beta) * sp.Function("strings.stiffness", real=True)(string_ratio, _swing())
@@ -65,7 +66,7 @@ def _swing() -> sp.Expr:
 
 
 def _positive(expression: sp.Expr) -> bool | None:
-    """Whether a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
+    """True if a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
     top, bottom = sp.fraction(sp.together(sp.expand(expression)))
     return all(
         all(coefficient >= 0 for coefficient in sp.Poly(part, *sorted(part.free_symbols, key=str)).coeffs())
@@ -76,14 +77,14 @@ def _positive(expression: sp.Expr) -> bool | None:
 
 
 def orbital_momentum_is_bounded() -> Check:
-    """J falls wherever it exceeds the rigid body's share of L, and that share grows with the gap and with L."""
+    """J decreases where it exceeds its share of L in rigid rotation, and that share grows with the gap and with L."""
     model = _model()
     momentum = orbital_momentum + sp.Rational(32, 5) * spin
     share = rigid_momentum(momentum, DISTANCE)
     slip = model.expanded(orbital_momentum / DISTANCE**2 - spin).subs(DISTANCE, 4 + aspect * gap)
     inverse = (1 / DISTANCE**2 + sp.Rational(5, 32)).subs(DISTANCE, 4 + aspect * gap)
     identity = slip - (orbital_momentum - share.subs(DISTANCE, 4 + aspect * gap)) * inverse
-    # dJ/dt holds nothing but the shear, which has the sign of the slip, and the strings
+    # dJ/dt contains only the shear, with the sign of the slip, and the strings
     log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
     without = emitted_rates(model)[orbital_momentum].subs(log_factor, 0)
     shear = sp.simplify((emitted_rates(model)[orbital_momentum] - without) / (SHEAR * log_factor * slip))
@@ -107,13 +108,13 @@ def orbital_momentum_is_bounded() -> Check:
 
 
 def pull_grows() -> tuple[Check, ...]:
-    """S_n grows with the gap and with the angle, for either strings."""
+    """S_n grows with the gap and with the angle, for both string laws."""
     checks = []
     for name, law in LAWS["strings"].items():
         pull = filled(pull_at(gap, beta), {"strings": law}).subs(sp.sin(beta / 2), _HALF)
         # 2 * stiffness'/stiffness^3 > 0 and swing' > 0, numerator' > 0: written out in d(pull)
         stiffness = law["stiffness"].result
-        hanging = sp.Symbol("hanging", positive=True)  # string_ratio^2 - offset_squared, the strings' height squared
+        hanging = sp.Symbol("hanging", positive=True)  # vertical extent squared, string_ratio^2 - offset_squared
         steeper = stiffness.diff(offset_squared).subs(offset_squared, string_ratio**2 - hanging)
         swing = (aspect * gap) ** 2 / 4 + (4 + aspect * gap) * 4 * _HALF**2
         across = sp.simplify(pull / stiffness.subs(offset_squared, swing))
@@ -131,14 +132,14 @@ def pull_grows() -> tuple[Check, ...]:
 
 
 def centrifugal_falls() -> Check:
-    """At a given J the centrifugal force falls with the distance."""
+    """At a given J the centrifugal force decreases with the distance."""
     level = sp.Symbol("momentum", positive=True)
     slope = outward_at(level, DISTANCE).diff(DISTANCE)
     return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", bool(_positive(-slope)), f"{sp.factor(slope)}")
 
 
 def film_stops() -> Check:
-    """Opening under an inward force, u - stopping(gap)/St never grows: `stopping` is the resistance's integral."""
+    """While opening against an inward force, u - stopping(gap)/St never grows."""
     law = LAWS["film"]["finite"]
     left = [
         law["stopping"].result.diff(gap) + law["resistance"].result,
@@ -153,7 +154,7 @@ def film_stops() -> Check:
 
 
 def criterion_reach() -> tuple[Check, ...]:
-    """The glass criterion is met at `reach` for a given speed, further out for a faster one, and never beyond."""
+    """`reach` is the largest gap at which the glass criterion is met for a given speed, and grows with the speed."""
     checks = []
     speed = sp.Symbol("approach", positive=True)
     for name, law in LAWS["glass"].items():
@@ -176,7 +177,7 @@ def criterion_reach() -> tuple[Check, ...]:
 
 @cache
 def pendulum_certificate() -> tuple[Check, ...]:
-    """Every step of the stick proof on strings."""
+    """Every step of the pendulum certificate."""
     return (
         momentum_falls(),
         orbital_momentum_is_bounded(),

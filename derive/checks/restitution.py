@@ -1,4 +1,4 @@
-"""How e_n can exceed 1: its exact decomposition by the ledger, and a ceiling in closed form from L and the energy."""
+"""The excess of e_n over 1: its exact decomposition by the ledger, and an upper bound from L and the energy."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ _work = sp.Symbol("W_c", real=True)  # of the bridge, W_c(x_f) - W_c(x0)
 
 
 def ceiling() -> sp.Expr:
-    """Largest e_n^2 that L and the ledger allow a free doublet, W_c kept and every other loss dropped, in SI.
+    """Upper bound of e_n^2 of a free doublet from L and the ledger, keeping W_c and dropping every other loss, in SI.
 
-    e_n^2 m v0^2/2 = T(0) - T_rot(t_f) - W_c - losses, and of all (omega_f, xi_f) with the L of the start the one of
-    least rotational energy is taken: stationary, and a minimum, for the energy is convex there.
+    e_n^2 m v0^2/2 = T(0) - T_rot(t_f) - W_c - losses. Among all (omega_f, xi_f) with the initial L, the one with the
+    least rotational energy is used: a stationary point, and a minimum because the energy is convex.
     """
     motion, at_start = equations_of_motion(), start_values()
     energy, momentum = motion.kinetic_energy, motion.angular_momentum
@@ -53,7 +53,7 @@ def ceiling() -> sp.Expr:
 
 
 def ceiling_is_the_published() -> Check:
-    """The derived ceiling is 1 + (r0 tan/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), and what is emitted is it."""
+    """The derived bound and the emitted one are 1 + (r0 tan/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2)."""
     found = ceiling()
     start_distance, inertia = r.subs(x, x0), doublet_inertia().subs(x, _final)
     oblique = (start_distance * sp.tan(theta0) / (4 * a)) ** 2
@@ -66,7 +66,7 @@ def ceiling_is_the_published() -> Check:
         model = derive(structure)
         emitted = model.expanded(dict(model["restitution_ceiling"].outputs)["squared"])
         left.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
-        if structure.oblique:  # from 1 upwards with the angle, and with the gap, for I grows with x
+        if structure.oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
             left.append(emitted.subs({obliquity: 0}) - 1)
             grows &= sp.factor(emitted.diff(gap) / obliquity**2).is_positive is True
     check = vanishing(
@@ -79,16 +79,16 @@ def ceiling_is_the_published() -> Check:
 
 
 def decomposition() -> Check:
-    """e_n^2 - 1 is the rotational energy released less everything that is taken, over m v0^2/2: the ledger, exactly.
+    """e_n^2 - 1 is the rotational energy released minus all losses, over m v0^2/2: exactly the ledger.
 
-    It holds at the start, where nothing is released or taken; the emitted equations and energy_rates keep it in
-    trajectory, the emitted jump and rebound_loss at a rebound. What is taken is the rotation's, and T's part in u is
-    e_n^2/2, at every instant.
+    Both sides vanish at the start. The emitted equations and energy_rates keep them equal along the trajectory, the
+    emitted jump and rebound_loss at a rebound. The energy released is rotational, and the normal part of T is e_n^2/2,
+    at all times.
     """
     left = []
     for structure in structures():
         if structure.reduced:
-            continue  # its shear is read off L, not off energy_rates
+            continue  # its shear loss follows from L and not from energy_rates
         model = derive(structure)
         kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"])
         start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states}
@@ -96,11 +96,12 @@ def decomposition() -> Check:
         lost = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
         turning = sp.expand(kinetic - normal_velocity**2 / 2)
         released = turning.subs(start, simultaneous=True) - turning
-        # opening^2 - 1 - 2 (released - taken), `taken` being the integral of energy_rates and the strings' rise
+        # normal_velocity^2 - 1 - 2 (released - taken); `taken` is the integral of energy_rates plus the strings' energy
         open_by = normal_velocity**2 - 1 - 2 * released
         left.append(open_by.subs(start, simultaneous=True))
         left.append(open_by.subs(jump, simultaneous=True) + 2 * lost - open_by)
-        left.append(energy_balance(structure))  # half its rate, for opening^2/2 + turning is all of `kinetic`
+        # half its rate, since normal_velocity^2/2 + the rotational energy is `kinetic`
+        left.append(energy_balance(structure))
         left.append(turning.diff(normal_velocity))
     return vanishing(
         "decomposition of e_n^2 - 1",
@@ -110,7 +111,7 @@ def decomposition() -> Check:
 
 
 def rotation_can_be_released() -> Check:
-    """What a rigidly turning doublet can release grows with the gap: I(x) does, and L^2/(2 I) falls."""
+    """The energy that rigid rotation can release grows with the gap: I(x) grows and L^2/(2 I) decreases."""
     momentum = equations_of_motion().angular_momentum.subs(start_values()).subs(initial_rate(), omega)
     least = momentum**2 / (2 * doublet_inertia())
     slope = sp.factor(least.diff(x))

@@ -1,4 +1,4 @@
-"""Proofs that an expression is not negative: products of squares and of factors whose sign is known on the region."""
+"""Proofs that an expression is not negative, by products of squares and of factors with known sign on a region."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ _beyond = sp.Symbol("y", nonnegative=True)
 
 @dataclass(frozen=True)
 class Sign:
-    """What is known of the sign of an expression on a region.
+    """The result of a proof about the sign of an expression on a region.
 
     Arguments:
-        proved: True if it is shown not to be negative, False if it is negative at `shown`, None if neither.
-        shown: the product that shows it, or the point that refutes it.
+        proved: True if the expression is never negative, False if it is negative at `shown`, None if undecided.
+        shown: the product that proves it, or the point that refutes it.
     """
 
     proved: bool | None
@@ -23,11 +23,11 @@ class Sign:
 
 
 def nonnegative(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
-    """Whether `expression` is >= 0 for 0 < variable <= edge, other symbols by their own assumptions.
+    """Proof that `expression` is >= 0 for 0 < variable <= edge, other symbols by their own assumptions.
 
-    Shown as it stands, or with variable = edge/(1 + y) or edge exp(-y), y >= 0, which is the same region: a product
-    of even powers, exponentials and nonnegative symbols, or a quotient of sums of such. If that fails it is evaluated
-    on a grid, where a negative value refutes it.
+    The proof uses the expression as given, or with variable = edge/(1 + y) or edge exp(-y), y >= 0, which is the same
+    region: a product of even powers, exponentials and nonnegative symbols, or a quotient of sums of such. If that fails
+    it is evaluated on a grid, where a negative value refutes it.
     """
     ways = (("", variable), (f"{edge}/(1 + y)", edge / (1 + _beyond)), (f"{edge} exp(-y)", edge * sp.exp(-_beyond)))
     for text, value in ways:
@@ -39,7 +39,7 @@ def nonnegative(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign
 
 
 def _known(form: sp.Expr) -> bool:
-    """Whether sympy knows each factor's sign, or each term's of its numerator and denominator multiplied out."""
+    """True if sympy knows the sign of each factor, or of each term of numerator and denominator when expanded."""
     if form.is_nonnegative:
         return True
     top, bottom = sp.fraction(sp.together(form))

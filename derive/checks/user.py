@@ -1,4 +1,4 @@
-"""What must hold of a user's model: dimensions, invariants, dissipation, limits; each check by its name."""
+"""Checks of a user's model by name: dimensions, invariants, dissipation, limits."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..vocabulary.quantities import contact_angle, volume
 from .base import Check
 from .words import torque
 
-# Values at which laws are tried, by argument; anything else is a group, tried over four decades.
+# Values of the arguments at which laws are tried; any other argument is a group, tried over four decades
 _TRIED: Mapping[str, tuple[float, ...]] = {
     "gap": (1e-3, 0.01, 0.1, 0.3, 0.7, 0.99),
     "distance": (4.001, 4.1, 4.5, 6.0),
@@ -33,13 +33,13 @@ _TRIED: Mapping[str, tuple[float, ...]] = {
     "offset_squared": (0.0, 1.0, 4.0),
     "string_ratio": (20.0, 100.0),
 }
-_PARTS_OF_RUPTURE = (1e-4, 0.01, 0.1, 0.3, 0.6, 1.0)  # of x_f, at which a bridge's force is tried
-_EQUAL = 1e-12  # relative
+_PARTS_OF_RUPTURE = (1e-4, 0.01, 0.1, 0.3, 0.6, 1.0)  # fractions of x_f at which a bridge force is tried
+_EQUAL = 1e-12  # relative tolerance
 _SIGNED = ("film.resistance", "shear.log_factor", "glass.pressure")
 
 
 def model_checks(path: Path, text: str | None = None, name: str = "") -> tuple[UserModel | None, tuple[Check, ...]]:
-    """The model of a file, None if it cannot be expressed, and every check of it.
+    """The model of a file, None if it cannot be derived, and every check of it.
 
     Raises:
         ModelFileError: the file is not a model file.
@@ -57,7 +57,7 @@ def model_checks(path: Path, text: str | None = None, name: str = "") -> tuple[U
 
 
 def checks_of(model: UserModel) -> tuple[Check, ...]:
-    """Every check of a model that can be expressed."""
+    """Every check of a model that can be derived."""
     functions = sum(len(law.functions) for law in model.laws)
     found = [Check("dimensions", "every term has the dimension that it must have", True, f"{functions} functions")]
     named = ", ".join(str(group.symbol) for group in model.groups) or "none but the library's"
@@ -163,7 +163,7 @@ def _stiffness(law: Law, label: str) -> Check:
 
 
 def _without(model: UserModel, law: Law, symbol: sp.Symbol, label: str) -> Iterator[Check]:
-    """Which law of the library is left where a quantity is zero, by values; reported, not demanded."""
+    """The law of the library that remains if a quantity is zero, by values; reported, not required."""
     for known in LAWS[law.slot].values():
         if all(_same(model, law, function, known, symbol) for function in law.functions):
             statement = f"without {symbol.name} it is a law of the library"

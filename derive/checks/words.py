@@ -1,4 +1,4 @@
-"""What a user's model conserves, and which groups govern it, in words."""
+"""Conserved quantities and governing groups of a user's model, in words."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from .closed import filled
 from .conservation import momentum_rate
 
 _ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"
-_FULL = Structure(True, True, False)  # oblique, with a bridge, nothing that exerts a torque
+_FULL = Structure(True, True, False)  # oblique, with a bridge, without a torque from strings
 
 
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
-    """dL/dt without strings, scaled, along the equations with the model's own laws; others left open but the arm."""
+    """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
     own = {slot: model.default(slot) for slot in model.slots}
     arm = law or own.get("arm") or LAWS["arm"]["midgap"]
     rate = momentum_rate(_FULL, {"arm": arm})
@@ -29,14 +29,14 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
 
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
-    """What stays the same along a trajectory without strings and without solids, whatever the other laws are."""
+    """The conserved quantities without strings and rebounds, for any other laws."""
     arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
     found = invariants(model.extended(derive(_FULL)), {"arm": arm})
     return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in found)
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:
-    """Sentences: what is conserved, where the energy goes, which groups govern an oblique collision with a bridge."""
+    """Sentences on conserved quantities, dissipation, and the groups of an oblique collision with a bridge."""
     if conserved(model):
         lines = [f"Conserved without strings, for every law in the other slots: {'; '.join(conserved(model))}."]
     else:

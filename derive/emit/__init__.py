@@ -1,1 +1,1 @@
-"""Emission: derived equations as readable Python modules that build CasADi expressions."""
+"""Emission of the derived equations: Python modules with CasADi expressions, C headers, and documents."""

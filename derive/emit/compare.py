@@ -1,4 +1,4 @@
-"""Two models as mathematics: which equation differs, and in which term."""
+"""Comparison of two models as mathematics: the equations that differ, by term."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SAME, _POINTS = 1e-11, 4
 
 @dataclass(frozen=True)
 class Change:
-    """A term of an equation that is changed, added (`before` is None) or removed (`after` is None)."""
+    """A term of an equation that was changed, added (`before` is None) or removed (`after` is None)."""
 
     equation: str
     before: sp.Expr | None
@@ -32,13 +32,13 @@ class Change:
 
 
 def equations(modules: Mapping[str, str]) -> Equations:
-    """Every equation of emitted modules.
+    """Every equation of emitted modules, by name.
 
     Arguments:
         modules: room -> text of the module; a law's equations are named after its room (its slot).
 
     Raises:
-        ReadError: a text that was not emitted.
+        ReadError: a text is not that of an emitted module.
     """
     found: Equations = {}
     for room, text in modules.items():
@@ -59,7 +59,7 @@ def _named(room: str, function: Read) -> Equations:
 
 
 def compare(before: Equations, after: Equations) -> tuple[Change, ...]:
-    """The terms in which two models differ, equation by equation."""
+    """The terms that differ between two models, equation by equation."""
     found: list[Change] = []
     for name in dict.fromkeys([*before, *after]):
         if name not in after:
@@ -72,7 +72,7 @@ def compare(before: Equations, after: Equations) -> tuple[Change, ...]:
 
 
 def same(one: sp.Expr, other: sp.Expr) -> bool:
-    """Whether two expressions are equal: as written, or in value at points drawn (a simplification may never end)."""
+    """True if two expressions are equal, as written or in value at random points (simplification may not end)."""
     if one == other:
         return True
     calls = {node: sp.Symbol(f"call {node}", positive=True) for e in (one, other) for node in e.atoms(AppliedUndef)}
@@ -115,7 +115,7 @@ def _terms(name: str, before: sp.Expr, after: sp.Expr) -> Iterable[Change]:
 
 
 def _factors(term: sp.Expr) -> sp.Expr:
-    """A term without its number: terms that differ in it alone are one term, changed."""
+    """A term without its numeric factor; terms that differ only in that factor are one changed term."""
     return term.as_coeff_Mul()[1]
 
 
@@ -124,12 +124,12 @@ def _symbols(term: sp.Expr) -> frozenset[str]:
 
 
 def plain(expression: sp.Expr) -> str:
-    """An expression as text, decimals as decimals."""
+    """An expression as text, with decimals as decimals."""
     return str(sp.sstr(_decimal(expression), full_prec=False))
 
 
 def typeset(expression: sp.Expr) -> str:
-    """An expression in LaTeX, in the vocabulary's symbols where it has them."""
+    """An expression in LaTeX, in the symbols of the vocabulary where it has them."""
     shown = _decimal(expression)
     names = {symbol: NAMES.get(symbol.name, _upright(symbol.name)) for symbol in shown.free_symbols}
     return str(sp.latex(shown, symbol_names=names))

@@ -1,4 +1,4 @@
-"""One emitted module by name, for what is derived when it is first needed."""
+"""Text of a single emitted module by name, for modules derived on first use."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ def structure_text(name: str) -> str:
 
 
 def user_structure_text(source: str, model: str, name: str) -> str:
-    """Text of a structure's module with the calls of a user's model, from the text of the model file."""
+    """Text of a structure's module with the calls of a user's model, given as the text of the model file."""
     found = read(Path(f"{model}.py"), source, model)
     return structure_module(found.extended(derive(named(name))), own_names(found))
 
 
 def structure_header_text(name: str) -> str:
-    """Text of a structure's C header for the kernel; `#error` and a sentence where it has none."""
+    """Text of a structure's C header for the kernel; `#error` and a sentence if it has none."""
     try:
         return structure_kernel(derive(named(name)))
     except EmissionError as error:
@@ -52,7 +52,7 @@ def structure_header_text(name: str) -> str:
 
 
 def structure_tangent_text(name: str) -> str:
-    """Text of the C header of a structure's tangent; `#error` and a sentence where it has none."""
+    """Text of the C header of a structure's tangent; `#error` and a sentence if it has none."""
     try:
         return structure_tangent(derive(named(name)))
     except EmissionError as error:
@@ -60,7 +60,7 @@ def structure_tangent_text(name: str) -> str:
 
 
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
-    """The same of a structure, or of its tangent, with the calls and groups of a user's model."""
+    """Text of the C header of a structure, or of its tangent, with the calls and groups of a user's model."""
     found = read(Path(f"{model}.py"), source, model)
     own = own_names(found)
     meanings = {name: meaning for name, (_, meaning) in own.items()}
@@ -73,9 +73,9 @@ def user_structure_header_text(source: str, model: str, name: str, tangent: bool
 
 
 def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: bool = False) -> str:
-    """Text of a law's C header, or of that with its slopes, as the structures of a user's model call it.
+    """Text of a law's C header, or of that with its derivatives, as the structures of a user's model call it.
 
-    Of a law of the model or the library.
+    The law may be one of the model or of the library.
     """
     found = read(Path(f"{model}.py"), source, model)
     groups = {group.symbol for group in found.groups}
@@ -91,7 +91,7 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
 
 
 def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
-    """A law of the library that takes no notice of what a model's calls pass beside; and what of that stands still."""
+    """A law of the library that ignores a model's additional arguments, and the constant ones among these."""
     still: set[sp.Symbol] = set()
     functions = []
     for each in law.functions:

@@ -1,4 +1,4 @@
-"""Emitted modules read back as mathematics: text to sympy expressions, without running any of it."""
+"""Parsing of emitted modules: text to sympy expressions, without executing it."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ _RELATIONS: dict[type, type] = {ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, as
 
 
 class ReadError(ValueError):
-    """The text is not of an emitted module; the message names what is foreign in it."""
+    """The text is not that of an emitted module; the message names the foreign construct."""
 
 
 @dataclass(frozen=True)
 class Read:
-    """A function of an emitted module: named intermediates in order, and outputs (one under its own name)."""
+    """A function of an emitted module: named intermediates in order, and outputs (one under the function's name)."""
 
     name: str
     definitions: tuple[tuple[str, sp.Expr], ...]
@@ -45,7 +45,7 @@ def functions(text: str) -> tuple[Read, ...]:
     """Every function of an emitted law, structure or scaling module.
 
     Raises:
-        ReadError: something in it that is never emitted.
+        ReadError: the text contains something that is never emitted.
     """
     try:
         tree = ast.parse(text)
@@ -59,9 +59,9 @@ def _function(node: ast.FunctionDef) -> Read:
     outputs: list[tuple[str, sp.Expr]] = []
     for statement in node.body:
         if isinstance(statement, ast.Expr):
-            continue  # the docstring
+            continue  # docstring
         if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-            if not isinstance(statement.value, ast.Subscript):  # a state or group by its own name
+            if not isinstance(statement.value, ast.Subscript):  # a state or group assigned to its own name
                 definitions.append((statement.targets[0].id, _expression(statement.value)))
         elif isinstance(statement, ast.Return) and isinstance(statement.value, ast.Dict):
             for key, value in zip(statement.value.keys, statement.value.values, strict=True):
@@ -70,7 +70,7 @@ def _function(node: ast.FunctionDef) -> Read:
             outputs.append((node.name, _expression(statement.value)))
         else:
             raise ReadError(f"line {statement.lineno}: {type(statement).__name__}")
-    if definitions and definitions[-1][0] == "result":  # a law's result that is too long for its return
+    if definitions and definitions[-1][0] == "result":  # a result of a law that is too long for the return statement
         return Read(node.name, tuple(definitions[:-1]), ((node.name, definitions[-1][1]),))
     return Read(node.name, tuple(definitions), tuple(outputs))
 

@@ -1,4 +1,4 @@
-"""Source text of emitted functions: docstrings, assignments in order, long sums broken at their terms."""
+"""Source text of emitted Python functions: docstrings, assignments in order, long sums broken at their terms."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ INDENT = "    "
 
 
 def docstring(text: str, indent: str = "") -> list[str]:
-    """Lines of a docstring; the first paragraph opens it."""
+    """Lines of a docstring; its first paragraph is the first line."""
     paragraphs = text.strip("\n").split("\n")
     wrapped: list[str] = []
     for paragraph in paragraphs:
@@ -29,7 +29,7 @@ def docstring(text: str, indent: str = "") -> list[str]:
 
 
 def assignment(name: str, expression: sp.Expr, printer: Printer) -> list[str]:
-    """`name = expression`, a sum too long for a line broken term by term."""
+    """`name = expression`, with a sum too long for one line broken at its terms."""
     line = f"{INDENT}{name} = {printer(expression)}"
     if len(line) <= WIDTH:
         return [line]
@@ -45,14 +45,14 @@ def assignment(name: str, expression: sp.Expr, printer: Printer) -> list[str]:
 
 
 def operations(expressions: Iterable[sp.Expr]) -> int:
-    """Arithmetic operations and function calls in the expressions."""
+    """Number of arithmetic operations and function calls in the expressions."""
     return sum(int(sp.count_ops(expression)) for expression in expressions)
 
 
 def needed(
     outputs: Sequence[sp.Expr], definitions: Sequence[tuple[sp.Symbol, sp.Expr]]
 ) -> tuple[list[tuple[sp.Symbol, sp.Expr]], set[sp.Symbol]]:
-    """The definitions that the outputs reach, in order, and every symbol that occurs in either."""
+    """The definitions that the outputs depend on, in order, and every symbol that occurs in either."""
     used: set[sp.Symbol] = set()
     for expression in outputs:
         used |= sp.sympify(expression).free_symbols
@@ -65,7 +65,7 @@ def needed(
 
 
 def module(header: str, doc: str, imports: Sequence[str], body: Sequence[str]) -> str:
-    """A whole module."""
+    """Text of a module."""
     lines = [f"# {line}" for line in header.splitlines()]
     lines += [*docstring(doc), "", "from __future__ import annotations", ""]
     if imports:

@@ -1,6 +1,6 @@
-"""A user's model as a package of emitted files: laws, structures they change, groups, a manifest.
+"""A user's model as a package of emitted files: laws, the structures they change, groups, and a manifest.
 
-The manifest has a digest of every file; `model.py` is the model file itself, from which all can be derived again.
+The manifest has a digest of every file. `model.py` is the model file itself, from which the rest can be derived again.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ from .write import sha256
 
 FORMAT = 1
 SOURCE = "model.py"
-_DOC = "The dimensionless groups of this model beside the library's, from SI quantities.\n\nAs the library's `scaling`."
+_DOC = (
+    "The dimensionless groups that this model adds, from SI quantities.\n\nSame interface as the library's `scaling`."
+)
 
 
 def package(model: UserModel, source: str, library: str, origin: str = "") -> dict[str, str]:
@@ -36,7 +38,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
 
     Arguments:
         source: text of the model file.
-        library: digest of the library's own equations, on which the model is built.
+        library: digest of the library's own equations, which the model extends.
         origin: path of the model file as seen from the package.
     """
     own = own_names(model)
@@ -83,7 +85,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
 
 
 def own_names(model: UserModel) -> Own:
-    """Unit and meaning of the vocabulary and of what the model declares."""
+    """(unit, meaning) of the vocabulary and of the model's declarations, by name."""
     known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
     known |= {one.name: (one.unit, one.meaning) for one in model.declarations.quantities.values()}
     for group in model.groups:
@@ -108,7 +110,7 @@ def _quantity(model: UserModel, name: str) -> dict[str, object]:
 
 
 def earlier(folder: Path) -> set[str]:
-    """Relative paths of the files of a package that has been written into a folder; others are not among them."""
+    """Relative paths of the files of a package in a folder, according to its manifest; other files are not listed."""
     try:
         listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["files"]
     except (OSError, ValueError, KeyError, TypeError):
@@ -118,7 +120,7 @@ def earlier(folder: Path) -> set[str]:
 
 
 def differences(files: Mapping[str, str], folder: Path) -> list[str]:
-    """Lines that name each file of a package that is missing from a folder, or differs."""
+    """A line for each file of a package that is missing from a folder or differs."""
     lines = []
     for name, text in files.items():
         path = folder / name

@@ -1,4 +1,4 @@
-"""All emitted modules as texts; the package's own folder beside what would be written."""
+"""Texts of all emitted files, and comparison with the package's own folder."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _package(doc: str) -> str:
 
 
 def sha256(text: str) -> str:
-    """Digest of an emitted file, as manifests have it."""
+    """SHA-256 of an emitted file, as in manifests."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -51,10 +51,10 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     """Relative path -> text of every file of `generated/`, manifest included.
 
     Arguments:
-        chosen: structures that are emitted; those that `generated/` has if None. Others are derived on first use.
+        chosen: structures to emit; None for those in `generated/`. Others are derived on first use.
     """
     files = {
-        "__init__.py": _package("Emitted CasADi modules: a structure a module, laws in `laws`, groups in `scaling`."),
+        "__init__.py": _package("Emitted CasADi modules: one per structure, laws in `laws`, groups in `scaling`."),
         "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
         "assemble.py": f"# {_PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": scaling_module(),
@@ -95,7 +95,7 @@ def check(folder: Path = GENERATED) -> list[str]:
     """Compare `folder` byte for byte with what would be emitted, without importing it.
 
     Returns:
-        Lines: a unified diff of each file that differs, and each file that is missing or extra; empty if identical.
+        Lines: a unified diff of each file that differs, and a line for each missing or extra file; empty if identical.
     """
     expected = emitted()
     lines: list[str] = []

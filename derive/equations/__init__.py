@@ -1,1 +1,1 @@
-"""What is solved: rates, events, observables, invariants and certificates of a structure."""
+"""The equations of a structure: rates, events, observables, invariants and certificates."""

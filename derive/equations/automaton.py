@@ -16,11 +16,11 @@ CLOSING, OPENING = -1, 1
 
 @dataclass(frozen=True)
 class Component:
-    """One part of the mode.
+    """A component of the mode.
 
     Arguments:
         values: pairs of a value and its name.
-        void_without: event without which conditions on this component are void, since the structure does not have it.
+        void_without: conditions on this component are ignored in structures without this event.
     """
 
     name: str
@@ -31,29 +31,29 @@ class Component:
 
 COMPONENTS = (
     Component("film", ((1, "inside the film"), (0, "beyond the film")),
-              "whether the gap is below x0, where the film acts", void_without="film_edge"),
+              "position of the gap relative to x0; the film acts below x0", void_without="film_edge"),
     Component("shear", ((1, "inside the tangential edge"), (0, "beyond the tangential edge")),
-              "whether the gap is below the reach of the tangential force"),
+              "position of the gap relative to the reach of the tangential force"),
     Component("motion", ((CLOSING, "closing"), (OPENING, "opening")), "sign of the normal relative velocity"),
-    Component("resting", ((0, "moving"), (1, "resting")), "whether the gap is held in contact"),
+    Component("resting", ((0, "moving"), (1, "resting")), "resting: the gap is held in contact"),
     Component("cavitated", ((0, "wetting"), (1, "cavitated")),
-              "whether the film cavitates and exerts no force: a cavitating liquid while opening"),
+              "cavitated: the film exerts no force (a cavitating liquid while opening)"),
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Criterion:
-    """A rebound criterion: where it is met, and what is said of it.
+    """A rebound criterion.
 
     Arguments:
-        word: what the report calls it; its event function has the same name.
+        word: its name in reports and of its event function.
         limit: dimensionless group at which it is met: a gap, or a pressure.
-        name: of what it is met at, in texts.
-        sentence: why a collision that met it first has bounced.
-        symbol: of its gap, in pictures.
-        removed_by: quantity and value (SI) with which it is never met.
-        contact: it is met at a gap, that of its limit, and then has a symbol and is removed by a quantity; else it is
-            met where the film's pressure reaches the limit.
+        name: of the gap or pressure `limit`, in texts.
+        sentence: the reason of a bounce in which it was met first.
+        symbol: of its gap, in figures.
+        removed_by: a quantity and the value (SI) for which the criterion is never met.
+        contact: met at the gap `limit`, with a symbol and a quantity that removes it; otherwise met where the film
+            pressure reaches `limit`.
     """
 
     word: str
@@ -66,28 +66,28 @@ class Criterion:
     contact: bool = True
 
     def __post_init__(self) -> None:
-        """Refuse a gap that pictures cannot name or that no quantity removes."""
+        """Reject a contact criterion without a symbol or without a quantity that removes it."""
         if self.contact and not (self.symbol and self.removed_by):
             raise ValueError(f"the rebound criterion {self.word!r} is met at a gap and needs symbol and removed_by")
 
 
-# In the order in which those that already hold where a closing phase starts apply: the first reverses the motion.
+# The order in which criteria that hold at the start of a closing phase apply: the first causes the rebound.
 CRITERIA = (
     Criterion("glass", "glass_number", "glass transition",
               "the film pressure on the axis reaches the glass-transition pressure",
-              "rebound by the glass criterion, the liquid's own pressure", contact=False),
+              "rebounded because the liquid reached its glass transition", contact=False),
     Criterion("elastic", "elastic_gap", "elastic length", "the gap is down to the elastic length",
-              "rebound by the elastic criterion, the spheres' deformation", symbol="x_r",
+              "rebounded by elastic deformation of the spheres", symbol="x_r",
               removed_by=("youngs_modulus", 1e300)),
     Criterion("rough", "rough_gap", "roughness", "the gap is down to the roughness",
-              "rebound by contact of the surfaces' roughness", symbol="x_b", removed_by=("roughness", 0.0)),
+              "rebounded by contact at the surface roughness", symbol="x_b", removed_by=("roughness", 0.0)),
 )  # fmt: skip
 CONTACTS = tuple(each for each in CRITERIA if each.contact)
 
 
 @dataclass(frozen=True)
 class Word:
-    """What the report calls an event. The position in WORDS is its number in the kernel; criteria come first."""
+    """The name of an event in reports. The position in WORDS is its number in the kernel; criteria come first."""
 
     word: str
     meaning: str
@@ -104,7 +104,7 @@ WORDS = (
     Word("fell back", "the normal velocity falls through zero"),
     Word("film edge", "the gap passes x0"),
     Word("tangential edge", "the gap passes the reach of the tangential force"),
-    Word("rests", "a rebound too weak to leave is taken for resting contact"),
+    Word("rests", "a rebound too weak to open the gap is replaced by resting contact"),
     Word("released", "the normal force on a resting doublet turns outward"),
     Word("rupture", "the bridge ruptures; without a bridge, the films part"),
     Word("rotation reverses", "the strings turn the rotation back"),
@@ -114,7 +114,7 @@ WORDS = (
 
 @dataclass(frozen=True)
 class Action:
-    """A step of an event's effect, in symbols."""
+    """A step of the effect of an event, by name."""
 
     name: str
     meaning: str
@@ -126,13 +126,13 @@ ACTIONS = (
     Action("gap = tangential edge", "put the gap on the reach of the tangential force"),
     Action("gap = rupture", "put the gap on the rupture gap"),
     Action("velocity = 0", "the normal velocity is zero"),
-    Action("reverse", "the solids reverse the motion; the rules of a rebound decide what follows"),
-    Action("turn", "closing becomes opening, and opening closing"),
-    Action("cross film edge", "inside becomes beyond; the tangential edge with it where both are one"),
-    Action("cross tangential edge", "inside becomes beyond, and beyond inside"),
-    Action("open", "the doublet opens from where it is; on an edge, beyond it at once"),
+    Action("reverse", "the solids rebound; the rules of a rebound decide the next phase"),
+    Action("turn", "closing becomes opening, and opening becomes closing"),
+    Action("cross film edge", "inside the film becomes beyond; the tangential edge is crossed as well if it coincides"),
+    Action("cross tangential edge", "inside the tangential edge becomes beyond, and beyond becomes inside"),
+    Action("open", "the next phase opens from the present gap; on an edge, it is beyond that edge"),
     Action("separate", "the collision ends: separated"),
-    Action("cut off", "the collision ends: a stick that is not proved"),
+    Action("cut off", "the collision ends: a stick without a certificate"),
 )  # fmt: skip
 
 
@@ -141,14 +141,14 @@ class Event:
     """A guard and its effect. The position in EVENTS is the order of precedence among coincident events.
 
     Arguments:
-        functions: event functions of the structures; of several, the first to vanish counts.
-        where: components and values for which it is watched.
-        follows: the guard is its function times this component: the sign of the motion, or +1 inside and -1 beyond.
-        dips: the function may fall below zero and return within a step of an integrator.
+        functions: event functions of the structures; if several, the first to vanish triggers the event.
+        where: mode components and the values for which it is watched.
+        follows: the guard is the function times this component: the sign of the motion, or +1 inside and -1 beyond.
+        dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
-        scale: dimensionless group that is the size of the function; 1 if empty.
-        words: what may be reported.
-        chosen_by: what selects the word: "motion" (closing, opening), "larger gap" (the criterion met first).
+        scale: dimensionless group that gives the magnitude of the function; 1 if empty.
+        words: names under which it may be reported.
+        chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first).
         actions: the effect, in order.
     """
 
@@ -165,12 +165,12 @@ class Event:
 
     @property
     def ends(self) -> bool:
-        """Whether the collision is over with it."""
+        """True if the event ends the collision."""
         return self.actions[-1] in ENDS
 
     @property
     def rebounds(self) -> bool:
-        """Whether the solids reverse the motion."""
+        """True if the event is a rebound."""
         return self.actions[-1] == "reverse"
 
 
@@ -178,7 +178,7 @@ ENDS = ("separate", "cut off")
 _MOVING, _RESTING = ("resting", 0), ("resting", 1)
 _CLOSING, _OPENING = ("motion", CLOSING), ("motion", OPENING)
 
-# A turn comes first: at zero velocity the solids have nothing to give back, so a touch without speed is no rebound.
+# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound.
 EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
           follows="motion", dips=True, chosen_by="motion"),
@@ -198,7 +198,7 @@ EVENTS = (
 
 @dataclass(frozen=True)
 class Rule:
-    """What is decided where no function vanishes. `words` are reported if it applies."""
+    """A decision that is not taken at a zero of an event function. `words` are reported if the rule applies."""
 
     name: str
     condition: str
@@ -208,8 +208,8 @@ class Rule:
 
 RULES = (
     Rule("entry", "a phase starts closing and not resting, and a rebound criterion already holds",
-         "the first of the criteria, in their order, reverses the motion", tuple(each.word for each in CRITERIA)),
-    Rule("parted", "the solids have reversed the motion at a gap not below the rupture gap",
+         "a rebound by the first of these criteria, in their order", tuple(each.word for each in CRITERIA)),
+    Rule("parted", "a rebound at a gap not below the rupture gap",
          "the collision ends: separated. Without a bridge this is a criterion that holds at initial contact",
          ("rupture",)),
     Rule("rest", "after a rebound the net force points inward, and the rebound is slower than REST_SPEED or, "
@@ -222,7 +222,7 @@ RULES = (
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a collision can end. The position in OUTCOMES is its number everywhere."""
+    """A possible outcome of a collision. The position in OUTCOMES is its number in all results."""
 
     word: str
     name: str
@@ -230,7 +230,7 @@ class Outcome:
 
 
 OUTCOMES = (
-    Outcome("stick", "STICK", "it is proved that the two never separate, or the collision is cut off"),
+    Outcome("stick", "STICK", "a certificate excludes separation, or the collision is cut off"),
     Outcome("stick-rotate-separate", "ROTATE", "separated, and no rebound criterion was met"),
     Outcome("bounce", "BOUNCE", "separated after a rebound criterion was met"),
 )  # fmt: skip
@@ -238,10 +238,10 @@ OUTCOMES = (
 
 @dataclass(frozen=True)
 class Status:
-    """What the kernel says of a collision. The position in STATUSES is its number.
+    """A status returned by the kernel. The position in STATUSES is its number.
 
     Arguments:
-        answers: the outcome stands; else the collision is handed over. Those that answer come first.
+        answers: the outcome is valid; else the caller computes the collision by other means. These statuses come first.
     """
 
     name: str
@@ -251,32 +251,32 @@ class Status:
 
 STATUSES = (
     Status("DECIDED", "the outcome is decided", True),
-    Status("PROVED_AT_TOUCH", "a stick that is proved at initial contact", True),
-    Status("NO_BUDGET", "the steps are spent"),
+    Status("PROVED_AT_TOUCH", "a stick with a certificate at initial contact", True),
+    Status("NO_BUDGET", "the budget of steps is exhausted"),
     Status("NOT_FINITE", "the state is not finite"),
-    Status("CHATTER", "the steps are spent in more than CHATTER_PHASES phases"),
+    Status("CHATTER", "the budget of steps is exhausted after more than CHATTER_PHASES phases"),
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Purpose:
-    """What the kernel integrates a collision for. The position in PURPOSES is its number."""
+    """The part of a trajectory that the kernel integrates. The position in PURPOSES is its number."""
 
     name: str
     meaning: str
 
 
 PURPOSES = (
-    Purpose("WHOLE", "to its end"),
-    Purpose("APPROACH", "until it turns or is reversed; without the glass criterion, and nothing is proved"),
-    Purpose("ESCAPE", "until it separates, falls back or rests; proved a stick only while it approaches"),
+    Purpose("WHOLE", "to the end of the collision"),
+    Purpose("APPROACH", "to the first turning point or rebound; without the glass criterion and certificates"),
+    Purpose("ESCAPE", "until the doublet separates, falls back or rests; with certificates only while it approaches"),
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Constant:
-    """A number in the rules."""
+    """A constant of the rules."""
 
     name: str
     value: float | int
@@ -284,14 +284,14 @@ class Constant:
 
 
 CONSTANTS = (
-    Constant("REST_SPEED", 1e-9, "of v0: a slower rebound into an inward force rests"),
-    Constant("MOST_OBLIQUE", 1e9, "of v0^2/x0: a larger centrifugal force turns the motion within rounding of x0"),
-    Constant("LOOSEST", 1e-6, "relative tolerance: a looser one is tightened to it, or sticks stay unproved"),
-    Constant("SAFETY", 30.0, "a proof holds by more than this many times the tolerance of the largest energy: an "
-             "error made when the motion was fastest stays in it, and errors of many steps add up"),
-    Constant("CHATTER_PHASES", 100, "phases: more are rebound after rebound, and no approach and escape"),
-    Constant("FILM_DEPTHS", 16, "steps of equal ratio from the gap to contact, at each of which the film certificate "
-             "bounds the pressure"),
-    Constant("ATTRACTED_FILM_DEPTHS", 48, "the same beside an attraction, which a small gap makes large"),
-    Constant("LEAST_DEPTH", 1e-40, "of the gap: where no contact is met, the film certificate looks no deeper"),
+    Constant("REST_SPEED", 1e-9, "in v0: a slower rebound against an inward force rests"),
+    Constant("MOST_OBLIQUE", 1e9, "in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0"),
+    Constant("LOOSEST", 1e-6, "largest relative tolerance; a larger one is reduced to it, as certificates need it"),
+    Constant("SAFETY", 30.0, "least margin of a certificate in tolerances of the largest energy: errors of the fastest "
+             "motion persist in the energy, and errors of many steps add up"),
+    Constant("CHATTER_PHASES", 100, "number of phases beyond which a trajectory is treated as chatter"),
+    Constant("FILM_DEPTHS", 16, "gaps in geometric sequence down to contact at which the film certificate bounds the "
+             "pressure"),
+    Constant("ATTRACTED_FILM_DEPTHS", 48, "the same with an attraction, which grows at small gaps"),
+    Constant("LEAST_DEPTH", 1e-40, "least gap, relative to the present one, of the film certificate without contact"),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Where a trajectory starts, the events that end its phases, and the jump at a rebound with what it costs."""
+"""Initial state, event functions, and the jump of the state at a rebound with its energy loss."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from .automaton import CONTACTS
 from .rates import inward_force
 
 CONTACT_GAPS = {each.word: VOCABULARY[each.limit].symbol for each in CONTACTS}
-contact_gap = sp.Max(*CONTACT_GAPS.values())  # where the solids meet
+contact_gap = sp.Max(*CONTACT_GAPS.values())  # gap at which the solids meet
 
 
 def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
-    """State at initial contact: closing at v0, the line of centres turning and nothing spinning."""
+    """State at initial contact: closing at v0, the line of centres turning at omega0, no spin."""
     touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), normal_velocity: sp.Integer(-1)}
     if structure.partner:
         return touching | dict(rotation(structure.partner).start)
@@ -39,7 +39,7 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 
 
 def events(structure: Structure) -> dict[str, sp.Expr]:
-    """Event functions, each positive before its event."""
+    """Event functions by name, each positive before its event."""
     functions: dict[str, sp.Expr] = {
         "glass": glass_number - slot_call("glass", "pressure", gap, -normal_velocity),
         **{word: gap - limit for word, limit in CONTACT_GAPS.items()},
@@ -50,7 +50,7 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
         functions["film_edge"] = 1 - gap
     if structure.oblique:
         functions["tangential_edge"] = slot_call("shear", "edge", aspect) - gap
-    if structure.oblique and structure.partner != "wall":  # beside a wall nothing turns that could release
+    if structure.oblique and structure.partner != "wall":  # beside a wall there is no centrifugal force
         functions["release"] = inward_force(structure)
     if structure.oblique and structure.strings:
         functions["half_turn"] = sp.pi - beta
@@ -59,7 +59,7 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
 
 
 def rebound(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
-    """State just after a rebound: u -> -e_dry u, all else continues."""
+    """State just after a rebound: u -> -e_dry u; the other states are continuous."""
     return {state: -e_dry * normal_velocity if state == normal_velocity else state for state in states}
 
 

@@ -1,4 +1,4 @@
-"""The named intermediates of a structure: forces, rates and momenta in states and groups, under their emitted names."""
+"""Named intermediates of a structure: forces, rates and momenta in states and groups, by their emitted names."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ ATTRACTION_FORCE = sp.Symbol("attraction_force", real=True)
 LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
 
 
-Conserved = tuple[Invariant, sp.Expr]  # an invariant and its value at the start
+Conserved = tuple[Invariant, sp.Expr]  # an invariant and its initial value
 
 
 def intermediates(structure: Structure, conserved: Conserved | None = None) -> tuple[Definition, ...]:
-    """Every named intermediate that `structure` can use, in the order of the derivation.
+    """Every named intermediate of `structure`, in the order of the derivation.
 
     Arguments:
-        conserved: what a reduced structure eliminates the spin with: the invariant found and its value at the start.
+        conserved: the invariant that eliminates the spin of a reduced structure, and its initial value.
     """
     laws = force_laws(structure.spread)
     definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
@@ -57,7 +57,7 @@ def intermediates(structure: Structure, conserved: Conserved | None = None) -> t
 
 
 def _rotation(conserved: Conserved | None) -> list[Definition]:
-    """Orbital rate, angular momentum, the spin if it is eliminated, slip and inertia."""
+    """Orbital rate, angular momentum, the spin if eliminated, slip and inertia."""
     definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / omega0))]
     if conserved is not None:
         invariant, value = conserved
@@ -71,7 +71,7 @@ def _rotation(conserved: Conserved | None) -> list[Definition]:
 
 
 def by_orbital_rate(expression: sp.Expr) -> sp.Expr:
-    """The nondimensional `expression` in the orbital rate, in place of the orbital angular momentum."""
+    """The nondimensional `expression` with the orbital angular momentum replaced by the orbital rate."""
     return expression.subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
 

@@ -1,9 +1,9 @@
-"""Invariants linear in the momenta, found for any model: a linear system in unknown coefficients, and its nullspace.
+"""Invariants linear in the momenta of any model, from the nullspace of a linear system for their coefficients.
 
-An invariant is sought as I = sum of c_ik gap^k p_i over the momenta p_i. Along the rates dI/dt is linear in the c_ik
-and must vanish for every value of the states and of every force: each of its coefficients is one equation. Calls to
-laws not chosen, and logarithms, roots and exponentials of the states, count as values of their own. So all that is
-found is conserved, for every law left open; an invariant that needs an identity between such functions is not seen.
+The ansatz is I = sum of c_ik gap^k p_i over the momenta p_i. dI/dt along the rates is linear in the c_ik and must
+vanish for every value of the states and of every force, so each of its coefficients is one equation. Calls to laws not
+yet chosen, and logarithms, roots and exponentials of the states, count as independent variables. Every invariant found
+is therefore conserved for any law left open; one that relies on an identity between such functions is not found.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import nondimensional
 from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, omega0
 
-DEGREE = 2  # of the coefficients in the gap: r^2 is the highest power that stands before a velocity
+DEGREE = 2  # highest power of the gap in a coefficient: velocities occur with at most r^2
 _COORDINATES = (gap, beta)
 
 
 class System(Protocol):
-    """What is asked of a model: its states, and its rates with named intermediates that can be expanded."""
+    """Interface required of a model: its states, its rates, and the expansion of named intermediates."""
 
     @property
     def states(self) -> tuple[sp.Symbol, ...]: ...
@@ -37,12 +37,12 @@ class System(Protocol):
 
 
 class NoInvariantError(ValueError):
-    """A state cannot be eliminated, for nothing that contains it is conserved; the message says what is."""
+    """No invariant contains the state to be eliminated; the message names those found."""
 
 
 @dataclass(frozen=True)
 class Invariant:
-    """A conserved quantity, its first coefficient 1.
+    """A conserved quantity, normalised to a first coefficient of 1.
 
     Arguments:
         coefficients: (momentum, coefficient) pairs, in the order of the states; coefficients in the gap and groups.
@@ -56,25 +56,25 @@ class Invariant:
 
     @property
     def is_angular_momentum(self) -> bool:
-        """Whether it is L over m a^2 omega0."""
+        """True if it is L over m a^2 omega0."""
         return sp.expand(self.expression - angular_momentum()) == 0
 
     def at(self, state: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-        """Its value at a state."""
+        """Its value in a state."""
         return self.expression.subs(dict(state), simultaneous=True)
 
     def solved(self, momentum: sp.Symbol, value: sp.Expr) -> sp.Expr:
-        """The momentum that it leaves when it has this value.
+        """The expression for a momentum if the invariant has this value.
 
         Raises:
-            NoInvariantError: it does not contain the momentum.
+            NoInvariantError: the invariant does not contain the momentum.
         """
         if momentum not in dict(self.coefficients):
             raise NoInvariantError(f"{momentum} cannot be eliminated through {self.describe()}")
         return sp.solve(sp.Eq(self.expression, value), momentum)[0]
 
     def describe(self) -> str:
-        """In words: `orbital_momentum + (32/5) spin: angular momentum L/(m a^2 omega0)`."""
+        """A description such as `orbital_momentum + (32/5) spin: angular momentum L/(m a^2 omega0)`."""
         terms = []
         for momentum, factor in self.coefficients:
             plain = factor.is_Symbol or factor.is_Integer
@@ -105,9 +105,9 @@ def invariants(
     """A basis of the invariants linear in the momenta; empty if there are none.
 
     Arguments:
-        system: a model, or its rates: state -> time derivative in states, groups and calls to law slots.
-        laws: slot -> law; a slot without one stays open, and what is found holds for any law in it.
-        coordinates: the states that are no momenta.
+        system: a model, or its rates: state -> time derivative in states, groups and slot calls.
+        laws: slot -> law; for slots that are left out the invariants hold for any law.
+        coordinates: the states that are not momenta.
         degree: highest power of the gap in a coefficient.
     """
     if not isinstance(system, Mapping):
@@ -119,7 +119,7 @@ def invariants(
     ansatz = [(momentum, gap**power) for momentum in momenta for power in powers]
     if not ansatz:
         return ()
-    field = DomainMatrix.from_Matrix(_conditions(rates, ansatz)).to_field()  # exact, over the groups
+    field = DomainMatrix.from_Matrix(_conditions(rates, ansatz)).to_field()  # exact, over the field of the groups
     basis = field.nullspace().rref()[0].to_Matrix()
     return tuple(_normalised(ansatz, basis.row(index)) for index in range(basis.rows))
 
@@ -130,7 +130,7 @@ def conserved_momentum(
     """The angular momentum, if it is among the invariants found.
 
     Raises:
-        NoInvariantError: it is not; the message says what is conserved, and at what rate L changes.
+        NoInvariantError: it is not; the message gives the invariants found and dL/dt.
     """
     found = invariants(system, laws)
     for each in found:
@@ -144,7 +144,7 @@ def conserved_momentum(
 
 
 def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol, sp.Expr]]) -> sp.Matrix:
-    """Matrix whose product with the unknown coefficients is every coefficient of dI/dt."""
+    """Matrix whose product with the vector of unknown coefficients gives all coefficients of dI/dt."""
     values: dict[sp.Expr, sp.Symbol] = {}
     plain = {state: _rational(rate, set(rates), values) for state, rate in rates.items()}
     unknown = sp.symbols(f"c:{len(ansatz)}", cls=sp.Dummy)
@@ -157,21 +157,21 @@ def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol
 
 
 def _flags(change: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr], unknown: Sequence[sp.Symbol]) -> list[sp.Symbol]:
-    """Symbols outside the vocabulary (forces left open, the region's flags): dI/dt must vanish for all their values."""
+    """Symbols outside the vocabulary (open forces, flags of film and shear): dI/dt must vanish for all their values."""
     own = {quantity.symbol for quantity in VOCABULARY.values()}
     outside = change.free_symbols - set(rates) - set(unknown) - own
     return sorted((s for s in outside if not isinstance(s, sp.Dummy)), key=str)
 
 
 def _rational(expression: sp.Expr, states: set[sp.Symbol], values: dict[sp.Expr, sp.Symbol]) -> sp.Expr:
-    """The expression with a symbol for every node that is no rational function of states and groups."""
+    """The expression with a symbol for every subexpression that is not rational in states and groups."""
     if isinstance(expression, (sp.Add, sp.Mul)):
         return expression.func(*(_rational(part, states, values) for part in expression.args))
     if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
         return _rational(expression.base, states, values) ** expression.exp
     constants = {quantity.symbol for quantity in VOCABULARY.values()} - states
     if expression.is_Symbol or expression.free_symbols <= constants:
-        return expression  # a group, or a number made of groups
+        return expression  # a group, or an expression in groups only
     return values.setdefault(expression, sp.Dummy(f"value{len(values)}"))
 
 

@@ -1,7 +1,7 @@
 """From a structure to its nondimensional equations, events, jumps, ledger and outputs, ready to be emitted.
 
-What there is to emit is put together here out of `intermediates`, `rates`, `events` and `observables`: states, groups,
-slots, definitions and functions, each with the doc it is emitted with.
+A model combines the results of `intermediates`, `rates`, `events` and `observables`: states, groups, slots, definitions
+and functions, each with the docstring of its emitted form.
 """
 
 from __future__ import annotations
@@ -59,12 +59,12 @@ from .rates import inward_force, rates, resting_rates, turning_rate
 
 @dataclass(frozen=True)
 class ModelFunction:
-    """A function of state and groups that will be emitted: `outputs` are (name, expression) pairs."""
+    """A function of state and groups to be emitted; `outputs` are (name, expression) pairs."""
 
     name: str
     doc: str
     outputs: tuple[tuple[str, sp.Expr], ...]
-    regional: bool = False  # depends on the region's flags
+    regional: bool = False  # depends on the flags of film and shear
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Model:
         return next(each for each in self.functions if each.name == name)
 
     def expanded(self, expression: sp.Expr) -> sp.Expr:
-        """`expression` with every named intermediate put back in."""
+        """`expression` with every named intermediate substituted."""
         for symbol, value in reversed(self.definitions):
             expression = expression.subs(symbol, value)
         return expression
@@ -120,7 +120,7 @@ def derive(structure: Structure) -> Model:
 
 
 def _pendulum(structure: Structure) -> bool:
-    """Whether the pendulum certificate applies to this structure: strings that turn, and a film alone."""
+    """True if the pendulum certificate covers the structure: oblique, strings, and a film only."""
     return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
 
 
@@ -132,7 +132,7 @@ GROUPS = (
 
 
 def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
-    """The angular momentum, as found in the full equations with the arm that conserves it, and its value at the start.
+    """The angular momentum and its initial value, as found in the full equations with the lever arm at mid-gap.
 
     Raises:
         NoInvariantError: the full equations do not conserve it.
@@ -182,7 +182,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions += [
             ModelFunction(
                 "resting_rates",
-                "Rates of the states per v0/x0 in resting contact: gap held, the rotation goes on.",
+                "Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.",
                 of_states(resting_rates(structure)),
                 regional=True,
             ),
@@ -192,32 +192,32 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             functions.append(
                 ModelFunction(
                     "turning_rate",
-                    "Rate of the angle turned by the line of centres, rad per x0/v0 (a quadrature without strings).",
+                    "Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).",
                     ((beta.name, turning),),
                 )
             )
     functions += [
         ModelFunction(
             "inward_force",
-            "What holds a doublet at rest together, over m v0^2/x0: positive inward.",
+            "Sum of the normal forces except the film's, over m v0^2/x0: positive inward.",
             (("inward_force", inward_force(structure)),),
         ),
         ModelFunction(
             "events",
-            "Event functions, each positive before its event: the criteria while closing, `turning` the normal "
-            "velocity (its sign tells closing from opening), `release` in resting contact.",
+            "Event functions, each positive before its event: rebound criteria while closing, `turning` the normal "
+            "velocity (negative while closing), `release` in resting contact.",
             tuple(events(structure).items()),
         ),
         ModelFunction(
             "rebound",
-            "State just after a rebound: u -> -e_dry u, all else continues.",
+            "State just after a rebound: u -> -e_dry u; the other states are continuous.",
             of_states(rebound(states)),
         ),
         ModelFunction("start", "State at initial contact.", of_states(start(structure))),
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
         ModelFunction(
             "energy_rates",
-            "Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2.",
+            "Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.",
             tuple(energy_rates(structure).items()),
             regional=True,
         ),
@@ -232,14 +232,14 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "angular_momentum",
-                "Angular momentum over its start value.",
+                "Angular momentum over its initial value.",
                 (("angular_momentum", momentum),),
             )
         )
     functions.append(
         ModelFunction(
             "outputs",
-            "What a separated doublet shows: restitutions, and rates over omega0.",
+            "Results for a separated doublet: restitutions, and rates over omega0.",
             tuple(outputs(structure).items()),
         )
     )
@@ -247,7 +247,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "pendulum_margins",
-                "Margins of the stick proof on strings (midgap arm): outward < pull, film < 0 and recoil < 0 prove it.",
+                "Margins of the pendulum certificate (lever arm at mid-gap): outward < pull, film < 0 and recoil < 0 "
+                "exclude separation.",
                 tuple(pendulum_margins().items()),
             )
         )
@@ -255,8 +256,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "attraction_margins",
-                "Margins of the proof that attraction holds for good (midgap arm, forces that fall with the gap): "
-                "hold > 0, escape < 0 and rebound < 0 prove a stick.",
+                "Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): "
+                "hold > 0, escape < 0 and rebound < 0 exclude separation.",
                 tuple(attraction_certificate.margins(structure).items()),
             )
         )
@@ -264,8 +265,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "orbital_margins",
-                "Slip omega - xi at this gap, and what the shear could take there from the rotation, over m v0^2, for "
-                "either arm: margins of the proof by the orbital momentum.",
+                "Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the "
+                "slip energy for either lever arm; energies over m v0^2.",
                 tuple(orbital_certificate.margins(structure).items()),
             )
         )
@@ -273,23 +274,24 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "effective_potential",
-                "Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, "
-                "and the slope with it.",
+                "Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope "
+                "of the least energy along the gap, capillary work included.",
                 tuple(effective_potential(structure).items()),
             )
         )
         functions.append(
             ModelFunction(
                 "rigid_rotation",
-                "The state that has this least energy: at rest in the gap, turning as one body.",
+                "The state with this least energy: no normal velocity, rigid rotation.",
                 of_states(rigid_rotation(structure)),
             )
         )
-    if structure.partner == "wall":  # what moves along the wall never comes to help
+    if structure.partner == "wall":  # the energy of the motion along the wall cannot lead to separation
         functions.append(
             ModelFunction(
                 "escape_energy",
-                "Energy over m v0^2 of the motion along the line of centres, which alone can part the two.",
+                "Kinetic energy over m v0^2 of the motion along the line of centres, the only one that can separate "
+                "sphere and wall.",
                 (("kinetic", normal_velocity**2 / 2),),
             )
         )
@@ -297,8 +299,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "restitution_ceiling",
-                "Largest e_n^2 of a doublet that parts at this gap, from its energy and angular momentum at the start; "
-                "the work of what attracts is left out: take 2 (W_c(x_f) - W_c(x0))/(m v0^2) from it.",
+                "Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, "
+                "without the work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.",
                 tuple(restitution_ceiling(structure).items()),
             )
         )

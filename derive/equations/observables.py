@@ -1,4 +1,4 @@
-"""What is read off a state: the ledger of energy and angular momentum, outputs, and the certificate's energy."""
+"""Functions of a state: ledger of energy and angular momentum, outputs, and the least energy of the certificate."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _lifted() -> sp.Expr:
 
 
 def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
-    """Energy taken per x0/v0 by the film, the bridge and the shear, over m v0^2."""
+    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2."""
     taken = {"normal_lubrication": FILM_FORCE * normal_velocity}
     if structure.bridge:
         taken["capillary"] = BRIDGE_FORCE * normal_velocity
@@ -89,14 +89,14 @@ def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
 
 
 def angular_momentum(structure: Structure) -> sp.Expr | None:
-    """Angular momentum over its start value; None where there is none to be conserved."""
+    """Angular momentum over its initial value; None beside a wall, where it is not conserved."""
     if structure.partner:
         return rotation(structure.partner).momentum
     return MOMENTUM / (4 + aspect) ** 2
 
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
-    """What a separated doublet shows: restitutions, and rates over omega0."""
+    """Results for a separated doublet: restitutions, and rates over omega0."""
     shown: dict[str, sp.Expr] = {"restitution": normal_velocity}
     if structure.partner:
         return shown | dict(rotation(structure.partner).outputs)
@@ -108,7 +108,7 @@ def outputs(structure: Structure) -> dict[str, sp.Expr]:
 
 
 def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
-    """Pieces of the stick certificate: least energy at a gap for the state's angular momentum, and its slope."""
+    """Least energy at a gap for the state's angular momentum, and its slope along the gap (stick certificate)."""
     energy, slope = sp.Integer(0), sp.Integer(0)
     if structure.partner:
         energy, slope = rotation(structure.partner).least
@@ -136,9 +136,9 @@ def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 
 
 def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
-    """Largest e_n^2 of a doublet without strings that parts at this gap, the bridge's work left out.
+    """Upper bound of e_n^2 for separation at this gap, without strings and without the work of the bridge.
 
-    Twice the energy at the start less the least rotational energy at this gap for the L of the start.
+    It is twice the initial energy minus the least rotational energy at this gap for the initial L.
     """
     first = start(structure)
     at_start = {

@@ -1,4 +1,4 @@
-"""The rates of the states per v0/x0, in motion and in resting contact, out of the equations of motion."""
+"""Rates of the states per v0/x0, in motion and in resting contact, from the equations of motion."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from .intermediates import (
 
 @cache
 def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
-    """Time derivatives of the states per v0/x0, out of the equations of motion."""
+    """Time derivatives of the states per v0/x0, from the equations of motion."""
     motion = equations_of_motion()
     named = {
         F_n: FILM_FORCE,
@@ -61,7 +61,7 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
         beside = rotation(structure.partner)
         forces = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
         return rate | {normal_velocity: beside.centrifugal + forces} | dict(beside.rates)
-    # the centrifugal term is named: what is left is minus the forces
+    # the centrifugal term has a name of its own: the remainder is minus the forces
     centrifugal = sp.expand(acceleration - acceleration.subs(omega, 0))
     assert sp.expand(centrifugal - r * omega**2) == 0
     rate[normal_velocity] = CENTRIFUGAL_FORCE + sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
@@ -76,17 +76,17 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 
 
 def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
-    """Time derivatives of the states in resting contact: gap held, the rotation goes on."""
+    """Time derivatives of the states in resting contact: the gap is held, the rotation goes on."""
     return {**rates(structure), gap: sp.Integer(0), normal_velocity: sp.Integer(0)}
 
 
 def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
-    """Rate of the angle turned by the line of centres; None if it cannot turn."""
+    """Angular velocity of the line of centres; None if it cannot turn."""
     if structure is not None and structure.partner:
         return rotation(structure.partner).turning
     return by_orbital_rate(nondimensional(omega * x0 / v0))
 
 
 def inward_force(structure: Structure) -> sp.Expr:
-    """What holds a doublet at rest together: every normal force but the film's, positive inward."""
+    """Sum of all normal forces except the film's, positive inward: positive if a doublet at rest stays in contact."""
     return -(rates(structure)[normal_velocity].subs(FILM_FORCE, 0))

@@ -1,1 +1,1 @@
-"""What nature does: mechanics, laws, partners, forces and scaling, and which of them make a structure."""
+"""The physics: mechanics, laws, partners, forces and scaling, and the structures that combine them."""

@@ -1,7 +1,7 @@
-"""The forces of the model in SI, law by law, and those of the strings scaled without cancellation.
+"""The forces of the model in SI, with every law as a call to its slot, and the dimensionless string forces.
 
-Laws stay calls to their slots (`bridge.force(...)`), film and shear stay flags of the region (1 inside, 0 beyond the
-edge), so one set of forces serves every variant.
+Laws remain calls (`bridge.force(...)`), and film and shear are flags (1 where the force acts, 0 beyond its edge), so
+one set of forces serves every variant. The string forces are scaled in a form without cancellation.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ from .laws.strings import r as string_distance
 from .mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm
 from .scaling import DISTANCE, INERTIA, VAN_DER_WAALS, nondimensional
 
-# Flags of the region, as they appear in emitted code.
+# Flags for where film and shear act, named as in emitted code
 FILM, SHEAR = sp.symbols("film shear", nonnegative=True)
 
-TANGENTIAL = m * a * omega0 * v0 / x0  # scale of tangential forces
+TANGENTIAL = m * a * omega0 * v0 / x0  # scale of the tangential force
 
 
 @cache
@@ -50,7 +50,7 @@ def force_laws(spread: bool = False) -> dict[sp.Symbol, sp.Expr]:
     """The forces of the model in SI, with slot calls in place of the selectable laws.
 
     Arguments:
-        spread: the film law knows the volume of the bridge.
+        spread: the film law depends on the bridge volume.
     """
     offset = (swing_squared() / a**2).subs(string_distance, r)
     stiffness = slot_call("strings", "stiffness", l_s / a, offset)
@@ -69,9 +69,9 @@ def force_laws(spread: bool = False) -> dict[sp.Symbol, sp.Expr]:
 
 
 def scaled_strings(oblique: bool) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """String pull, sideways force and the squared swing over a^2, scaled; head-on beta = 0."""
+    """Dimensionless normal and tangential string force and squared swing over a^2; head-on beta = 0."""
     turn = beta if oblique else sp.Integer(0)
-    apart = swing_squared().subs(string_distance - 4 * a, x)  # x and r = 4a + x kept apart: no cancellation
+    apart = swing_squared().subs(string_distance - 4 * a, x)  # x and r = 4a + x kept separate: no cancellation
     by_distance = apart.diff(x) + apart.diff(string_distance)
     by_angle = sp.simplify(apart.diff(beta) / string_distance)
 

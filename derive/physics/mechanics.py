@@ -1,7 +1,7 @@
 """Mechanics of the doublet: inertia by integration, Lagrangian, equations of motion with generalised forces.
 
-Two equal spheres (radius R = 2a, mass M = 2m) whose line of centres has length r = 4a + x and direction beta; both
-spin at xi about their own centres. Forces enter by their virtual work, so nothing here is transcribed.
+Two equal spheres (radius R = 2a, mass M = 2m) have centres at distance r = 4a + x in direction beta; both spin at xi
+about their own centres. Forces enter through their virtual work.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from ..vocabulary.quantities import a, m, omega, u, x, xi
 from ..vocabulary.quantities import r as r_of_x
 from ..vocabulary.quantities import t as time
 
-# Generalised forces as the laws define them: attraction and film resist opening, F_t pulls omega and xi together.
+# Generalised forces with the signs of the laws: attraction and film resist opening, F_t reduces omega - xi.
 F_n, F_c, F_t, arm = sp.symbols("F_n F_c F_t arm", real=True)
-F_w = sp.Symbol("F_w", real=True)  # another attraction along the line of centres than the bridge's
+F_w = sp.Symbol("F_w", real=True)  # attraction along the line of centres other than the bridge's
 S_n, S_t = sp.symbols("S_n S_t", real=True)
 
 
@@ -34,7 +34,7 @@ def sphere_inertia() -> sp.Expr:
 
 @cache
 def doublet_inertia() -> sp.Expr:
-    """Moment of inertia I(x) of the doublet turning as one body: two spheres and the parallel-axis theorem."""
+    """Moment of inertia I(x) of the doublet in rigid rotation: two spheres and the parallel-axis theorem."""
     return sp.expand(2 * (sphere_inertia() + 2 * m * (r_of_x / 2) ** 2))
 
 
@@ -48,17 +48,17 @@ class Coordinates:
 
 
 def coordinates() -> Coordinates:
-    """Gap, angle of the line of centres, and the angle each sphere has turned about its centre."""
+    """Gap, angle of the line of centres, and rotation angle of each sphere about its centre."""
     functions = [sp.Function(name, real=True)(time) for name in ("x", "beta", "alpha")]
     return Coordinates(*functions)
 
 
 @cache
 def kinetic_energy() -> sp.Expr:
-    """Kinetic energy relative to the centre of mass, from the two centres' positions and the two spins."""
+    """Kinetic energy relative to the centre of mass, from the positions of both centres and both spins."""
     q = coordinates()
     half = (4 * a + q.x) / 2
-    position = sp.Matrix([half * sp.cos(q.beta), half * sp.sin(q.beta)])  # the other sphere mirrors this one
+    position = sp.Matrix([half * sp.cos(q.beta), half * sp.sin(q.beta)])  # the other sphere moves in mirror image
     velocity = position.diff(time)
     per_sphere = (
         sp.Rational(1, 2) * 2 * m * velocity.dot(velocity)
@@ -69,10 +69,11 @@ def kinetic_energy() -> sp.Expr:
 
 @cache
 def generalised_forces() -> dict[str, sp.Expr]:
-    """Virtual work of the film, the bridge and the strings, coordinate by coordinate.
+    """Generalised forces of film, bridge, strings and shear for each coordinate, from their virtual work.
 
-    On the sphere at +r/2 acts -(F_n + F_c + F_w) along the line and -F_t across it, the opposite on the other; the
-    tangential pair acts at a distance `arm` from either centre and so turns each sphere with F_t arm.
+    The sphere at +r/2 experiences -(F_n + F_c + F_w) along the line of centres and -F_t across it, the other sphere
+    the opposite. The tangential forces act at a distance `arm` from the centres, with the torque F_t arm on each
+    sphere.
     """
     q = coordinates()
     n = sp.Matrix([sp.cos(q.beta), sp.sin(q.beta)])
@@ -88,7 +89,7 @@ def generalised_forces() -> dict[str, sp.Expr]:
 
 @dataclass(frozen=True)
 class EquationsOfMotion:
-    """Accelerations and momenta of the doublet, in the quantities of the vocabulary."""
+    """Accelerations and momenta of the doublet in the quantities of the vocabulary."""
 
     separation_acceleration: sp.Expr  # du/dt
     orbital_acceleration: sp.Expr  # domega/dt
@@ -139,5 +140,5 @@ def equations_of_motion() -> EquationsOfMotion:
 
 
 def string_forces(potential: sp.Expr, distance: sp.Symbol, angle: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
-    """Normal and tangential string force (S_n, S_t) from a potential U_s(r, beta): -grad U along and across."""
+    """Normal and tangential string force (S_n, S_t): minus the gradient of the potential U_s(r, beta)."""
     return potential.diff(distance), potential.diff(angle) / distance

@@ -1,6 +1,6 @@
-"""Dimensionless groups: how many there are (nullspace), which ones they are (ratios of terms), and the substitution.
+"""Dimensionless groups: their number (nullspace), their definition (ratios of terms), and the substitution.
 
-Gap by x0, velocity by v0, time by x0/v0, angular velocity by omega0: integrators see numbers of order one.
+Scales are x0 for the gap, v0 for velocities, x0/v0 for time and omega0 for angular velocities: states are of order one.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
 
 
 def dimension_matrix(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
-    """Rows mass, length, time; a column of exponents for each quantity."""
+    """Matrix of dimension exponents: rows mass, length, time; a column for each quantity."""
     return sp.Matrix([[sp.Rational(DIMENSIONS[s].exponents[row]) for s in symbols] for row in range(3)])
 
 
@@ -84,7 +84,7 @@ def exponents(monomial: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     return sp.Matrix([powers.get(s, 0) for s in symbols])
 
 
-# The scales of force that the equation of motion puts side by side at initial contact.
+# The force scales in the equation of motion at initial contact
 INERTIA = m * v0**2 / x0  # m du/dt
 VISCOUS = 6 * sp.pi * mu * a**2 * v0 / x0  # F_n
 CAPILLARY = sp.pi * R * sigma  # F_c
@@ -115,7 +115,7 @@ def group_definitions() -> dict[sp.Symbol, sp.Expr]:
 
 @cache
 def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
-    """Scales that are not themselves quantities of a scene."""
+    """Scales that are not quantities of a scene, in terms of those that are."""
     from .partners.bodies import centres  # which builds on this module's neighbours
 
     apart = centres() * a
@@ -130,9 +130,9 @@ def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
 
 
 def generalised_centrifugal(force: sp.Expr) -> sp.Expr:
-    """Ce_F = m omega0^2 a/F: the centrifugal force's scale over an attraction F, whatever law that follows.
+    """Ce_F = m omega0^2 a/F: the scale of the centrifugal force over an attraction F of any law.
 
-    The paper's Ce = m omega0^2/sigma is this with F = a sigma, so for the constant bridge Ce_F = Ce/(4 pi cos(phi)).
+    The paper's Ce = m omega0^2/sigma is Ce_F with F = a sigma, so for the constant bridge Ce_F = Ce/(4 pi cos(phi)).
     """
     return CENTRIFUGAL / force
 
@@ -142,7 +142,7 @@ EQUAL = sp.Integer(4)  # centre distance at contact over a, of equal spheres
 
 @cache
 def to_groups(centres: sp.Expr = EQUAL) -> dict[sp.Symbol, sp.Expr]:
-    """SI quantities in terms of groups, a, v0 and mu (which must cancel from every dimensionless expression).
+    """SI quantities in terms of groups, a, v0 and mu (which cancel from every dimensionless expression).
 
     Arguments:
         centres: the centre distance at contact over a.
@@ -172,18 +172,18 @@ def to_groups(centres: sp.Expr = EQUAL) -> dict[sp.Symbol, sp.Expr]:
 
 
 class ScalingError(ValueError):
-    """A dimensional quantity did not cancel."""
+    """A dimensional quantity remains in an expression that should be dimensionless."""
 
 
 @cache
 def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
-    """A dimensionless SI expression in states and groups: arguments of laws in the gap, all else in r/a.
+    """A dimensionless SI expression in states and groups: arguments of laws in the gap, everything else in r/a.
 
     Arguments:
         centres: the centre distance at contact over a.
 
     Raises:
-        ScalingError: a dimensional quantity is left over; the message names it.
+        ScalingError: a dimensional quantity remains; the message names it.
     """
     rules = to_groups(centres)
     calls = {node: _substituted(node, rules) for node in expression.atoms(AppliedUndef)}
@@ -204,12 +204,12 @@ def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Exp
 
 
 def centrifugal_identity() -> sp.Expr:
-    """Ce in the other groups: (pi/8) (x0/a) tan^2(theta0) St Ca."""
+    """Ce in terms of the other groups: (pi/8) (x0/a) tan^2(theta0) St Ca."""
     definition = group_definitions()[centrifugal].subs(sp.tan(theta0), obliquity)
     return nondimensional(definition)
 
 
 def paper_normalisation() -> sp.Expr:
-    """The centrifugal term m r omega^2 over a sigma, as the paper scales it: Ce (4 + x/a) (omega/omega0)^2."""
+    """The centrifugal term m r omega^2 over a sigma, scaled as in the paper: Ce (4 + x/a) (omega/omega0)^2."""
     term = m * r * omega**2 / (a * sigma)
     return sp.factor(term.subs(m, centrifugal * sigma / omega0**2))

@@ -1,4 +1,4 @@
-"""What fills a slot: each function's dimensionless arguments, where they stand in SI, and its scale."""
+"""The functions of each slot: their dimensionless arguments, these in SI, and the scale of the value."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Place:
 
     Arguments:
         arguments: its dimensionless arguments.
-        at: those in SI quantities, one for one; empty where it has no SI form.
-        scale: the function times this is in SI; 1 where it has no SI form.
+        at: the same arguments in SI quantities; empty if the function has no SI form.
+        scale: factor from the function to its SI value; 1 if the function has no SI form.
     """
 
     slot: str
@@ -42,12 +42,12 @@ class Place:
 
 
 def places() -> dict[str, Place]:
-    """Every function of every slot, by `slot.function`; scales and places out of the force laws."""
+    """Every function of every slot, by `slot.function`; scales and SI arguments are taken from the force laws."""
     scaled = _scaled()
     found = {}
     for slot, laws in LAWS.items():
         functions = {function.name: function for law in reversed(laws.values()) for function in law.functions}
-        for function in functions.values():  # of the first law that has it
+        for function in functions.values():  # of the first law that has the function
             at, scale = scaled.get(f"{slot}.{function.name}", ((), sp.Integer(1)))
             place = Place(slot, function.name, function.arguments, at, scale, function.doc)
             found[place.key] = place
@@ -55,7 +55,7 @@ def places() -> dict[str, Place]:
 
 
 def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
-    """Where a force is one call times a factor, that factor is the call's scale."""
+    """The factor of the call in a force that is a single call times a factor."""
     found: dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]] = {
         "glass.pressure": ((x / x0, -u / v0), LUBRICATION_PRESSURE),
         "shear.edge": ((next(iter(LAWS["shear"].values()))["edge"].arguments), x0),
@@ -63,7 +63,7 @@ def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
     for force in force_laws().values():
         calls = [node for node in force.atoms(AppliedUndef) if is_slot_call(node)]
         if len(calls) != 1 or calls[0].func.__name__.startswith("strings."):
-            continue  # rise and stiffness of the strings belong together
+            continue  # rise and stiffness of the strings share one pair of arguments
         factor = force.subs({FILM: 1, SHEAR: 1}).xreplace({calls[0]: sp.Integer(1)})
         found[calls[0].func.__name__] = (calls[0].args, factor)
     return found

@@ -1,4 +1,4 @@
-"""What a scene needs of the model: which states, terms, events and parameters exist at all."""
+"""Structures: the combinations of states, terms, events and parameters that scenes need."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ class Structure:
 
     Arguments:
         oblique: the impact has a tangential part; without it there is no rotation, spin or tangential force.
-        bridge: a liquid bridge attracts.
-        strings: pendulum strings pull back.
-        reduced: the spin is eliminated through the conserved angular momentum (no strings, midgap arm).
-        attraction: another attraction than the bridge's acts (van der Waals).
-        spread: the film's rim follows the volume of the bridge, so that the film has no edge.
-        partner: what the sphere meets: "" its equal, "pair" another sphere, "wall" a wall.
+        bridge: with a liquid bridge.
+        strings: the spheres hang from pendulum strings.
+        reduced: the spin is eliminated by conservation of angular momentum (no strings, lever arm at mid-gap).
+        attraction: with an attraction besides the bridge's (van der Waals).
+        spread: the rim of the film follows from the bridge volume, so there is no film edge event.
+        partner: the partner of the sphere: "" an equal sphere, "pair" another sphere, "wall" a wall.
     """
 
     oblique: bool
@@ -49,14 +49,14 @@ class Structure:
 
 
 def structures() -> tuple[Structure, ...]:
-    """The paper's structures: head-on or oblique, with or without bridge and strings, reduced where it can be."""
+    """The structures of the paper: head-on or oblique, with or without bridge and strings, reduced where possible."""
     full = [Structure(oblique, bridge, strings) for oblique, bridge, strings in product((False, True), repeat=3)]
     reduced = [Structure(True, bridge, False, reduced=True) for bridge in (False, True)]
     return (*full, *reduced)
 
 
 def known() -> tuple[Structure, ...]:
-    """Every structure that a scene can ask for: the paper's, another partner, another attraction, a spreading film."""
+    """Every structure that a scene can request: also with another partner, another attraction, or a spreading film."""
     others = [Structure(True, bridge, False, partner=partner) for partner in _PARTNERS for bridge in _EITHER]
     shapes = (*structures(), *others)
     extended = []
@@ -66,9 +66,9 @@ def known() -> tuple[Structure, ...]:
 
 
 def committed() -> tuple[Structure, ...]:
-    """The structures that are emitted ahead; the others are derived when a scene first asks for one.
+    """The structures emitted in advance; the others are derived when a scene first needs them.
 
-    Left out is what puts together more than one of strings, another attraction and a spreading film.
+    Structures that combine more than one of strings, another attraction and a spreading film are left out.
     """
     return tuple(s for s in known() if s.strings + s.attraction + s.spread < 2)
 

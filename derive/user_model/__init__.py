@@ -1,1 +1,1 @@
-"""A user's own laws and quantities, and the structures that they make."""
+"""A user's own laws and quantities, and the structures that include them."""

@@ -95,7 +95,7 @@ _TAKEN = {"film", "groups", "laws", "result", "shear", "state", "values", *keywo
 
 
 class ModelFileError(ValueError):
-    """What is wrong with a model file: field, value, what is accepted, and the problem in words."""
+    """An error in a model file: field, value, what is accepted, and the problem in words."""
 
     def __init__(self, name: str, value: object, accepted: str, problem: str = "is not accepted") -> None:
         super().__init__(f"{name}: {value!r} {problem}; accepted: {accepted}")
@@ -104,7 +104,7 @@ class ModelFileError(ValueError):
 
 @dataclass(frozen=True)
 class Declared:
-    """A quantity that a model declares; `over` is the monomial that makes it a group (None: to be found)."""
+    """A quantity declared by a model; `over` is the monomial that makes it dimensionless (None: to be determined)."""
 
     symbol: sp.Symbol
     latex: str
@@ -123,7 +123,7 @@ class Declared:
 
 @dataclass(frozen=True)
 class Intermediate:
-    """A named part of an expression, as `let` makes it."""
+    """A named part of an expression, declared with `let`."""
 
     symbol: sp.Symbol
     expression: sp.Expr
@@ -132,7 +132,7 @@ class Intermediate:
 
 @dataclass(frozen=True)
 class Proposed:
-    """A law as the file gives it: functions by name, in SI or dimensionless."""
+    """A law as declared in the file: functions by name, in SI or dimensionless."""
 
     slot: str
     name: str
@@ -145,7 +145,7 @@ class Proposed:
 
 @dataclass
 class Declarations:
-    """Everything that a file declares, in its order."""
+    """Everything that a file declares, in order."""
 
     quantities: dict[str, Declared] = field(default_factory=dict)
     intermediates: dict[str, Intermediate] = field(default_factory=dict)
@@ -153,7 +153,7 @@ class Declarations:
 
 
 _here: ContextVar[Declarations | None] = ContextVar("declarations", default=None)
-_loose = Declarations()  # a model file that is run by itself
+_loose = Declarations()  # a model file that is run directly
 
 
 def _declarations() -> Declarations:
@@ -162,7 +162,7 @@ def _declarations() -> Declarations:
 
 @contextmanager
 def collecting() -> Iterator[Declarations]:
-    """Collect what is declared inside."""
+    """Collect the declarations made inside the block."""
     fresh = Declarations()
     token = _here.set(fresh)
     try:
@@ -182,19 +182,19 @@ def quantity(
     over: sp.Expr | None = None,
     group: str = "",
 ) -> sp.Symbol:
-    """Declare a quantity of the model, which scenes fill in their `[custom]` table.
+    """Declare a quantity of the model; scenes give its value in their `[custom]` table.
 
     Arguments:
         name: its name in scene files and in emitted code.
         latex: its symbol in print; by default the name, upright.
         unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number.
-        default: what a scene that says nothing means, with its unit, as "10 Pa"; None: scenes must say.
-        bounds: the numbers it may take, in `unit`: "> 0", ">= 0", "0 to 1", "> 0 and <= 5".
-        over: quantities that make it dimensionless: quantity/over is a group; found if it is not given.
+        default: value with unit for scenes that give none, as "10 Pa"; None: scenes must give one.
+        bounds: allowed values, in `unit`: "> 0", ">= 0", "0 to 1", "> 0 and <= 5".
+        over: quantities that make it dimensionless: quantity/over is a group; determined if not given.
         group: name of that group; by default NAME_number.
 
     Raises:
-        ModelFileError: names what is wrong and what is accepted.
+        ModelFileError: names the wrong argument and what is accepted.
     """
     there = _declarations()
     _check_name("quantity", name, there)
@@ -220,7 +220,7 @@ def quantity(
 
 
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
-    """Name a part of an expression: it keeps its name in emitted code and in print."""
+    """Name a part of an expression; the name is kept in emitted code and in print."""
     there = _declarations()
     _check_name("let", name, there)
     symbol = sp.Symbol(name, real=True)
@@ -243,15 +243,15 @@ def law(
 
     Arguments:
         slot: the slot that it fills.
-        name: the name that scenes choose it by.
-        source: where it is from.
-        bibtex: the same as an entry that `wetdoublet cite` prints.
-        meaning: what it is, in a line.
+        name: its name in scenes.
+        source: its origin, such as a publication.
+        bibtex: the publication as a BibTeX entry, for `wetdoublet cite`.
+        meaning: a description in one line.
         accept: names of checks that it is known to fail.
         functions: the slot's functions as expressions: of the slot's dimension in SI, or dimensionless.
 
     Raises:
-        ModelFileError: names what is wrong and what is accepted.
+        ModelFileError: names the wrong argument and what is accepted.
     """
     there, label = _declarations(), f"law {slot} {name}"
     if slot not in LAWS:
@@ -280,7 +280,7 @@ def law(
 
 
 def functions_of(slot: str) -> dict[str, bool]:
-    """The functions that a law of a slot may have, and whether it must: what all of the library's laws have."""
+    """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
     laws = LAWS[slot].values()
     names = dict.fromkeys(function.name for law in laws for function in law.functions)
     return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
@@ -295,7 +295,7 @@ def _check_name(what: str, name: object, there: Declarations) -> None:
 
 
 def _expression(label: str, value: object) -> sp.Expr:
-    """A sympy expression with every decimal exact, as it was written."""
+    """A sympy expression with every decimal as an exact rational."""
     try:
         found = sp.sympify(value)
     except (sp.SympifyError, TypeError, AttributeError):
@@ -306,7 +306,7 @@ def _expression(label: str, value: object) -> sp.Expr:
 
 
 def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str]:
-    """LaTeX of everything that a model adds to the vocabulary, by name."""
+    """LaTeX of every name that a model adds to the vocabulary."""
     names = {one.name: one.latex for one in there.quantities.values()}
     names |= {one.symbol.name: one.latex for one in there.intermediates.values()}
     return names | dict(groups)

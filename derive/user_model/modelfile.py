@@ -1,4 +1,4 @@
-"""Read a model file: run it, collect what it declares, derive its laws."""
+"""Reading of a model file: run it, collect its declarations, derive its laws."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LARGEST = 1_000_000  # bytes
 
 
 def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
-    """The docstring's first line and the declarations of a model file; `text` stands for its content.
+    """The docstring's first line and the declarations of a model file; `text` replaces its content.
 
     Raises:
         ModelFileError: the file cannot be read or run, or declares nothing; names the line.
@@ -21,7 +21,7 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
     namespace = {"__name__": "wetdoublet_model", "__file__": str(path)}
     with collecting() as found:
         try:
-            exec(compile(source, str(path), "exec", dont_inherit=True), namespace)  # it is the user's own
+            exec(compile(source, str(path), "exec", dont_inherit=True), namespace)  # the warnings are the user's own
         except ModelFileError as error:
             where = f"{path}, line {_line(error, path)}: {error.field}"
             raise ModelFileError(where, error.value, error.accepted, error.problem) from None
@@ -41,7 +41,7 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
 
 
 def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
-    """The model of a file, derived; `name` by default the file's.
+    """The derived model of a file; `name` by default the file's.
 
     Raises:
         ModelFileError: as `declared`. DimensionError, ScalingError: as `express`.
@@ -53,7 +53,7 @@ def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
 def _text(path: Path) -> str:
     accepted = "a model file (see `wetdoublet generate --template`)"
     try:
-        if not path.is_file() and not path.is_dir():  # a pipe or a device may have no end, or no beginning
+        if not path.is_file() and not path.is_dir():  # reading a pipe or a device may never end
             raise ModelFileError(str(path), None, accepted, "is not a file" if path.exists() else "is not there")
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
@@ -67,6 +67,6 @@ def _text(path: Path) -> str:
 
 
 def _line(error: BaseException, path: Path) -> int:
-    """The last line of the file itself that the error went through."""
+    """The last line of the model file in the traceback of the error."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
     return (lines or [0])[-1] or 0

@@ -1,4 +1,4 @@
-"""From declarations to laws: SI expressions brought to the slots' arguments, new groups found, structures extended."""
+"""From declarations to laws: SI expressions in terms of the slots' arguments, new groups, extended structures."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, u, v0, x, x0
 from .declarations import Declarations, Declared, Proposed
 
-_ALWAYS = (a, x0, mu, v0, m)  # what every scene has, in the order in which a scale is looked for
+_ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
 _MOVED = ("separation", "separation_rate", "rotation_rate", "spin_rate")
 _MOVING = ("separation", "separation_rate", "rotation_rate", "spin_rate", "rotation", "time", "initial_rate")
 
 
 @dataclass(frozen=True)
 class Group:
-    """A dimensionless group of the model's own: `quantity` over `over` (1: the quantity is a plain number)."""
+    """A dimensionless group of a user's model: `quantity` over `over` (1: the quantity is a plain number)."""
 
     symbol: sp.Symbol
     quantity: Declared
@@ -36,17 +36,17 @@ class Group:
 
 
 class InSI(LawFunction):
-    """A law's function for print: in its slot's arguments, and in SI quantities that no argument gives."""
+    """A law's function for print: in its slot's arguments, with groups replaced by SI quantities."""
 
     def __post_init__(self) -> None:
-        """Demand nothing."""
+        """No validation: values may be in SI."""
 
 
 @dataclass(frozen=True, eq=False)
 class UserModel:
-    """A model file, derived: laws in the library's form, groups, and what each slot's functions take beside their own.
+    """A derived model file: laws in the library's form, groups, and additional arguments of each slot's functions.
 
-    `si` holds the laws with everything but the slot's arguments in SI, for print.
+    `si` holds the laws in SI except for the slot's arguments, for print.
     """
 
     name: str
@@ -62,7 +62,7 @@ class UserModel:
         return tuple(dict.fromkeys(law.slot for law in self.laws))
 
     def default(self, slot: str) -> Law:
-        """The law that fills a slot unless a scene names another: the first that is declared."""
+        """The law that fills a slot unless a scene names another: the first one declared."""
         return next(law for law in self.laws if law.slot == slot)
 
     @property
@@ -70,7 +70,7 @@ class UserModel:
         return {check for law in self.declarations.laws.values() for check in law.accept}
 
     def extended(self, model: Model) -> Model:
-        """A structure's model with the new arguments in its calls, and the groups that they bring."""
+        """A structure's model with the additional arguments in its calls, and the groups that they require."""
 
         def call(expression: sp.Expr) -> sp.Expr:
             nodes = {
@@ -93,7 +93,7 @@ class UserModel:
 
 
 def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
-    """At rest in the gap nothing opens."""
+    """The expression without normal velocity."""
     return expression.subs(normal_velocity, 0) if (function, key) == ("effective_potential", "slope") else expression
 
 
@@ -101,7 +101,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     """The model of declarations.
 
     Raises:
-        DimensionError, ScalingError: name law and function, and the term or quantity that is at fault.
+        DimensionError, ScalingError: name law, function, and the wrong term or quantity.
     """
     all_places = places()
     groups = _groups(declared, all_places)
@@ -124,7 +124,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
 
 
 class _Extra:
-    """The arguments that a slot's functions take beside their own, over all its laws."""
+    """The additional arguments of a slot's functions, over all its laws."""
 
     def __init__(self, groups: Mapping[str, Group]) -> None:
         self.order = (normal_velocity, *GROUPS, *(group.symbol for group in groups.values()))
@@ -148,7 +148,7 @@ class _Extra:
 
 
 def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str, Group]:
-    """A group for each quantity, by the quantity's name."""
+    """The group of each quantity, by the quantity's name."""
     found = {}
     for one in declared.quantities.values():
         if one.dimension == ONE:
@@ -168,7 +168,7 @@ def _sign(one: Declared) -> dict[str, bool]:
 
 
 def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place]) -> sp.Expr:
-    """A monomial of a scene's quantities with the dimension of `one`: those of the scale it stands beside first."""
+    """A monomial of a scene's quantities with the dimension of `one`; those of the related scale are preferred."""
     near: list[sp.Symbol] = []
     for proposed in declared.laws.values():
         for name, expression in proposed.functions:
@@ -182,7 +182,7 @@ def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place
         for chosen in combinations(candidates, count):
             matrix = dimension_matrix(chosen)
             if matrix.rank() < count or matrix.row_join(target).rank() > count:
-                continue  # not independent, or not enough
+                continue  # dependent, or too few
             powers = (matrix.T * matrix).inv() * matrix.T * target
             return sp.prod([s**power for s, power in zip(chosen, powers, strict=True)])
     raise ScalingError(f"{one.name}: no monomial of {', '.join(s.name for s in candidates)} has its dimension")
@@ -194,7 +194,7 @@ def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
 
 
 def _unfolded(expression: sp.Expr, declared: Declarations) -> sp.Expr:
-    """With every `let` put back in."""
+    """The expression with every `let` substituted."""
     for part in reversed(declared.intermediates.values()):
         expression = expression.xreplace({part.symbol: part.expression})
     return expression
@@ -203,7 +203,7 @@ def _unfolded(expression: sp.Expr, declared: Declarations) -> sp.Expr:
 def _function(
     place: Place, expression: sp.Expr, proposed: Proposed, declared: Declarations, groups: Mapping[str, Group]
 ) -> LawFunction:
-    """A function in the slot's arguments, states and groups; parts keep their names where they are dimensionless."""
+    """A function in the slot's arguments, states and groups; dimensionless parts keep their names."""
     label = f"law {proposed.slot} {proposed.name}, {place.function}"
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **dict.fromkeys(place.arguments, ONE)}
     of |= {one.symbol: one.dimension for one in declared.quantities.values()}
@@ -253,7 +253,7 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     """A dimensionless SI expression in the slot's arguments, states and groups."""
     own = {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
     if not _dimensional(expression) and not expression.free_symbols & set(own):
-        return expression  # as it was written
+        return expression  # kept as written
     for argument, at in zip(place.arguments, place.at, strict=False):
         for moving in (x, u):
             if moving in at.free_symbols and moving in expression.free_symbols:
@@ -263,7 +263,7 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
-    terms = sp.Add.make_args(expression)  # which stay as they were written, where nothing is left to cancel
+    terms = sp.Add.make_args(expression)  # kept as written if no quantity remains to cancel
     by_term = sp.Add(*(sp.simplify(term) if _dimensional(term) else term for term in terms))
     result = by_term if not _dimensional(by_term) else sp.simplify(expression)
     if left := _dimensional(result):
@@ -276,7 +276,7 @@ def _dimensional(expression: sp.Expr) -> list[str]:
 
 
 def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place]) -> Law:
-    """The law with its groups as quantities, in the slot's own arguments alone."""
+    """The law with its groups as quantities, in the slot's own arguments only."""
     back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups.values()}
     back |= dict(group_definitions())
     functions = []

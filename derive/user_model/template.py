@@ -1,4 +1,4 @@
-"""The template of a model file: it runs as it is."""
+"""The template of a model file, itself a valid model."""
 
 TEMPLATE = '''\
 """A bridge with a yield stress: Willett's closed form, and a stress that acts over the neck of the bridge.

@@ -1,1 +1,1 @@
-"""What may be spoken of: quantities, their dimensions and units, the values they may have."""
+"""The vocabulary: quantities, their dimensions and units, and the values they may take."""

@@ -1,4 +1,4 @@
-"""The numbers that a declared quantity may take, read from words such as `> 0 and <= 5`."""
+"""Intervals of allowed values of a declared quantity, parsed from text such as `> 0 and <= 5`."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _SPAN = re.compile(rf"(?:from\s+)?({_NUMBER})\s+to\s+({_NUMBER})")
 
 
 class BoundsError(ValueError):
-    """The words are not bounds."""
+    """Text that is not an interval."""
 
 
 @dataclass(frozen=True)
 class Bounds:
-    """An interval, and whether its ends belong to it."""
+    """An interval, open or closed at either end."""
 
     text: str
     low: float = -math.inf
@@ -27,7 +27,7 @@ class Bounds:
 
     @classmethod
     def read(cls, text: str) -> Bounds:
-        """Bounds in words; BoundsError for anything else, and for none at all."""
+        """The interval described by a text; BoundsError if it cannot be parsed or contains no number."""
         if not isinstance(text, str):
             raise BoundsError(text)
         words = " ".join(text.split())
@@ -57,7 +57,7 @@ class Bounds:
         return self.low >= 0
 
     def to_json(self) -> dict[str, object]:
-        """As a manifest has it: infinite ends are null."""
+        """The interval as written in a manifest: infinite ends are null."""
         return {
             "text": self.text,
             "low": None if math.isinf(self.low) else self.low,

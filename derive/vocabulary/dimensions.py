@@ -1,6 +1,6 @@
-"""Dimensions and a walker that proves an expression homogeneous, term by term.
+"""Dimensions, and a strict check of the dimensional homogeneity of expressions.
 
-sympy's own dimension system looks only at the first addend of a sum; this one looks at all and names the culprit.
+sympy's own dimension system checks only the first term of a sum; this one checks every term and names the wrong one.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ PRESSURE, ENERGY, TORQUE = FORCE / LENGTH**2, FORCE * LENGTH, FORCE * LENGTH
 
 
 class DimensionError(ValueError):
-    """An expression is not dimensionally homogeneous; the message names the term at fault."""
+    """A dimensionally inhomogeneous expression; the message names the term at fault."""
 
 
 _TRANSCENDENTAL = (

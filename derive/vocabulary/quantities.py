@@ -160,10 +160,10 @@ r = 4 * a + x  # distance between the centres
 
 
 def quantity(symbol: sp.Symbol | str) -> Quantity:
-    """The vocabulary's entry of a symbol or name; KeyError names what is missing."""
+    """The vocabulary's entry for a symbol or name; KeyError if there is none."""
     return VOCABULARY[symbol if isinstance(symbol, str) else symbol.name]
 
 
 def names(symbols: Iterable[sp.Symbol]) -> tuple[str, ...]:
-    """Names of symbols, in their order."""
+    """Names of symbols, in the order given."""
     return tuple(symbol.name for symbol in symbols)

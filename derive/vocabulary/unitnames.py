@@ -1,4 +1,4 @@
-"""Coherent SI units in words, as `kg m^2/s`, and their dimensions."""
+"""Coherent SI units written as text, such as `kg m^2/s`, and their dimensions."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _FACTOR = re.compile(r"([A-Za-z1]+)(?:\^(-?\d{1,2}))?")
 
 
 class UnitError(ValueError):
-    """A unit that is not known; the message names it."""
+    """An unknown unit; the message names it."""
 
 
 def dimension_of_unit(text: str) -> Dimension:
-    """Dimension of a product and quotient of coherent SI units; UnitError names what is none."""
+    """Dimension of a product or quotient of coherent SI units; UnitError names an unknown unit."""
     if not isinstance(text, str) or not text.strip():
         raise UnitError("is not a unit")
     result = ONE

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d */
+ * Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -26,7 +26,7 @@ enum {
     KIND_FELL_BACK, /* the normal velocity falls through zero */
     KIND_FILM_EDGE, /* the gap passes x0 */
     KIND_TANGENTIAL_EDGE, /* the gap passes the reach of the tangential force */
-    KIND_RESTS, /* a rebound too weak to leave is taken for resting contact */
+    KIND_RESTS, /* a rebound too weak to open the gap is replaced by resting contact */
     KIND_RELEASED, /* the normal force on a resting doublet turns outward */
     KIND_RUPTURE, /* the bridge ruptures; without a bridge, the films part */
     KIND_ROTATION_REVERSES, /* the strings turn the rotation back */
@@ -35,7 +35,7 @@ enum {
 
 /* How a collision ends. */
 enum {
-    STICK, /* it is proved that the two never separate, or the collision is cut off */
+    STICK, /* a certificate excludes separation, or the collision is cut off */
     ROTATE, /* separated, and no rebound criterion was met */
     BOUNCE, /* separated after a rebound criterion was met */
 };
@@ -43,28 +43,28 @@ enum {
 /* What is said of a collision; up to PROVED_AT_TOUCH the outcome stands. */
 enum {
     DECIDED, /* the outcome is decided */
-    PROVED_AT_TOUCH, /* a stick that is proved at initial contact */
-    NO_BUDGET, /* the steps are spent */
+    PROVED_AT_TOUCH, /* a stick with a certificate at initial contact */
+    NO_BUDGET, /* the budget of steps is exhausted */
     NOT_FINITE, /* the state is not finite */
-    CHATTER, /* the steps are spent in more than CHATTER_PHASES phases */
+    CHATTER, /* the budget of steps is exhausted after more than CHATTER_PHASES phases */
     TOO_OBLIQUE, /* the centrifugal force is beyond MOST_OBLIQUE */
 };
 enum { LAST_ANSWER = PROVED_AT_TOUCH };
 
 /* What a collision is integrated for. */
 enum {
-    WHOLE, /* to its end */
-    APPROACH, /* until it turns or is reversed; without the glass criterion, and nothing is proved */
-    ESCAPE, /* until it separates, falls back or rests; proved a stick only while it approaches */
+    WHOLE, /* to the end of the collision */
+    APPROACH, /* to the first turning point or rebound; without the glass criterion and certificates */
+    ESCAPE, /* until the doublet separates, falls back or rests; with certificates only while it approaches */
 };
 
-static const double REST_SPEED = 1e-09; /* of v0: a slower rebound into an inward force rests */
-static const double MOST_OBLIQUE = 1000000000.0; /* of v0^2/x0: a larger centrifugal force turns the motion within rounding of x0 */
-static const double LOOSEST = 1e-06; /* relative tolerance: a looser one is tightened to it, or sticks stay unproved */
-static const double SAFETY = 30.0; /* a proof holds by more than this many times the tolerance of the largest energy: an error made when the motion was fastest stays in it, and errors of many steps add up */
-enum { CHATTER_PHASES = 100 }; /* phases: more are rebound after rebound, and no approach and escape */
-enum { FILM_DEPTHS = 16 }; /* steps of equal ratio from the gap to contact, at each of which the film certificate bounds the pressure */
-enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same beside an attraction, which a small gap makes large */
-static const double LEAST_DEPTH = 1e-40; /* of the gap: where no contact is met, the film certificate looks no deeper */
+static const double REST_SPEED = 1e-09; /* in v0: a slower rebound against an inward force rests */
+static const double MOST_OBLIQUE = 1000000000.0; /* in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0 */
+static const double LOOSEST = 1e-06; /* largest relative tolerance; a larger one is reduced to it, as certificates need it */
+static const double SAFETY = 30.0; /* least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up */
+enum { CHATTER_PHASES = 100 }; /* number of phases beyond which a trajectory is treated as chatter */
+enum { FILM_DEPTHS = 16 }; /* gaps in geometric sequence down to contact at which the film certificate bounds the pressure */
+enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same with an attraction, which grows at small gaps */
+static const double LEAST_DEPTH = 1e-40; /* least gap, relative to the present one, of the film certificate without contact */
 
 #endif

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d
+ * Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

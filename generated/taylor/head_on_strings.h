@@ -35,7 +35,7 @@
 #else
 #define LEDGER_STATES 0
 #endif
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, MODEL_STATES };
@@ -108,7 +108,7 @@ static inline void scale(constants *c, const vec *q)
     c->dry_restitution = q[SI_DRY_RESTITUTION];
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->film_force_factor = 1.0/c->stokes;
@@ -136,7 +136,7 @@ typedef struct {
     vec turned[TERMS];
 #endif
 #if WITH_LEDGER
-    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
+    vec normal_loss[TERMS]; /* energy dissipated by the normal force of the film, over m v0^2 */
 #endif
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
@@ -148,13 +148,13 @@ typedef struct {
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
 #endif
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -176,7 +176,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];
@@ -196,7 +196,7 @@ static inline void start(const constants *c, vec *y)
     y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -205,7 +205,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[NORMAL_VELOCITY] = normal_velocity_2;
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -229,7 +229,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 1 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -237,8 +237,8 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 }
 
 #define POTENTIAL 1
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -249,8 +249,8 @@ static inline vec potential_energy(const constants *c, const vec *y)
     return energy;
 }
 
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_slope(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -286,7 +286,7 @@ static inline vec rebound_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* There is no angular momentum that would be conserved. */
+/* No angular momentum is conserved. */
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;

@@ -36,7 +36,7 @@
 #if defined(BRIDGE_FORCE_WORK) && !WITH_LEDGER
 #define CAPILLARY_STATE 0
 #else
-#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */
+#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is a state */
 #endif
 #define TURNING_STATE (WITH_ROTATION && 1)
 #if WITH_LEDGER
@@ -44,7 +44,7 @@
 #else
 #define LEDGER_STATES 0
 #endif
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, MODEL_STATES };
@@ -150,7 +150,7 @@ static inline void scale(constants *c, const vec *q)
 #endif
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
@@ -199,8 +199,8 @@ typedef struct {
     vec turned[TERMS];
 #endif
 #if WITH_LEDGER
-    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
-    vec tangential_loss[TERMS]; /* energy taken by the tangential force, over m v0^2 */
+    vec normal_loss[TERMS]; /* energy dissipated by the normal force of the film, over m v0^2 */
+    vec tangential_loss[TERMS]; /* energy dissipated by the tangential force, over m v0^2 */
 #endif
     vec distance[TERMS];
     vec distance_squared[TERMS];
@@ -229,13 +229,13 @@ typedef struct {
     vec combination[TERMS];
     vec rate_of_tangential_loss[TERMS];
 #endif
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -288,7 +288,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];
@@ -310,7 +310,7 @@ static inline void start(const constants *c, vec *y)
     y[SPIN] = splat(0.0);
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -321,7 +321,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[SPIN] = y[SPIN];
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -355,7 +355,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -370,8 +370,8 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 }
 
 #define POTENTIAL 1
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -385,8 +385,8 @@ static inline vec potential_energy(const constants *c, const vec *y)
     return energy;
 }
 
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_slope(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -410,8 +410,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
 
 #define BY_ORBITAL_MOMENTUM LIBRARY_LAWS
 enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };
-/* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
- * arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py). */
+/* Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2
+ * (derive/equations/certificates/orbital_momentum.py). */
 static inline void orbital_margins(const constants *c, const vec *y, vec *found)
 {
     (void)c; (void)y;
@@ -451,7 +451,7 @@ static inline void orbital_margins(const constants *c, const vec *y, vec *found)
     found[SLIP_ENERGY] = surface;
 }
 
-/* The state that has this least energy: at rest in the gap, turning as one body. */
+/* The state with this least energy: no normal velocity, rigid rotation. */
 static inline vec rigid_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -464,7 +464,7 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
     return orbital_momentum_2;
 }
 
-/* The state that has this least energy: at rest in the gap, turning as one body. */
+/* The state with this least energy: no normal velocity, rigid rotation. */
 static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
 {
     (void)c; (void)y;
@@ -479,7 +479,7 @@ static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
     rigid[SPIN] = spin_2;
 }
 
-/* Angular momentum over its start value. */
+/* Angular momentum over its initial value. */
 static inline vec angular_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -490,7 +490,7 @@ static inline vec angular_momentum(const constants *c, const vec *y)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
+/* The attractions exclude separation if hold > 0, escape < 0 and rebound < 0. */
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {
@@ -547,7 +547,7 @@ static inline vec rebound_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* Angular momentum over its start value. */
+/* Angular momentum over its initial value. */
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;

@@ -35,11 +35,11 @@
 #if defined(BRIDGE_FORCE_WORK)
 #define CAPILLARY_STATE 0
 #else
-#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */
+#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is a state */
 #endif
 #define TURNING_STATE (WITH_ROTATION && 1)
 #define LEDGER_STATES 0
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, MODEL_STATES };
@@ -128,7 +128,7 @@ static inline void scale(constants *c, const vec *q)
 #endif
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->momentum = ((c->aspect + 4.0)*(c->aspect + 4.0));
@@ -187,13 +187,13 @@ typedef struct {
     vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
     vec rate_of_capillary[PASSING(ORDER) + 1];
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -235,7 +235,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];
@@ -256,7 +256,7 @@ static inline void start(const constants *c, vec *y)
     y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -266,7 +266,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -301,7 +301,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -317,8 +317,8 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 }
 
 #define POTENTIAL 1
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_energy(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -330,8 +330,8 @@ static inline vec potential_energy(const constants *c, const vec *y)
     return energy;
 }
 
-/* Least energy over m v0^2 of a doublet with this gap and angular momentum, capillary work left out, and the
- * slope with it. */
+/* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
+ * least energy along the gap, capillary work included. */
 static inline vec potential_slope(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -348,7 +348,7 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
-/* The state that has this least energy: at rest in the gap, turning as one body. */
+/* The state with this least energy: no normal velocity, rigid rotation. */
 static inline vec rigid_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -362,7 +362,7 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
+/* The attractions exclude separation if hold > 0, escape < 0 and rebound < 0. */
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {

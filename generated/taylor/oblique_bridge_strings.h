@@ -39,7 +39,7 @@
 #if defined(BRIDGE_FORCE_WORK) && !WITH_LEDGER
 #define CAPILLARY_STATE 0
 #else
-#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */
+#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is a state */
 #endif
 #define TURNING_STATE (WITH_ROTATION && 0)
 #if WITH_LEDGER
@@ -47,7 +47,7 @@
 #else
 #define LEDGER_STATES 0
 #endif
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, ROTATION, MODEL_STATES };
@@ -163,7 +163,7 @@ static inline void scale(constants *c, const vec *q)
 #endif
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
@@ -216,8 +216,8 @@ typedef struct {
     vec turned[TERMS];
 #endif
 #if WITH_LEDGER
-    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
-    vec tangential_loss[TERMS]; /* energy taken by the tangential force, over m v0^2 */
+    vec normal_loss[TERMS]; /* energy dissipated by the normal force of the film, over m v0^2 */
+    vec tangential_loss[TERMS]; /* energy dissipated by the tangential force, over m v0^2 */
 #endif
     vec distance[TERMS];
     vec distance_squared[TERMS];
@@ -259,13 +259,13 @@ typedef struct {
     vec combination_3[TERMS];
     vec rate_of_tangential_loss[TERMS];
 #endif
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -334,7 +334,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];
@@ -357,7 +357,7 @@ static inline void start(const constants *c, vec *y)
     y[ROTATION] = splat(0.0);
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -369,7 +369,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[ROTATION] = y[ROTATION];
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -422,7 +422,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -438,8 +438,8 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 
 #define BY_ORBITAL_MOMENTUM LIBRARY_LAWS
 enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };
-/* Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation (surface
- * arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py). */
+/* Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2
+ * (derive/equations/certificates/orbital_momentum.py). */
 static inline void orbital_margins(const constants *c, const vec *y, vec *found)
 {
     (void)c; (void)y;
@@ -481,7 +481,7 @@ static inline void orbital_margins(const constants *c, const vec *y, vec *found)
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
-/* What attracts holds for good where hold > 0, escape < 0 and rebound < 0. */
+/* The attractions exclude separation if hold > 0, escape < 0 and rebound < 0. */
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {
@@ -554,7 +554,7 @@ static inline vec rebound_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* Angular momentum over its start value. */
+/* Angular momentum over its initial value. */
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;

@@ -39,7 +39,7 @@
 #else
 #define LEDGER_STATES 0
 #endif
-/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */
+/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */
 #define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, ROTATION, MODEL_STATES };
@@ -132,7 +132,7 @@ static inline void scale(constants *c, const vec *q)
     c->dry_restitution = q[SI_DRY_RESTITUTION];
 }
 
-/* What is computed once a collision, from its groups. */
+/* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
     c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
@@ -179,8 +179,8 @@ typedef struct {
     vec turned[TERMS];
 #endif
 #if WITH_LEDGER
-    vec normal_loss[TERMS]; /* energy taken by the film's normal force, over m v0^2 */
-    vec tangential_loss[TERMS]; /* energy taken by the tangential force, over m v0^2 */
+    vec normal_loss[TERMS]; /* energy dissipated by the normal force of the film, over m v0^2 */
+    vec tangential_loss[TERMS]; /* energy dissipated by the tangential force, over m v0^2 */
 #endif
     vec distance[TERMS];
     vec distance_squared[TERMS];
@@ -218,13 +218,13 @@ typedef struct {
     vec combination_3[TERMS];
     vec rate_of_tangential_loss[TERMS];
 #endif
-    vec acceleration[TERMS]; /* of the gap, were it not held */
+    vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
     glass_pressure_clearance_series glass;
 } series;
 
 /* Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside
- * the tangential edge, else 0; the gap is held where not moving. */
+ * the tangential edge, else 0; the gap is held in lanes that are not moving. */
 INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)
 {
     (void)film; (void)shear;
@@ -284,7 +284,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 #endif
 }
 
-/* Coefficient k of the glass criterion's clearance. */
+/* Coefficient k of the clearance of the glass criterion. */
 INLINE void glass_coefficients(series *s, const constants *c, int k)
 {
     s->approach[k] = -s->normal_velocity[k];
@@ -307,7 +307,7 @@ static inline void start(const constants *c, vec *y)
     y[ROTATION] = splat(0.0);
 }
 
-/* State just after a rebound: u -> -e_dry u, all else continues. */
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
 static inline void rebound(const constants *c, const vec *y, vec *after)
 {
     (void)c; (void)y;
@@ -319,7 +319,7 @@ static inline void rebound(const constants *c, const vec *y, vec *after)
     after[ROTATION] = y[ROTATION];
 }
 
-/* What holds a doublet at rest together, over m v0^2/x0: positive inward. */
+/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
 {
     (void)c; (void)y;
@@ -369,7 +369,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* What a separated doublet shows: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over omega0. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -385,7 +385,7 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 
 #if defined(FILM_STOPPING) && defined(GLASS_REACH)
 #define PENDULUM MIDGAP_ARM
-/* The strings outweigh the rotation for good where outward < pull (equations/certificates/pendulum.py). */
+/* The strings outweigh the rotation from now on if outward < pull (equations/certificates/pendulum.py). */
 static inline void pendulum_inward(const constants *c, const vec *y, vec *outward, vec *pull)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
@@ -398,7 +398,7 @@ static inline void pendulum_inward(const constants *c, const vec *y, vec *outwar
         0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
         4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
 }
-/* Then the film stops the motion and every rebound where film < 0 and recoil < 0. */
+/* The film then stops the opening and every rebound if film < 0 and recoil < 0. */
 static inline void pendulum_stops(const constants *c, const vec *y, vec *film, vec *recoil)
 {
     vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
@@ -451,7 +451,7 @@ static inline vec rebound_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* Angular momentum over its start value. */
+/* Angular momentum over its initial value. */
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;

@@ -83,13 +83,13 @@ def looked(
             continue
         others = {name: values[which] for name, values in (solids or {}).items()}
         impacts = Impacts(scene, speed[which], angle[which], others)
-        told = run_recorded(
+        recorded = run_recorded(
             impacts, oblique, rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
             peaks=True, events=False,
         )  # fmt: skip
-        if told is None or told.peaks is None:
+        if recorded is None or recorded.peaks is None:
             return None
-        answers = told.answers
+        answers = recorded.answers
         part = np.zeros(which.size, LOOK)
         part["outcome"] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
         part["creeps"], part["chatters"] = (
@@ -97,7 +97,7 @@ def looked(
         )
         part["at_touch"] = answers["time"] == 0
         part["restitution"] = answers["shown"][:, 0]
-        part["glass"] = told.peaks
+        part["glass"] = recorded.peaks
         for name in ("reversal", "events", "time", "smallest_gap", "final_gap"):
             part[name] = answers[name]
         if purpose == Purpose.WHOLE and not others:
@@ -142,16 +142,16 @@ def approach(
         pressure: function of states, as columns.
         creeping: speed (v0) below which an approach that exhausted its steps counts as stopped.
     """
-    told = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
-    if told is None or told.steps is None or not told.steps.rows.size:
+    recorded = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
+    if recorded is None or recorded.steps is None or not recorded.steps.rows.size:
         return None
-    rows = told.steps.rows[told.steps.rows["closing"] != 0]
+    rows = recorded.steps.rows[recorded.steps.rows["closing"] != 0]
     if not rows.size:
         return None
-    steps = Steps(rows, told.steps.turned)
+    steps = Steps(rows, recorded.steps.turned)
     end = float(rows["time"][-1] + rows["length"][-1])
     last = steps.states(np.array([end]))[:, 0]
-    if told.answers["status"][0] > LAST_ANSWER and not abs(last[1]) < creeping:
+    if recorded.answers["status"][0] > LAST_ANSWER and not abs(last[1]) < creeping:
         return None
 
     def at(times: np.ndarray) -> np.ndarray:
@@ -175,12 +175,12 @@ def escaping(
         start: the model's states at initial contact.
         budget: largest number of steps.
     """
-    told = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
-    if told is None or told.steps is None or told.answers["status"][0] > Status.NO_BUDGET:
+    recorded = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
+    if recorded is None or recorded.steps is None or recorded.answers["status"][0] > Status.NO_BUDGET:
         return None
-    decided = bool(told.answers["status"][0] < Status.NO_BUDGET)
-    answer, rows, size = told.answers[0], told.steps.rows, start.size
-    happened = told.events[0, : answer["events"]]
+    decided = bool(recorded.answers["status"][0] < Status.NO_BUDGET)
+    answer, rows, size = recorded.answers[0], recorded.steps.rows, start.size
+    happened = recorded.events[0, : answer["events"]]
     separated = bool(answer["outcome"])
     fell_back = not separated and happened.size > 0 and int(happened["kind"][-1]) == EventKind.FELL_BACK
     if not rows.size:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..certificates import Barrier, energy_proof
-from ..engines.casadi.integrators import IntegrationFailed, locator, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, locator, tolerance_for
 from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocator, EventSequence
 from ..engines.choice import boundary_engine
 from ..engines.taylor.build import compile_all
@@ -257,8 +257,8 @@ def _saddle_amplitude(probe: EventLocator, escaped: Escaping | _Located, barrier
 def _sampled(probe: EventLocator, path: EventSequence) -> tuple[np.ndarray, np.ndarray]:
     """Times and states of the trajectory: ends of phases, and samples of phases that do not end at rest in the gap."""
     times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
-    told = tolerance(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
-    for step, _, inside, end in resampled(path, told, _GRID, lambda step: step.event != "turning", path.extras):
+    tolerance = tolerance_for(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
+    for step, _, inside, end in resampled(path, tolerance, _GRID, lambda step: step.event != "turning", path.extras):
         if inside is not None:
             times += [clock + part * step.duration for part in _GRID]
             states += list(inside.T)

@@ -6,7 +6,7 @@ from .attraction import AttractionCertificate
 from .base import Certainty, Certificate, NoCertificate, at_maximum
 from .chatter import ChatterCertificate
 from .choice import energy_proof, proof_for
-from .circling import comes_to
+from .circling import limit_of_circling
 from .energy_barrier import Barrier, EnergyCertificate
 from .film import FilmCertificate
 from .orbital_momentum import OrbitalMomentumCertificate
@@ -24,7 +24,7 @@ __all__ = [
     "OrbitalMomentumCertificate",
     "PendulumCertificate",
     "at_maximum",
-    "comes_to",
     "energy_proof",
+    "limit_of_circling",
     "proof_for",
 ]

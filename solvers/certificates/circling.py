@@ -25,7 +25,7 @@ _GROWTH = 1.05  # tolerated growth of that ratio between the two states
 _GAPS = 201
 
 
-def comes_to(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y: np.ndarray) -> bool | None:
+def limit_of_circling(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y: np.ndarray) -> bool | None:
     """True if a circling doublet sticks in the limit of many cycles, False if it separates, None if undecided.
 
     Arguments:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engines.casadi.integrators import Tolerance, tolerance
+from ..engines.casadi.integrators import Tolerance, tolerance_for
 from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, Stopped, as_located, replay
 from ..errors import ComputationError
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], EventSequence]
-Told = Callable[[float, str, dict[str, float]], Tolerance]
+ToleranceFor = Callable[[float, str, dict[str, float]], Tolerance]
 _TIGHTEST = 1e-13
 _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
 
@@ -37,7 +37,7 @@ def by_casadi(
     ledger: bool,
     trajectory: bool,
     find: Find = locate,
-    told: Told = tolerance,
+    control: ToleranceFor = tolerance_for,
     replay: Callable[..., Replay] = replay,
     until: float | None = None,
 ) -> Collision:
@@ -45,12 +45,12 @@ def by_casadi(
 
     Arguments:
         find: locates the sequence of events; the same for both engines.
-        told: integrator tolerances of an engine at a given `rtol`.
+        control: integrator tolerances of an engine at a given `rtol`.
         replay: integrates the located phases.
         until: time (s) to which a stick is followed on after its proof, located as usual.
     """
     find = find if until is None else partial(locate, until=until / n.time)
-    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, told, replay)
+    found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, control, replay)
     return _result(scene, n, *found, trajectory, rtol)
 
 
@@ -62,7 +62,7 @@ def _compute(
     ledger: bool,
     trajectory: bool,
     find: Find,
-    told: Told,
+    control: ToleranceFor,
     replay: Callable[..., Replay],
 ) -> tuple[EventSequence, Replay, Flow, str, float]:
     """Locate the events, then integrate the phases with the engine.
@@ -82,7 +82,7 @@ def _compute(
             raise n.in_si(error) from None
         start = flow.model.start(flow.model.group_values(n.groups))
         try:
-            replayed = replay(located, plugin, told(asked, plugin, n.groups), flow, start)
+            replayed = replay(located, plugin, control(asked, plugin, n.groups), flow, start)
         except Stopped as failure:
             if failure.missed and asked > _TIGHTEST:
                 asked = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST
@@ -195,8 +195,8 @@ def _trajectory(
     from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
 
     attrs = attributes(scene, path.outcome, plugin, rtol)
-    told, p = tolerance(rtol, plugin, n.groups), model.group_values(n.groups)
-    pieces = [stretch(piece, model, replayed, p, plugin, told) for piece in replayed.pieces]
+    tolerance, p = tolerance_for(rtol, plugin, n.groups), model.group_values(n.groups)
+    pieces = [stretch(piece, model, replayed, p, plugin, tolerance) for piece in replayed.pieces]
     try:
         return dataset(pieces, model, n, replayed.y, attrs)
     except ComputationError as error:

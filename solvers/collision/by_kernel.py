@@ -44,16 +44,16 @@ def collision(
         trajectory: include the trajectory, sampled from the Taylor series of the steps.
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    told = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
-    if told is None or told.answers["status"][0] > LAST_ANSWER:
+    recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
+    if recorded is None or recorded.answers["status"][0] > LAST_ANSWER:
         return None
-    energy = None if told.ledger is None else _energy(scene, n, told.ledger[0])
-    found = told.answers[0]
+    energy = None if recorded.ledger is None else _energy(scene, n, recorded.ledger[0])
+    found = recorded.answers[0]
     outcome, reversal = kind_of(found)
     separated = bool(found["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
         return None  # the energy budget does not close, so the trajectory is wrong
-    happened = told.events[0, : found["events"]]
+    happened = recorded.events[0, : found["events"]]
     model = load(select_model(scene, n.oblique, fold=True))
     finding = Finding(
         outcome=outcome,
@@ -68,8 +68,8 @@ def collision(
         steps=int(found["steps"]),
         rtol=rtol,
         energy=energy,
-        drift=None if told.ledger is None else _drift(scene, n, told.ledger[0]),
-        trajectory=_trajectory(scene, n, rtol, told, ledger) if trajectory else None,
+        drift=None if recorded.ledger is None else _drift(scene, n, recorded.ledger[0]),
+        trajectory=_trajectory(scene, n, rtol, recorded, ledger) if trajectory else None,
     )
     return assembled(scene, n, finding)
 
@@ -95,13 +95,15 @@ def _drift(scene: Scene, n: DimensionlessGroups, book: np.void) -> float | None:
     return abs(float(book["momentum"]) - 1.0) if n.oblique else 0.0
 
 
-def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, told: Recorded, full: bool) -> xarray.Dataset:
+def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
 
-    assert told.steps is not None
+    assert recorded.steps is not None
     model = load(select_model(scene, n.oblique, full=full, fold=True))
-    attrs = attributes(scene, OUTCOMES[told.answers["outcome"][0]], "taylor", rtol)
-    return dataset(stretches(told.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs)
+    attrs = attributes(scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
+    return dataset(
+        stretches(recorded.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs
+    )
 
 
 def stretches(steps: Steps, states: int) -> list[Stretch]:

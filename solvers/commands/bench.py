@@ -55,7 +55,7 @@ def command(
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
     folder = options.check_folder(out)
-    asked = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model)
+    asked = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model)
     scene = asked.optional_scene()
 
     from ..scene.scene import Scene

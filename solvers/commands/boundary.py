@@ -72,7 +72,7 @@ def command(
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
     span = STOKES if stokes is None else _span(stokes)
-    asked = options.Asked.check(source, changes, model=model)
+    asked = options.SceneRequest.check(source, changes, model=model)
     plane = _plane(angle, over, wrt, asked)
     angles = None if angle is None or plane else options.entry_range(_ENTRY, angle, "--angle", most=_MOST)
     scene = asked.scene()
@@ -104,7 +104,7 @@ def command(
 
 
 def _plane(
-    angle: str | None, over: str | None, wrt: str | None, asked: options.Asked
+    angle: str | None, over: str | None, wrt: str | None, asked: options.SceneRequest
 ) -> tuple[str, tuple[float, float] | tuple[str, str]] | None:
     """The entry on the horizontal axis and its span if a plane is requested, else None."""
     if over is not None:

@@ -37,7 +37,7 @@ def command(
       wetdoublet cite granulation --set bridge.law=willett -o references.bib
     """  # noqa: D301 # click wants the character itself
     file = options.check_file(output, "-o")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
 
     from ..export.citations import as_bibtex, citations
 

@@ -45,7 +45,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     scene.need_impact()
 
     from ..collision.collide import collide

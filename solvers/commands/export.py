@@ -43,7 +43,7 @@ def command(
     if kind is not None and kind not in KINDS:
         raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
     folder = options.check_folder(out)
-    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     if kind is None:
         raise InputError("--to", None, "one of " + ", ".join(KINDS))
     if folder is None:

@@ -75,7 +75,7 @@ def command(
         | {f"--vary {each.partition('=')[0]}": each for each in vary}
     )
     axes = _axes(stokes, speed, relative_speed, angle)
-    asked = options.Asked.check(source, changes, model=model)
+    asked = options.SceneRequest.check(source, changes, model=model)
     varied = _varied(vary, asked)
     for name in asked.entries:
         if name.startswith("impact."):
@@ -110,7 +110,7 @@ def _axes(
     return axes
 
 
-def _varied(vary: Sequence[str], asked: options.Asked) -> dict[str, list[float] | list[str]]:
+def _varied(vary: Sequence[str], asked: options.SceneRequest) -> dict[str, list[float] | list[str]]:
     """Axes of --vary by dotted name."""
     from ..many.batch import check_varies
 

@@ -54,7 +54,7 @@ def impact(command: Command) -> Command:
 
 
 @dataclass(frozen=True)
-class Asked:
+class SceneRequest:
     """A scene as requested on the command line: options checked, scene file not read yet."""
 
     source: str | None
@@ -72,7 +72,7 @@ class Asked:
         angle: str | None = None,
         relative_speed: str | None = None,
         model: str | None = None,
-    ) -> Asked:
+    ) -> SceneRequest:
         """Return the checked request; InputError naming the first wrong option."""
         given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
         read = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in given.items() if text is not None}

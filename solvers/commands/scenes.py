@@ -38,7 +38,7 @@ def command(
     """
     file = options.check_file(output, "-o")
     begun = None if new is None else _new(new)
-    asked = options.Asked.check(name, changes, stokes, speed, angle, relative_speed, model)
+    asked = options.SceneRequest.check(name, changes, stokes, speed, angle, relative_speed, model)
     if begun is not None:
         for option, given in (("NAME", name), ("-o", output), ("--model", model), ("--set", asked.entries or None)):
             if given is not None or asked.impact:

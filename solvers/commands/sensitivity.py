@@ -98,7 +98,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
     if over is not None or over_time:
         given = {"--hessian": "given" * hessian, "--method": method or "", "--hold": "" if over_time else hold or ""}
         given |= {"--over": over or "", "--of": of or "", "--uncertainty": " ".join(uncertain)} if over_time else {}

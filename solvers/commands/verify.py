@@ -63,7 +63,7 @@ def command(
     file = options.check_file(output, "-o", (".md",))
     picture = options.check_file(plot, "--plot", options.PICTURES)
     options.check_apart(file, "-o", picture, "--plot")
-    asked = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model)
+    asked = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model)
     scene = asked.optional_scene()
     if scene is None and picture is not None:
         raise InputError("--plot", plot, "a SCENE with --plot", "needs a SCENE")

@@ -1,1 +1,1 @@
-"""What integrates a collision: CasADi's integrators, the reference, and the compiled Taylor kernel."""
+"""The engines that integrate collisions: CasADi's integrators, the reference, and the compiled Taylor kernel."""

@@ -45,7 +45,7 @@ _CODES[[KINDS.index(word) for word in REVERSALS]] = range(len(REVERSALS))
 _NEAR = 1e-9  # relative distance to a limit of valid input below which the scene itself is validated
 
 
-def collided(
+def collide_by_kernel(
     request: Batch, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
     """Compute the collisions `which` of a batch; returns the indices of those that need another engine.

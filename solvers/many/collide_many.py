@@ -29,7 +29,7 @@ from ..scene.scene import Scene
 from ..settings import FEW, RTOL
 from .batch import Batch, batch, check_outputs, check_some_scene, checked_impact, checked_vary, of_one_length
 from .broadcast import Layout, laid_out
-from .by_kernel import collided
+from .by_kernel import collide_by_kernel
 from .columns import with_impacts
 from .of_impact import of_impact
 from .results import (
@@ -172,7 +172,7 @@ def compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow = 
     """
     size, alone = _BLOCK, _ALONE
     if request.engine == "taylor":
-        left = collided(request, which, usable_cores() if which.size > _ALONE else 1, finished)
+        left = collide_by_kernel(request, which, usable_cores() if which.size > _ALONE else 1, finished)
         if 0 < left.size < which.size:
             slow(left.size)
             size, alone = max(1, min(_BLOCK, left.size // (4 * usable_cores()))), _SLOW_ALONE

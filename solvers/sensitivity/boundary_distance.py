@@ -17,7 +17,7 @@ from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..boundaries.line import Line
 from ..boundaries.resampled import resampled
 from ..certificates import energy_proof
-from ..engines.casadi.integrators import IntegrationFailed, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
@@ -231,8 +231,10 @@ def _pressures(model: Model, film: int, shear: int) -> Function:
 
 def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseRun, np.ndarray]]:
     """Phases and states along each: at a coarse tolerance, and a fine one where those indicate a boundary."""
-    told = tolerance(_COARSE, "rosenbrock", finder.groups)
-    for step, before, inside, end in resampled(path, told, _GRID, lambda step: not step.phase.resting, lenient=True):
+    tolerance = tolerance_for(_COARSE, "rosenbrock", finder.groups)
+    for step, before, inside, end in resampled(
+        path, tolerance, _GRID, lambda step: not step.phase.resting, lenient=True
+    ):
         if step.phase.resting:
             continue
         y = before[:, None]

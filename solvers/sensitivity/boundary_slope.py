@@ -17,7 +17,7 @@ from ..boundaries.changes import FREE, GRAZE, REVERSED, Change
 from ..boundaries.line import WITHOUT_SOLIDS, UnstoppedTrajectory
 from ..boundaries.resampled import resampled
 from ..boundaries.saddle import Saddle, barrier_of, saddle_of
-from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
@@ -75,13 +75,15 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
         return None
     k = next(k for k, step in enumerate(path.steps) if step.rebounds)
     step = path.steps[k]
-    told = tolerance(rtol, "rosenbrock", finder.groups)
+    tolerance = tolerance_for(rtol, "rosenbrock", finder.groups)
     word = contact_word(finder.groups) if step.kinds[0] in GAPS else step.kinds[0]
     before = path.ends[k - 1][: len(model.state)] if k else model.start(path.p)
     if step.duration > 0:
-        step = replace(step, duration=_extremum(model, step, word, before, path.p, told), event=None, rebounds=False)
+        step = replace(
+            step, duration=_extremum(model, step, word, before, path.p, tolerance), event=None, rebounds=False
+        )
     course, durations = _up_to(path, k, step)
-    end = ending(course, "rosenbrock", told)
+    end = ending(course, "rosenbrock", tolerance)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
     y = evaluate(end.function, path.p, durations)[0]
     margin = _margin(model, word)
@@ -90,10 +92,12 @@ def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | No
     return Slope(tuple(model.groups), carried + by_group.ravel())
 
 
-def _extremum(model: Model, step: PhaseRun, word: str, before: np.ndarray, p: np.ndarray, told: Tolerance) -> float:
+def _extremum(
+    model: Model, step: PhaseRun, word: str, before: np.ndarray, p: np.ndarray, tolerance: Tolerance
+) -> float:
     """Time within the phase of the largest pressure or smallest gap, by Newton's method."""
     rates = _rates(model, step.phase.region, word)
-    integrate = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", told)
+    integrate = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", tolerance)
     time = step.duration
     for _ in range(_NEWTON):
         first, second = evaluate(rates, integrate(before, p, time), p)
@@ -149,7 +153,7 @@ def _at_rim(probe: EventLocator, path: EventSequence) -> Slope:
     course = course_of(path, probe.model.choice)
     names = list(probe.model.groups)
     durations = np.array([step.duration for step in path.steps])
-    end = ending(course, "rosenbrock", tolerance(probe.rtol, "rosenbrock", probe.groups))
+    end = ending(course, "rosenbrock", tolerance_for(probe.rtol, "rosenbrock", probe.groups))
     durations = settled(end, path.p, durations, landed(course), 1e-8)
     weights = np.zeros((len(probe.model.state), 1))
     weights[1 if path.separated else 0] = 1.0
@@ -165,13 +169,13 @@ def _at_saddle(probe: EventLocator, path: EventSequence, saddle: Saddle) -> Slop
     Time and mode are kept fixed. The neglected terms are smaller than the growth of the amplitude by the distance of
     the nearest approach.
     """
-    told = tolerance(probe.rtol, "rosenbrock", probe.groups)
-    found = _nearest(probe, path, saddle, told)
+    tolerance = tolerance_for(probe.rtol, "rosenbrock", probe.groups)
+    found = _nearest(probe, path, saddle, tolerance)
     if found is None:
         return None
     k, duration = found
     course, durations = _up_to(path, k, replace(path.steps[k], duration=duration, event=None, rebounds=False))
-    end = ending(course, "rosenbrock", told)
+    end = ending(course, "rosenbrock", tolerance)
     durations = settled(end, path.p, durations, landed(course), 1e-8)
     mode = saddle.modes[saddle.unstable].real
     y = evaluate(end.function, path.p, durations)[0].ravel()
@@ -185,7 +189,9 @@ def _active(course: Course, probe: EventLocator) -> np.ndarray:
     return np.array(influential(course, probe.groups), dtype=float)
 
 
-def _nearest(probe: EventLocator, path: EventSequence, saddle: Saddle, told: Tolerance) -> tuple[int, float] | None:
+def _nearest(
+    probe: EventLocator, path: EventSequence, saddle: Saddle, tolerance: Tolerance
+) -> tuple[int, float] | None:
     """The phase nearest to the saddle, among those on its side of the film edge, and the time within it."""
     region = Region(int(saddle.gap < 1), int(saddle.gap < probe.edge), resting=False)
 
@@ -193,7 +199,7 @@ def _nearest(probe: EventLocator, path: EventSequence, saddle: Saddle, told: Tol
         return replace(step.phase.region, cavitated=False) == region
 
     best: tuple[float, int, float] | None = None
-    for k, (step, _, inside, _) in enumerate(resampled(path, told, _GRID, beside)):
+    for k, (step, _, inside, _) in enumerate(resampled(path, tolerance, _GRID, beside)):
         if inside is not None:
             at, amplitudes = saddle.nearest(inside)
             distance = float(np.linalg.norm(amplitudes))

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..engines.casadi.integrators import IntegrationFailed, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
@@ -111,7 +111,7 @@ class Problem:
             rtol = max(rtol, _SHARPEST_CVODES)
         else:
             rtol = sharpened(rtol, near)
-        whole = trajectory_expression(course, of, plugin, tolerance(rtol, plugin, self.n.groups))
+        whole = trajectory_expression(course, of, plugin, tolerance_for(rtol, plugin, self.n.groups))
         via = parameter_map(self.kind, self.wrt, whole.groups)
         size = len(whole.groups)
         p, scales = np.split(via.values(self.reference).full().ravel(), [size])

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 
-from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance_for
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine
 from ..errors import ComputationError, InputError
@@ -123,7 +123,7 @@ def _pieces(
     problem: Problem, path: EventSequence, plugin: str, rtol: float
 ) -> tuple[list[Piece], list[tuple[str, float, np.ndarray]]]:
     """The phases one by one, and the events with their times and time derivatives."""
-    told = tolerance(rtol, plugin, problem.n.groups)
+    tolerance = tolerance_for(rtol, plugin, problem.n.groups)
     whole = course_of(path, select_model(problem.scene, path.model.oblique, full=True))
     groups = tuple(whole.model.groups)
     via = parameter_map(problem.kind, problem.wrt, groups)
@@ -140,11 +140,11 @@ def _pieces(
     events: list[tuple[str, float, np.ndarray]] = []
     before, d_before = 0.0, np.zeros(dp.shape[1])
     try:
-        durations = settled(ending(whole, plugin, told), p, durations, landed(whole), 1e-9)
+        durations = settled(ending(whole, plugin, tolerance), p, durations, landed(whole), 1e-9)
         for k, step in enumerate(path.steps):
             if step.duration > 0:
                 part = replace(whole, legs=whole.legs[: k + 1])
-                leg = _leg(part, seeds.shape[1], plugin, told)
+                leg = _leg(part, seeds.shape[1], plugin, tolerance)
                 y, rates, tangents, clock, d_clock = evaluate(leg, p, durations[: k + 1], seeds)
                 time = before + durations[k] * np.array([0.0, *_GRID])
                 # converted to a fixed time in seconds, from a fixed time in x0/v0 since the last event
@@ -172,7 +172,7 @@ def _units(scales: np.ndarray, ds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @own_cache(64)
-def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
+def _leg(course: Course, count: int, plugin: str, tolerance: Tolerance) -> Function:
     """Function (groups, durations, directions) -> values over a course's last leg, and their derivatives.
 
     Outputs: the five variables, their rates, the variables' derivatives along the directions (at a fixed time since the
@@ -183,13 +183,13 @@ def _leg(course: Course, count: int, plugin: str, told: Tolerance) -> Function:
     p, durations = symbols(course)
     seeds = MX.sym("seeds", p.numel(), count)
     last = course.legs[-1]
-    start = follow_course(replace(course, legs=course.legs[:-1]), p, durations[:-1], extras, plugin, told).y
-    end = follow_course(course, p, durations, extras, plugin, told)
+    start = follow_course(replace(course, legs=course.legs[:-1]), p, durations[:-1], extras, plugin, tolerance).y
+    end = follow_course(course, p, durations, extras, plugin, tolerance)
     flow = Flow(course.choice, last.phase.region, extras)
     with quiet():
-        engine = plain(flow, plugin, told, _GRID).function
+        engine = plain(flow, plugin, tolerance, _GRID).function
         inside = engine(x0=start, p=vertcat(p, durations[-1]))["xf"]
-        shown = _shown(flow, told.offset)
+        shown = _shown(flow, tolerance.offset)
         columns = [start, *(inside[:, k] for k in range(POINTS))]
         y, rates = (horzcat(*each) for each in zip(*(shown(column, p) for column in columns)))
         # rows of `vec(y.T)`, ordered by variable

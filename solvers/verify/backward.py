@@ -93,11 +93,11 @@ def _chosen(sample: Sample) -> list[tuple[float, float]]:
 
 def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
     """Sections of a phase with an amplification of at most MOST."""
-    told = Tolerance(1e-10, 1e-13)
+    tolerance = Tolerance(1e-10, 1e-13)
     for part in _PLACES:
         start = piece.start
         if part:
-            start = plain(piece.flow, "rosenbrock", told)(piece.start, p, part * piece.duration)
+            start = plain(piece.flow, "rosenbrock", tolerance)(piece.start, p, part * piece.duration)
         rates = np.asarray(_jacobian(piece.flow)(start, p).full())
         fastest = max(float(-np.linalg.eigvals(rates).real.min()), 1e-300)
         duration = min((1 - part) * piece.duration, math.log(_AIM) / fastest)
@@ -110,12 +110,12 @@ def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
 
 
 def _returned(stretch: Stretch, followed: Followed, engine: str, where: str, returning: Back) -> _Return:
-    told = tolerance_of(engine)
+    tolerance = tolerance_of(engine)
     scale = _scale(stretch.flow, followed.p)
     bound = _SAFETY * RTOL * stretch.amplification
     try:
-        end = plain(stretch.flow, engine, told)(stretch.start, followed.p, stretch.duration)
-        back = returning(stretch.flow, engine, told)(end, followed.p, stretch.duration)
+        end = plain(stretch.flow, engine, tolerance)(stretch.start, followed.p, stretch.duration)
+        back = returning(stretch.flow, engine, tolerance)(end, followed.p, stretch.duration)
         error = float(np.max(np.abs(back - stretch.start) / scale))
     except IntegrationFailed:
         error = math.inf
@@ -146,12 +146,12 @@ Back = Callable[[Flow, str, Tolerance], Returning]
 
 
 @own_cache(64)
-def returning(flow: Flow, engine: str, told: Tolerance) -> Returning:
+def returning(flow: Flow, engine: str, tolerance: Tolerance) -> Returning:
     """The integrator of a flow with negated rates."""
     parts, duration = expressions(flow), SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": -duration * parts.rates}
     with quiet():
-        return Returning(integrator("returning", engine, dae, 0, 1, told.options(engine)))
+        return Returning(integrator("returning", engine, dae, 0, 1, tolerance.options(engine)))
 
 
 def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float) -> float:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..collision.collide import collide
-from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance_for
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
@@ -238,4 +238,4 @@ def _integrated(
     plain: Integrators, flow: Flow, engine: str, n: DimensionlessGroups, start: np.ndarray, time: float
 ) -> np.ndarray:
     p = flow.model.group_values(n.groups)
-    return plain(flow, engine, tolerance(RTOL, engine, n.groups))(start, p, time)
+    return plain(flow, engine, tolerance_for(RTOL, engine, n.groups))(start, p, time)

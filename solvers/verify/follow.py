@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..engines.casadi.integrators import Tolerance, tolerance
+from ..engines.casadi.integrators import Tolerance, tolerance_for
 from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, Stopped, replay
 from ..errors import ComputationError
@@ -37,9 +37,9 @@ def follow(scene: Scene, stokes: float, angle: float, engine: str, rtol: float) 
     n = nondimensionalise(scene, scene.speed_of(stokes), angle)
     path = locate(load(select_model(scene, n.oblique)), n.groups, rtol)
     flow = Flow(select_model(scene, n.oblique, full=True), Region(1, 1, False))
-    p, told = flow.model.group_values(n.groups), tolerance(rtol, engine, n.groups)
+    p, tolerance = flow.model.group_values(n.groups), tolerance_for(rtol, engine, n.groups)
     try:
-        replayed = replay(path, engine, told, flow, flow.model.start(p))
+        replayed = replay(path, engine, tolerance, flow, flow.model.start(p))
     except Stopped as failure:
         raise ComputationError(f"{engine} {failure.why}", phase=str(failure.step.phase)) from None
-    return Followed(n, path, replayed, flow.model, p, told)
+    return Followed(n, path, replayed, flow.model, p, tolerance)

@@ -25,7 +25,7 @@ from wetdoublet.solvers import Scene
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.many.batch import Batch, validated_batch
-from wetdoublet.solvers.many.by_kernel import collided
+from wetdoublet.solvers.many.by_kernel import collide_by_kernel
 
 from .kernel import table
 from .measured.tasks import Task
@@ -72,7 +72,9 @@ def measured(kind: str, scene: Scene) -> dict[str, Any]:
     def kernel() -> many.Block:
         repeated = request(RTOL, "taylor", REPEATS)
         found = many.empty(repeated.size, repeated.of)
-        left = collided(repeated, np.arange(repeated.size), 1, lambda where, block: many.fill(found, where, block))
+        left = collide_by_kernel(
+            repeated, np.arange(repeated.size), 1, lambda where, block: many.fill(found, where, block)
+        )
         assert not left.size
         return found
 

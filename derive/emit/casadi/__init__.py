@@ -1,1 +1,1 @@
-"""The equations as Python modules of CasADi expressions."""
+"""Emission of the equations as Python modules with CasADi expressions."""

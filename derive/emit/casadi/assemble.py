@@ -1,4 +1,4 @@
-"""Text of `generated/assemble.py`: how a structure's functions become CasADi Functions over named vectors."""
+"""Text of `generated/assemble.py`, which turns a structure's functions into CasADi Functions of named vectors."""
 
 ASSEMBLE = '''"""From a structure module to CasADi Functions over vectors ordered as its STATES and GROUPS."""
 

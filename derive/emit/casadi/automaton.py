@@ -1,4 +1,4 @@
-"""The automaton as a Python module: enumerations, tables and constants that the solvers read."""
+"""The automaton as a Python module for the solvers: enumerations, tables and constants."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _EVENT_FIELDS = {
 
 
 def automaton_digest() -> str:
-    """Digest of the tables."""
+    """Digest of the tables of the automaton."""
     tables = (
         "COMPONENTS",
         "CRITERIA",
@@ -49,7 +49,7 @@ def automaton_digest() -> str:
 
 
 def provenance() -> str:
-    """What every file of the automaton begins with."""
+    """The header lines of every file of the automaton."""
     return f"{_PROVENANCE}\nAutomaton sha256 {automaton_digest()}"
 
 
@@ -67,11 +67,11 @@ def automaton_module() -> str:
                             [(word.name, word.meaning) for word in automaton.WORDS])]  # fmt: skip
     lines += ["", *_tuple("KINDS", words)]
     lines += _criteria()
-    lines += _numbers("Status", "What the kernel says of a collision; up to LAST_ANSWER its outcome stands.",
+    lines += _numbers("Status", "Status returned by the kernel; up to LAST_ANSWER the outcome is valid.",
                       [(each.name, each.meaning) for each in automaton.STATUSES])  # fmt: skip
     last = [each.name for each in automaton.STATUSES if each.answers][-1]
     lines += ["", "", f"LAST_ANSWER = Status.{last}", ""]
-    lines += _numbers("Purpose", "What the kernel integrates a collision for.",
+    lines += _numbers("Purpose", "Part of a trajectory that the kernel integrates.",
                       [(each.name, each.meaning) for each in automaton.PURPOSES])  # fmt: skip
     lines += ["", ""]
     for constant in automaton.CONSTANTS:
@@ -81,7 +81,7 @@ def automaton_module() -> str:
 
 
 def _criteria() -> list[str]:
-    doc = "A rebound criterion: the group at which it is met, its name and symbol, and what removes it."
+    doc = "A rebound criterion; `derive/equations/automaton.py` explains the fields."
     lines = ["", "", *_named_tuple("Criterion", doc, _CRITERION_FIELDS), "", ""]
     lines += ["CRITERIA = {  # by word, in the order in which they apply on entry"]
     for each in automaton.CRITERIA:
@@ -106,10 +106,14 @@ def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[st
 def _events() -> list[str]:
     declared = [field.name for field in fields(automaton.Event)]
     assert sorted(declared) == sorted(_EVENT_FIELDS), "every field of an event is emitted"
-    doc = "A guard and its effect; `generated/automaton.md` explains them."
+    doc = "An event: its guard and its effect; `generated/automaton.md` explains them."
     lines = ["", *_named_tuple("Event", doc, _EVENT_FIELDS)]
     void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
-    lines += ["", "", "# Conditions on a part of the mode that are void where a structure lacks an event function."]
+    lines += [
+        "",
+        "",
+        "# Component of the mode -> event; conditions on it are ignored in structures without that event.",
+    ]
     lines += ["VOID_WITHOUT = {", *(f'    "{name}": "{event}",' for name, event in void.items()), "}", ""]
     lines += [f"ENDS = {_text(automaton.ENDS)}  # actions that end a collision", ""]
     lines += ["EVENTS = (  # in order of precedence among coincident ones"]

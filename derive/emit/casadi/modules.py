@@ -1,4 +1,4 @@
-"""The text of each emitted module: a law, a structure, the scaling."""
+"""Texts of the emitted modules: laws, structures, scaling."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change de
 
 
 def digest(*parts: object) -> str:
-    """SHA-256 over the mathematics (srepr, not source text) that a module comes from."""
+    """SHA-256 of the mathematics of a module (srepr, not source text)."""
     text = "\n".join(sp.srepr(part) if isinstance(part, sp.Basic) else str(part) for part in parts)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -43,7 +43,7 @@ def law_digest(law: Law) -> str:
 
 
 def law_module(law: Law) -> str:
-    """A law: its functions of dimensionless arguments."""
+    """Text of a law's module: its functions of dimensionless arguments."""
     printer = Printer()
     body: list[str] = []
     for function in law.functions:
@@ -66,12 +66,12 @@ def law_module(law: Law) -> str:
 
 
 def _falls(law: Law) -> list[str]:
-    """Whether its force never grows with the gap, said where it is so."""
+    """The constant FALLS of a law whose force decreases with the gap; no lines for other laws."""
     return ["", "FALLS = True", ""] if any(each.falls for each in law.functions) else []
 
 
 def _validity(law: Law) -> list[str]:
-    """Where a law holds: quantity to (least, largest), None for no bound known."""
+    """The constant VALIDITY of a law: quantity to (least, largest), None for no known bound."""
     known = law.validity
     if known is None:
         return []
@@ -123,7 +123,7 @@ def _describe(model: Model, own: Own) -> str:
 
 
 def structure_module(model: Model, own: Own | None = None) -> str:
-    """A structure: states, groups, slots, and its functions of named values; `own` are a user's groups."""
+    """Text of a structure's module: states, groups, slots, and its functions; `own` are a user's groups."""
     printer = Printer()
     body: list[str] = ["", "Values = Mapping[str, Any]", ""]
     for constant, names in (
@@ -176,22 +176,22 @@ def _function(model: Model, name: str, printer: Printer) -> list[str]:
 
 
 def law_kernel(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """The C header of a law, for the Taylor kernel; `groups` are a user's."""
+    """Text of a law's C header for the Taylor kernel; `groups` are a user's."""
     return law_header(law, law_digest(law), _PROVENANCE, groups)
 
 
 def structure_kernel(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
-    """The C header of a structure, for the Taylor kernel; `own` and `beside` are a user's."""
+    """Text of a structure's C header for the Taylor kernel; `own` and `beside` are a user's."""
     return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
 
 
 def law_slopes(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """The C header with the slopes of a law, for the kernel's derivatives; `groups` are a user's."""
+    """Text of the C header with the derivatives of a law; `groups` are a user's."""
     return slopes_header(law, law_digest(law), _PROVENANCE, groups)
 
 
 def structure_tangent(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
-    """The C header of a structure's tangent, for the kernel's derivatives; `own` and `beside` are a user's."""
+    """Text of the C header of a structure's tangent; `own` and `beside` are a user's."""
     return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
 
 
@@ -205,19 +205,19 @@ def _scaling() -> dict[sp.Symbol, sp.Expr]:
 
 
 def scaling_module() -> str:
-    """The groups as functions of SI quantities, one a function, and which quantities each takes."""
+    """Text of the module with the groups as functions of SI quantities, and the quantities that each takes."""
     known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
     return groups_module(_scaling(), known, scaling_digest(), _GROUPS_DOC)
 
 
 _GROUPS_DOC = (
     "Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.\n\n"
-    "A function each, of floats or CasADi expressions; ARGUMENTS names what each takes, in order."
+    "Each is a function of floats or CasADi expressions; ARGUMENTS has the names of its arguments, in order."
 )
 
 
 def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: str, doc: str) -> str:
-    """Groups as functions of quantities, of which `known` has unit and meaning by name, in order."""
+    """Text of a module with groups as functions of quantities; `known` maps their names to (unit, meaning)."""
     printer = Printer()
     body: list[str] = ["", "ARGUMENTS: dict[str, tuple[str, ...]] = {"]
     arguments = {

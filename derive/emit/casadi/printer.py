@@ -1,7 +1,7 @@
-"""A strict sympy-to-CasADi source printer: a whitelist of nodes, anything else is an error that names it.
+"""A strict sympy-to-CasADi source printer: a whitelist of nodes; any other node is an error that names it.
 
-It walks the tree itself. sympy's own printers fall back on the node's name, which leaks functions that CasADi does
-not have (`erf`) or that mean something else (`and`).
+sympy's own printers fall back on the node's name, and so emit functions that CasADi does not have (`erf`) or that have
+another meaning (`and`).
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ _RELATIONS: dict[type, str] = {
 
 
 class EmissionError(ValueError):
-    """An expression has a node for which there is no CasADi source; the message names it."""
+    """An expression with a node that has no CasADi source; the message names the node."""
 
 
 class Printer:
-    """Prints expressions as Python source and records the CasADi names they use in `imports`."""
+    """Printer of expressions as Python source; the CasADi names used are recorded in `imports`."""
 
     def __init__(self) -> None:
         self.imports: set[str] = set()
@@ -102,7 +102,7 @@ class Printer:
 
     @staticmethod
     def _rational(node: sp.Rational) -> tuple[str, int]:
-        """A finite decimal as a decimal literal, any other as p/q: both are the double nearest the rational."""
+        """A finite decimal as a decimal literal, other rationals as p/q: both give the nearest double."""
         decimal = _decimal(node)
         if decimal is not None:
             return decimal, _ATOM if node >= 0 else _UNARY
@@ -157,10 +157,10 @@ class Printer:
         return text
 
     def _piecewise(self, node: sp.Piecewise) -> str:
-        """Nested if_else, each branch seeing its variable held inside the branch's own range.
+        """Nested if_else; in each branch the variable is clamped to an interior of the branch's own range.
 
-        A branch not taken is evaluated all the same; held so, neither its value nor a derivative of any order can be
-        NaN. (Clamping to the bound would not do: sqrt(1 - x) has no derivative at 1.)
+        CasADi evaluates all branches. With the variable held inside the range, neither the value nor any derivative of
+        a branch not taken can be NaN. (Clamping to the bound is not sufficient: sqrt(1 - x) has no derivative at 1.)
         """
         if node.args[-1][1] != sp.true:
             raise EmissionError(f"Piecewise without a final otherwise: {node}")
@@ -178,7 +178,7 @@ class Printer:
             raise EmissionError(f"Piecewise conditions on {both} together cannot be guarded: {node}")
         choose = self._name("if_else")
         text = ""
-        facts: list[tuple[sp.Basic, bool]] = []  # conditions that hold or fail where a branch is taken
+        facts: list[tuple[sp.Basic, bool]] = []  # truth values of the conditions where a branch is taken
         for value, condition in node.args:
             last = condition == sp.true
             own = facts if last else [*facts, (condition, True)]
@@ -188,7 +188,7 @@ class Printer:
         return text + ")" * (len(node.args) - 1)
 
     def _guarded(self, node: sp.Piecewise, value: sp.Expr, facts: list[tuple[sp.Basic, bool]]) -> str:
-        """A branch as a function of its variable, which outside the branch's range is held at a point inside it."""
+        """A branch as a function of its variable, replaced outside the branch's range by a point inside it."""
         variable = facts[0][0].lhs
         if variable not in value.free_symbols:
             return self._print(value)[0]
@@ -208,7 +208,7 @@ class Printer:
 
 
 def _inside(variable: sp.Symbol, facts: list[tuple[sp.Basic, bool]]) -> sp.Expr:
-    """A point inside the range that the conditions leave, away from its ends."""
+    """A point inside the range given by the conditions, away from its ends."""
     above = [c.rhs for c, holds in facts if (type(c) in (sp.StrictGreaterThan, sp.GreaterThan)) == holds]
     below = [c.rhs for c, holds in facts if (type(c) in (sp.StrictLessThan, sp.LessThan)) == holds]
     low = above[0] if len(above) == 1 else sp.Max(*above) if above else None
@@ -240,7 +240,7 @@ def _decimal(value: sp.Rational) -> str | None:
 
 
 def _positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
-    """The order given, started with a positive term where there is one."""
+    """The given order, starting with a positive term if there is one."""
     for position, term in enumerate(terms):
         if not term.could_extract_minus_sign():
             return [term, *terms[:position], *terms[position + 1 :]]

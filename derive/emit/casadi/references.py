@@ -1,4 +1,4 @@
-"""The publications of laws as a Python module, which `wetdoublet cite` reads."""
+"""The publications of laws as a Python module, read by `wetdoublet cite`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FIELDS = {
 
 
 def cited() -> dict[str, tuple[Reference, ...]]:
-    """What a scene may use -> where it is published: the paper, laws by slot and name, and what is in no slot."""
+    """Publications by what they describe: the paper, laws by slot and name, and parts that fill no slot."""
     found: dict[str, tuple[Reference, ...]] = {"paper": (PAPER,)}
     for slot, laws in LAWS.items():
         for law in laws.values():

@@ -1,1 +1,1 @@
-"""The equations in print: LaTeX and Markdown."""
+"""Emission of the equations as LaTeX and Markdown."""

@@ -1,4 +1,4 @@
-"""The automaton as a page of Markdown: modes, events, rules, outcomes and constants as tables."""
+"""The automaton as a Markdown page: tables of modes, events, rules, outcomes and constants."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ...equations import automaton
 from ...equations.automaton import Event
 
 DIAGRAM = "automaton.svg"
-_INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth, and events are watched
-for. The first one to happen ends the mode, is reported by its word, and has its effect; of events at one time
-the one further up in the table counts. Both engines read it; it is written down in `derive/equations/automaton.py`.
+_INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth. The first event ends
+the mode, is reported by its word, and has its effect; of events at the same time, the one further up in the table
+counts. Both engines use these tables, which are declared in `derive/equations/automaton.py`.
 
 At initial contact the mode is closing, moving and inside the film, and inside the tangential edge if that is not below
 x0."""
-_VOID = """Where nothing happens at x0 (no bridge, or a film that ends with the bridge) there is no film edge, and there
-are no conditions on the film."""
+_VOID = """Structures without a film edge (no bridge, or a film whose rim follows the bridge volume) have no
+event at x0, and conditions on the film are ignored."""
 
 
 def automaton_page(provenance: str) -> str:
@@ -23,7 +23,7 @@ def automaton_page(provenance: str) -> str:
     lines = [*(f"<!-- {line} -->" for line in provenance.splitlines()), "", "# The events of a collision", ""]
     lines += [_INTRODUCTION, "", f"![Modes and the events between them]({DIAGRAM})", "", "## Modes", ""]
     lines += _table(
-        ("part", "values", "which is"),
+        ("component", "values", "meaning"),
         [(each.name, ", ".join(name for _, name in each.values), each.meaning) for each in automaton.COMPONENTS],
     )
     lines += ["", _VOID]
@@ -35,26 +35,26 @@ def automaton_page(provenance: str) -> str:
             for each in automaton.EVENTS
         ],
     )
-    lines += ["", *_reported_by(), "", "The effects, one by one:", ""]
+    lines += ["", *_reported_by(), "", "The actions of the effects:", ""]
     lines += _table(("action", "meaning"), [(each.name, each.meaning) for each in automaton.ACTIONS])
     lines += ["", "## Words", ""]
     lines += _table(("reported as", "number", "meaning"),
                     [(f"`{each.word}`", str(k), each.meaning) for k, each in enumerate(automaton.WORDS)])  # fmt: skip
-    lines += ["", "## Rules", "", "What is decided where no function falls through zero:", ""]
+    lines += ["", "## Rules", "", "Decisions that are not taken at a zero of an event function:", ""]
     lines += _table(
         ("rule", "if", "then", "reported as"),
         [(each.name, each.condition, each.effect, _either(each.words)) for each in automaton.RULES],
     )
     lines += [
         "",
-        "A mode also ends where a certificate proves that the two never separate; the stick is then `certified`.",
+        "A collision also ends where a certificate excludes separation; the stick is then `certified`.",
     ]
     lines += ["", "## Outcomes", ""]
     outcomes = [(f"`{each.word}`", str(k), each.condition) for k, each in enumerate(automaton.OUTCOMES)]
-    lines += _table(("outcome", "number", "where"), outcomes)
-    lines += ["", "## What the kernel says of a collision", ""]
+    lines += _table(("outcome", "number", "condition"), outcomes)
+    lines += ["", "## Status returned by the kernel", ""]
     lines += _table(
-        ("status", "number", "meaning", "outcome stands"),
+        ("status", "number", "meaning", "outcome valid"),
         [
             (f"`{each.name}`", str(k), each.meaning, "yes" if each.answers else "no")
             for k, each in enumerate(automaton.STATUSES)
@@ -69,8 +69,8 @@ def automaton_page(provenance: str) -> str:
 
 def _reported_by() -> list[str]:
     return [
-        "Where two words stand, the first is reported while closing, the second while opening; at a contact, the first",
-        "whose gap is the largest and positive, else the last.",
+        "If there are two words, the first is reported while closing and the second while opening; at a contact, the",
+        "criterion with the largest positive gap is reported, or the last one if none is positive.",
     ]
 
 

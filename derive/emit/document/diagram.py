@@ -1,4 +1,4 @@
-"""The automaton as a diagram (SVG): modes as boxes, and an arrow for each event between two of them."""
+"""The automaton as an SVG diagram: modes as boxes, events as arrows between them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ...equations.automaton import CLOSING, OPENING, Event
 
 _WIDTH, _HEIGHT = 980, 600
 _BOX = 150, 52
-_CLEAR = 2  # between a box and an arrow
-_HALO = ' stroke="white" stroke-width="4"'  # of a label: the same text, wider and white, behind it
+_CLEAR = 2  # distance between a box and an arrow
+_HALO = ' stroke="white" stroke-width="4"'  # halo of a label: the same text in a wide white stroke behind it
 Mode = tuple[tuple[str, int], ...]
 
 
@@ -19,7 +19,7 @@ def _mode(film: int, motion: int, resting: int = 0) -> Mode:
 
 
 _SEPARATED, _CUT_OFF, _ANY = "separated", "stick, cut off", "any mode"
-# box -> centre
+# centre of each box
 _PLACES: dict[Mode | str, tuple[int, int]] = {
     _mode(0, CLOSING): (190, 130),
     _mode(0, OPENING): (560, 130),
@@ -57,7 +57,7 @@ def diagram(provenance: str) -> str:
 
 
 def _arrows() -> dict[tuple[Mode | str, Mode | str], list[str]]:
-    """Pairs of boxes, and the words of the events that lead from one to the other."""
+    """Pairs of boxes, with the words of the events that lead from one to the other."""
     found: dict[tuple[Mode | str, Mode | str], list[str]] = {}
     for event in automaton.EVENTS:
         for source in _sources(event):
@@ -70,14 +70,14 @@ def _arrows() -> dict[tuple[Mode | str, Mode | str], list[str]]:
 
 
 def _sources(event: Event) -> list[Mode | str]:
-    """Boxes in which an event can happen; one for all modes where it is watched in each."""
+    """Boxes in which an event can happen; a single box for all modes if it is watched in each."""
     if not event.where:
         return [_ANY]
     found: list[Mode | str] = []
     for box in _PLACES:
         state = {} if isinstance(box, str) else dict(box)
         watched = bool(state) and all(state.get(component, value) == value for component, value in event.where)
-        # while closing the film is only entered, and while opening only left
+        # while closing the film can only be entered, while opening only left
         passes = event.follows != "film" or (bool(state) and (state["film"] == 1) == (state["motion"] == OPENING))
         if watched and passes:
             found.append(box)
@@ -132,7 +132,7 @@ def _box(box: Mode | str) -> list[str]:
 
 
 def _arrow(source: Mode | str, target: Mode | str, words: str) -> list[str]:
-    """A straight arrow between two boxes, to the right of their line; its label beside the middle."""
+    """A straight arrow between two boxes, shifted to the right of their line, with its label beside the middle."""
     (x0, y0), (x1, y1) = _PLACES[source], _PLACES[target]
     length = ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5
     along, aside = ((x1 - x0) / length, (y1 - y0) / length), 9.0
@@ -161,7 +161,7 @@ def _arrow(source: Mode | str, target: Mode | str, words: str) -> list[str]:
 
 
 def _clip(point: tuple[float, float], centre: tuple[float, float], along: tuple[float, float]) -> tuple[float, float]:
-    """Where a ray from a point within a box leaves it."""
+    """The point at which a ray from a point within a box leaves it."""
     reach = _CLEAR + min(
         (half - (at - middle) * (1 if way > 0 else -1)) / abs(way) if way else 1e9
         for half, at, middle, way in zip((_BOX[0] / 2, _BOX[1] / 2), point, centre, along, strict=True)

@@ -1,4 +1,4 @@
-"""A model's equations as a document, LaTeX or compact Markdown: Table 1 of whatever the model is."""
+"""A model's equations as a document in LaTeX or compact Markdown, arranged as in Table 1 of the paper."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _RELATIONS = {"<": "<", ">": ">", "<=": r"\leq", ">=": r"\geq"}
 
 @dataclass(frozen=True)
 class Document:
-    """Equations by group, each rendered; `laws` and `quantities` are rows of text."""
+    """Rendered equations by group; `laws` and `quantities` are rows of text."""
 
     title: str
     lines: tuple[tuple[str, str, str, str, str], ...]  # group, left, relation, right, note
@@ -73,7 +73,7 @@ class Document:
 
 
 def document(title: str, laws: Mapping[str, str], own: UserModel | None, absent: Iterable[str] = ()) -> Document:
-    """The document of a choice of laws.
+    """The document for a choice of laws.
 
     Arguments:
         laws: slot -> name of its law, of the library or of `own`.
@@ -144,7 +144,7 @@ def _cell(text: str) -> str:
 
 
 def _tex(text: str) -> str:
-    """Text for LaTeX; what stands between dollars is LaTeX already."""
+    """Text escaped for LaTeX; parts between dollar signs are LaTeX already."""
     parts = text.split(_DOLLAR)
     for place in range(0, len(parts), 2):
         for sign, instead in (("\\", r"\textbackslash{}"), ("&", r"\&"), ("%", r"\%"), ("#", r"\#"), ("_", r"\_")):

@@ -1,7 +1,7 @@
 """A strict sympy-to-LaTeX printer in the vocabulary's symbols: a whitelist of nodes, anything else is an error.
 
-What it writes keeps to matplotlib's mathtext, a subset of LaTeX: the same text can be drawn and printed. Factors
-stand in the order of the literature (6 pi mu a^2 u), sums behind a fraction, negative terms last.
+Only LaTeX that matplotlib's mathtext supports is written, so the same text can be drawn and printed. Factors are in the
+order of the literature (6 pi mu a^2 u), sums follow fractions, and negative terms are last.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..casadi.printer import EmissionError
 
 NAMES: dict[str, str] = {
     **{name: quantity.latex for name, quantity in VOCABULARY.items()},
-    # what the vocabulary has no entry for: the paper's forces, and the intermediates of laws
+    # symbols outside the vocabulary: the paper's forces, and intermediates of laws
     F_n.name: "F_{L,n}",
     F_t.name: "F_{L,t}",
     F_c.name: "F_c",
@@ -37,7 +37,7 @@ NAMES: dict[str, str] = {
     "half_filling_angle": r"\alpha",
     **{f"f{k}": f"f_{k}" for k in range(1, 5)},
 }
-_FIRST = [  # of the factors, the rest by vocabulary
+_FIRST = [  # order of the factors; the rest as in the vocabulary
     "decay",
     *(f"f{k}" for k in range(1, 5)),
     m.name,
@@ -68,7 +68,7 @@ _OPERATORS = tuple(_FUNCTIONS.values())
 
 @contextmanager
 def naming(names: Mapping[str, str]) -> Iterator[None]:
-    """Print symbols of a user's model, by name, as it says; inside only."""
+    """Context manager: print symbols of a user's model as the model declares."""
     order = {name: len(_ORDER) + place for place, name in enumerate(names) if name not in NAMES}
     added = {name: text for name, text in names.items() if name not in NAMES}
     NAMES.update(added)
@@ -84,7 +84,7 @@ def latex(expression: sp.Expr) -> str:
     """An expression in LaTeX.
 
     Raises:
-        EmissionError: a node or symbol that has no LaTeX; the message names it.
+        EmissionError: a node or symbol without LaTeX; the message names it.
     """
     return _print(sp.sympify(expression))
 
@@ -137,7 +137,7 @@ def _sum(node: sp.Add) -> str:
 
 
 def _place_in_sum(term: sp.Expr) -> tuple[bool, int, tuple[int, ...]]:
-    """Positive terms first; in them numbers, then symbols by their order, of which the leading one decides."""
+    """Sort key of a term in a sum: positive terms first, then numbers, then by the leading symbol."""
     places = sorted(_ORDER.get(symbol.name, len(_ORDER)) for symbol in term.free_symbols)
     return (bool(term.could_extract_minus_sign()), bool(term.atoms(sp.Function)), tuple(places))
 
@@ -164,7 +164,7 @@ def _product(node: sp.Expr) -> str:
     else:
         inside = [factor for factor in over if not _is_bracket(factor)] or over
     rest = [factor for factor in over if factor not in inside]
-    # a denominator that is one sum needs no brackets
+    # a denominator consisting of one sum needs no brackets
     below = _print(under[0]) if len(under) == 1 else _factors(under)
     above = _print(inside[0]) if len(inside) == 1 else _factors(inside) or "1"
     behind = _factors(rest)
@@ -173,7 +173,7 @@ def _product(node: sp.Expr) -> str:
 
 
 def _place(factor: sp.Expr) -> tuple[int, int]:
-    """Numbers, pi, roots of numbers, symbols by their order, then distances, sums and functions."""
+    """Sort key of a factor: numbers, pi, roots of numbers, symbols in their order, distances, sums, functions."""
     if isinstance(factor, (sp.Integer, sp.Float)):
         return 0, 0
     if factor.is_number:
@@ -217,7 +217,7 @@ def _call(node: sp.Function) -> str:
 
 
 def _argument(node: sp.Function) -> str:
-    """The argument of a function, bare if it is a single symbol."""
+    """The argument of a function, without brackets if it is a single symbol."""
     argument = node.args[0]
     if isinstance(argument, sp.Symbol) or argument == beta / 2:
         return _print(argument)

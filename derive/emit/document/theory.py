@@ -1,4 +1,4 @@
-"""The theory of the paper's Table 1 as lines to be typeset: SI equations of the derivation with the laws filled in."""
+"""The theory of the paper's Table 1 as lines of equations: SI equations of the derivation with the laws filled in."""
 
 from __future__ import annotations
 
@@ -63,15 +63,15 @@ DEFAULTS: Mapping[str, str] = {
 }
 """The law of each slot where no other is asked for."""
 
-_SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # d of the strings, theta_e of the spheres
-_RIM = sp.Symbol("rim", positive=True)  # H of a film of constant volume, in SI
+_SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # distance d of the strings, theta_e of the spheres
+_RIM = sp.Symbol("rim", positive=True)  # rim H of a film of constant volume, in SI
 _ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 _TWO_FIFTHS = sp.Rational(2, 5)
 
 
 @dataclass(frozen=True)
 class Equation:
-    """One line, `left relation right`, under a heading; `expression` is the right side as it was derived."""
+    """One line `left relation right` under a heading; `expression` is the right side as derived."""
 
     group: str
     left: str
@@ -85,7 +85,7 @@ class Equation:
 
 
 def theory(choice: Mapping[str, str | Law] | None = None) -> tuple[Equation, ...]:
-    """Every line of the theory, with the laws of `choice` (slot to name, or a law in SI) where not the default."""
+    """Every line of the theory, with laws from `choice` (slot to name, or a law in SI) or else the default ones."""
     chosen = {**DEFAULTS, **(choice or {})}
     laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
     parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _course(laws))
@@ -123,7 +123,7 @@ def _square_completed(inertia: sp.Expr) -> sp.Expr:
 
 def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     inside = {FILM: 1, SHEAR: 1}
-    # the film's rim as a factor 1 - x/x0, and not x0 - x
+    # written with the factor 1 - x/x0 instead of x0 - x
     law = laws["film"]
     resistance, rim = law["resistance"], _rim(law)
     whole = force_laws(spread=rim is not None)[F_n].subs(inside)
@@ -135,7 +135,7 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     normal = normal.subs((x - end) ** 2, (end - x) ** 2).subs(end - x, end * (1 - x / end))
     shear = fill(force_laws()[F_t].subs(inside), laws)
     for call in shear.atoms(sp.log):
-        shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x), and not -ln(x/x0)
+        shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x) instead of -ln(x/x0)
     edge = sp.simplify(x0 * laws["shear"]["edge"](x0 / a))
     yield Equation("Lubrication", latex(F_n), normal, _where(law))
     if rim is not None:
@@ -145,7 +145,7 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 
 def _where(law: Law) -> str:
-    """Where a film acts, and which way."""
+    """The condition under which a film force acts: region and direction of motion."""
     functions = {function.name for function in law.functions}
     if _rim(law) is not None:
         return "at any gap, the same on the way in and out"
@@ -153,7 +153,7 @@ def _where(law: Law) -> str:
 
 
 def _rim(law: Law) -> sp.Expr | None:
-    """Where the rim is over x0, if the law has it elsewhere than there."""
+    """The position of the rim over x0, if the law does not have it at x0."""
     definitions = law["resistance"].definitions
     return definitions[0][1] if definitions else None
 
@@ -176,7 +176,7 @@ def _bridge(law: Law) -> Iterator[Equation]:
     arguments = dict(zip(force.arguments, call.args, strict=True))
 
     def put(expression: sp.Expr) -> sp.Expr:
-        """At the gap over the radius, fitted coefficients as the decimals they were printed as."""
+        """The expression at the gap over the radius; fitted coefficients as the decimals printed in the source."""
         fitted = {n: sp.Float(str(float(n))) for n in expression.atoms(sp.Rational) if n.q not in (1, 2)}
         return expression.xreplace(fitted).subs(arguments, simultaneous=True)
 
@@ -201,7 +201,7 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, start = "Start, rebound, rupture", start_values()
-    # the criterion is scaled with v0: put the gap and the velocity back
+    # the criterion is scaled with v0: substitute gap and velocity in SI
     pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -normal_velocity)))
     pressure = sp.factor(pressure.subs({gap: x / x0, normal_velocity: u / v0}, simultaneous=True))
     length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)

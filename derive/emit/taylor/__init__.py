@@ -1,1 +1,1 @@
-"""The equations as C headers of Taylor recurrences."""
+"""Emission of the equations as C headers with Taylor recurrences."""

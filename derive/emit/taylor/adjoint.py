@@ -1,8 +1,8 @@
-"""The transposed recurrence of a structure's tangent: a result's derivatives taken back over a step, in C.
+"""The transposed recurrence of a structure's tangent in C: derivatives of a result propagated backwards over a step.
 
-A step's tangent makes coefficients of a direction one after the other and sums them. Read backwards, the same products
-lead from the result's derivatives by the sum to those by each coefficient: by the states at the step's start, and by
-all that drives a direction, whatever the number of groups.
+The tangent of a step computes the coefficients of a direction in sequence and sums them. In reverse order, the same
+products propagate derivatives of the result by the sum to derivatives by each coefficient: by the states at the start
+of the step, and by all source terms, at a cost that does not depend on the number of groups.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .linear_flow import LinearFlow
 
 
 def cotangent(tangent: LinearFlow) -> list[str]:
-    """The recurrence, and the rate at which the flow contracts."""
+    """C text of the backward recurrence, and of the contraction rate of the flow."""
     return [*_recurrence(tangent), *_contraction(tangent)]
 
 
@@ -47,16 +47,16 @@ def _recurrence(tangent: LinearFlow) -> list[str]:
         "const slope_constants *c, const constants *v, vec film, vec shear, int k)"
     )
     doc = (
-        "A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in `after` "
-        "over that number; what the sum gives is there."
+        "Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after` "
+        "holds divided by their number. Contributions of the sum have been added before."
     )
     return [*comment(doc), *function(head, body), ""]
 
 
 def _contraction(tangent: LinearFlow) -> list[str]:
-    """The trace of the matrix, out of what the flow's series begin with."""
+    """The trace of the matrix, from the leading coefficients of the flow's series."""
     slopes = [_diagonal(tangent, state) for state in tangent.model.states]
-    # a law that depends on a rate itself has its slope in the tangent only
+    # the slope of a law that depends on a rate is only available in the tangent
     known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
     trace = sum(known, sp.Integer(0))
     calls = {node: tangent.header.flow.series(node) for node in trace.atoms(AppliedUndef) if is_slot_call(node)}
@@ -71,12 +71,12 @@ def _contraction(tangent: LinearFlow) -> list[str]:
         f"return {Text(name).vector(sp.factor_terms(-trace.xreplace(shown)))};",
     ]
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
-    doc = "The rate at which a volume of states shrinks where a step starts: that of its fast modes."
+    doc = "Contraction rate of a volume of states at the start of a step, dominated by the fast modes."
     return [*comment(doc), *function(head, body), ""]
 
 
 def _diagonal(tangent: LinearFlow, state: sp.Symbol) -> sp.Expr:
-    """How a state's rate changes with the state itself, in series of the flow and constants."""
+    """Derivative of a state's rate by the state itself, in series of the flow and constants."""
     slope = tangent.chain.by(dict(tangent.rates())[state.name], state)
     known = dict(tangent.model.definitions) | dict(tangent.chain.named)
     own = {symbol: value for symbol, value in known.items() if symbol.name not in tangent.flow}

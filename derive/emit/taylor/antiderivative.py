@@ -1,6 +1,4 @@
-"""Antiderivatives of force laws by a few rules that cannot go astray: powers,
-exponentials, gap over a root.
-"""
+"""Antiderivatives of force laws by a few simple rules: powers, exponentials, gap over a root."""
 
 from __future__ import annotations
 
@@ -8,7 +6,7 @@ import sympy as sp
 
 
 def antiderivative(force: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
-    """The antiderivative of `force` in `variable`, checked by differentiation; None where no rule fits a term."""
+    """The antiderivative of `force` in `variable`, verified by differentiation; None if no rule applies to a term."""
     total = sp.Integer(0)
     for term in sp.Add.make_args(sp.expand(force, power_exp=False, power_base=False, log=False, trig=False)):
         part = _of_term(term, variable)
@@ -36,7 +34,7 @@ def _of_term(term: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
 
 
 def _gap_over_root(still: sp.Expr, moving: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
-    """The rule h/sqrt(q) -> 2 sqrt(q)/(q'/h), for q' a multiple of h."""
+    """The rule h/sqrt(q) -> 2 sqrt(q)/(q'/h), for q' proportional to h."""
     roots = [part for part in sp.Mul.make_args(moving) if part.is_Pow and part.exp == -sp.Rational(1, 2)]
     if len(roots) != 1 or sp.simplify(moving * sp.sqrt(roots[0].base)) != variable:
         return None

@@ -1,4 +1,4 @@
-"""The automaton as C: enumerations and constants, and the switch of the kernel over an event's effect."""
+"""The automaton in C: enumerations, constants, and the kernel's switch over the effects of events."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
-# An action as the kernel does it; "reverse" is a function of the word. The functions are in `engines/taylor/runtime/`.
+# C statement of each action; "reverse" is a function of the word. The functions are in `engines/taylor/runtime/`.
 _STATEMENTS = {
     "gap = contact": ("l->y[GAP][lane] = f->contact[lane];",),
     "gap = film edge": ("l->y[GAP][lane] = 1.0;",),
@@ -56,7 +56,7 @@ def automaton_header(provenance: str) -> str:
 
 
 def criteria_header(provenance: str) -> str:
-    """Text of `generated/taylor/criteria.h`: gaps at which the solids meet, as functions of a collision's constants."""
+    """Text of `generated/taylor/criteria.h`: the contact gaps as functions of a collision's constants."""
     groups = [f"c->{each.limit}" for each in automaton.CONTACTS]
     kinds = [_KIND[each.word] for each in automaton.CONTACTS]
     *first, last = zip(groups, kinds, automaton.CONTACTS, strict=True)
@@ -131,17 +131,17 @@ def effects_header(provenance: str) -> str:
 
 
 def event_name(event: Event) -> str:
-    """Its name among the enumerated ones."""
+    """The name of an event in the C enumeration."""
     return f"AT_{event.name.upper()}"
 
 
 def _effect(event: Event) -> list[str]:
-    """Statements: the word is noted first, except where a rule of the action notes its own."""
+    """C statements of an effect; the word is logged first unless a rule of the action logs its own."""
     *landing, last = event.actions
     word = _chosen(event)
     if last == "reverse":
         return [*_done(landing), f"reverse(q, l, f, lane, {word});"]
-    if last == "separate":  # notes its word
+    if last == "separate":  # logs its own word
         return [*_done(landing), *_done([last])]
     noted = f"note(q, l->index[lane], {word}, l->time[lane]);"
     return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event.actions)]

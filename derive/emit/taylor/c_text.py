@@ -1,4 +1,4 @@
-"""C text of series programs: constants prepared once, a recurrence a line, and plain values at order zero."""
+"""C text of series programs: precomputed constants, one recurrence per line, and values of order zero."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _ADD, _MUL, _ATOM = range(3)
 
 
 class Text:
-    """Prints an expression over lanes; `names` says what symbols are called.
+    """Printer of expressions as C text over lanes; `names` maps symbols to C names.
 
     Arguments:
-        calls: of slot functions whose still arguments have been prepared, the call up to the argument that moves, and
-            which of its arguments that is.
+        calls: for slot functions whose constant arguments are prepared: the call up to its varying argument, and the
+            position of that argument.
     """
 
     def __init__(self, names: Callable[[sp.Symbol], str], calls: Mapping[str, tuple[str, int]] | None = None) -> None:
@@ -32,7 +32,7 @@ class Text:
         return self._print(sp.sympify(expression))[0]
 
     def vector(self, expression: sp.Expr) -> str:
-        """The expression as a vector even where it is a number."""
+        """The expression as a vector, also if it is a number."""
         text = self(expression)
         return f"splat({text})" if not expression.free_symbols else text
 
@@ -106,7 +106,7 @@ class Text:
 
 
 def _roots_together(node: sp.Mul) -> list[sp.Expr]:
-    """Factors of a product, those of the same broken power under one logarithm, numbers in front."""
+    """Factors of a product; those with the same fractional power share one logarithm, numbers come first."""
     factors: list[sp.Expr] = []
     below: dict[sp.Expr, list[sp.Expr]] = {}
     for factor in node.as_ordered_factors():
@@ -120,8 +120,8 @@ def _roots_together(node: sp.Mul) -> list[sp.Expr]:
     return factors + roots
 
 
-# Recurrence of an operation, and its value at order zero: `{0}`, `{1}` its series; `whole` its own; `over`, `slope` and
-# `inner` what it keeps beside it (functions of `engines/taylor/runtime/series.h`).
+# C text of the recurrence of an operation and of its value at order zero: `{0}`, `{1}` are its operands, `whole` is
+# its own series; `over`, `slope` and `inner` are auxiliary series (functions of `engines/taylor/runtime/series.h`).
 _RECURRENCES = {
     "square": "square({0}, k)",
     "reciprocal": "reciprocal({0}, {whole}, k)",
@@ -145,13 +145,13 @@ _VALUES = {
 
 
 def number(value: sp.Expr) -> str:
-    """The double nearest a number, as a C literal."""
+    """The nearest double of a number, as a C literal."""
     text = repr(float(value.evalf(30)))
     return f"({text})" if text.startswith("-") else text
 
 
 class Constants:
-    """What is computed once a collision: given values, named ones, and factors hoisted out of the recurrences."""
+    """Quantities computed once per collision: given and named values, and factors hoisted out of the recurrences."""
 
     def __init__(self, given: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
         self._given = dict(given)
@@ -163,7 +163,7 @@ class Constants:
         self.text = Text(self.name)
 
     def beside(self, place: str) -> Constants:
-        """Constants that are kept at another place in C and know these."""
+        """Constants stored in another C struct that can use the present ones."""
         more = Constants(self._given | self._defined, self._flags, place)
         more._hoisted = dict(self._hoisted)
         return more
@@ -178,13 +178,13 @@ class Constants:
         return found
 
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
-        """Keep a named constant."""
+        """Add a named constant."""
         if symbol not in self._defined:
             self.prepared[symbol.name] = expression
             self._defined[symbol] = f"{self._place}{symbol.name}"
 
     def factor(self, expression: sp.Expr, hint: str) -> str:
-        """Text of a constant: a literal, a name, or a value hoisted under `hint`; flags of the region in front."""
+        """Text of a constant: a literal, a name, or a value hoisted under `hint`; the region's flags as factors."""
         flags = [flag for flag in self._flags if flag in expression.free_symbols]
         rest = expression
         for flag in flags:
@@ -211,9 +211,9 @@ class Recurrences:
     """C lines of a program: `s->name[k]` for its own series, `c->name` for constants.
 
     Arguments:
-        where: C text of a series that the program does not make itself.
-        local: whether a series of its own is a variable of the function and no field of `s`.
-        passing: series that only sums are made of: PASSING(k) is where their coefficient k lies.
+        where: C text of a series that the program does not compute itself.
+        local: for each of its own series, whether it is a local variable instead of a member of `s`.
+        passing: series used in sums only, stored at PASSING(k) for coefficient k.
     """
 
     def __init__(
@@ -239,7 +239,7 @@ class Recurrences:
         return [self.constants.factor(factor, hint) for factor, hint in zip(operation.factors, hints, strict=False)]
 
     def array(self, name: str) -> str:
-        """C text of a series' array."""
+        """C text of the array of a series."""
         if name in self._calls:
             return f"s->{name}.result"
         return f"{self._place(name)}{name}" if name in self._own else self._where(name)
@@ -252,7 +252,7 @@ class Recurrences:
         return "" if self._local(name) else "s->"
 
     def fields(self, local: bool = False) -> list[str]:
-        """Declarations of the arrays; of those that are local, or of the others."""
+        """Declarations of the arrays: of the local ones, or of the others."""
         lines = []
         for operation in self.program.operations:
             if self._local(operation.name) != local:
@@ -273,7 +273,7 @@ class Recurrences:
         return list(dict.fromkeys(lines))
 
     def lines(self) -> list[str]:
-        """One line a series for coefficient k."""
+        """One line per series for coefficient k."""
         return [self._line(operation) for operation in self.program.operations]
 
     def _line(self, operation: Operation) -> str:
@@ -311,14 +311,15 @@ class Recurrences:
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
 
     def _age(self, name: str) -> int:
-        """Place of a series in the program; what is given comes first."""
+        """Position of a series in the program; given series come first."""
         return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
 
     def values(self, results: Iterable[object]) -> list[str]:
-        """Local variables with the values at order zero; `where` of the series that are given must be such.
+        """Declarations of local variables with the values at order zero; `where` of given series must be values too.
 
         Arguments:
-            results: what is read of them; a cosine that only its sine's recurrence asks for has no value.
+            results: the names that are used; the value of a cosine needed only by the recurrence of its sine is left
+                out.
         """
         read = {*results, *(part for op in self.program.operations for part in op.series)}
         return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations if op.name in read]

@@ -1,4 +1,4 @@
-"""The stick proofs by margins in C, as values over lanes: on strings, and by what attracts, where the laws permit."""
+"""Margins of the pendulum and attraction certificates in C, where the laws permit them."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from .c_text import Constants, Text
 from .law_header import moves
 from .layout import comment, function
 
-# On strings two functions, the cheap and telling margin first.
+# two functions for strings, the cheap and usually decisive margin first
 PARTS = {
     "pendulum_inward": (
         ("outward", "pull"),
-        "The strings outweigh the rotation for good where outward < pull (equations/certificates/pendulum.py).",
+        "The strings outweigh the rotation from now on if outward < pull (equations/certificates/pendulum.py).",
     ),
     "pendulum_stops": (
         ("film", "recoil"),
-        "Then the film stops the motion and every rebound where film < 0 and recoil < 0.",
+        "The film then stops the opening and every rebound if film < 0 and recoil < 0.",
     ),
 }
 
 
 def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """The functions of PARTS, in the region of laws that have what the proof asks.
+    """The functions of PARTS, compiled only for laws with the functions that the certificate uses.
 
     Arguments:
-        constants: of the structure; what does not move is added to them.
-        prepared: by slot and function, the law's constants in those of the structure.
+        constants: of the structure; factors that do not vary are added to them.
+        prepared: by slot and function, the name of the law's constants in those of the structure.
     """
     outputs = dict(model["pendulum_margins"].outputs)
     asked = {
@@ -49,12 +49,12 @@ def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[
 
 
 def attraction_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """The margins of the attraction certificate, for laws whose force falls with the gap; arguments as above."""
+    """The margins of the attraction certificate, for laws whose force decreases with the gap; arguments as above."""
     outputs = dict(model["attraction_margins"].outputs)
     falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     kept, _ = needed(list(outputs.values()), model.definitions)
-    doc = "What attracts holds for good where hold > 0, escape < 0 and rebound < 0."
+    doc = "The attractions exclude separation if hold > 0, escape < 0 and rebound < 0."
     return [
         f"#if {' && '.join(falling)}",
         "#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)",
@@ -93,7 +93,7 @@ def _function(
 
 
 def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, tuple[str, int]]:
-    """How laws with constants are called: by value, the still arguments in the constants; where the moving one is."""
+    """C calls of laws with prepared constants, and the position of the varying argument."""
     return {
         f"{slot}.{name}": (
             f"{slot}_{name}_value(&c->{where}, ",

@@ -1,7 +1,7 @@
-"""Derivatives of named definitions by a state or a group: the chain rule, with the names kept.
+"""Derivatives of named definitions by a state or a group: the chain rule with names kept.
 
-What is left of a derivative is as short as the definitions are: intermediates and the values of laws stay symbols, so
-that the series of them which a flow has already made are used again.
+Intermediates and values of laws stay symbols, so derivatives are as short as the definitions and reuse the series that
+the flow has already computed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Chain:
     Arguments:
         definitions: in order, each in terms of those before it.
         slope: the symbol for the derivative of a law's call by its argument of that number.
-        constant: symbols that do not move along a trajectory, which cost nothing to divide by.
+        constant: symbols that do not vary along a trajectory, by which division is cheap.
     """
 
     def __init__(
@@ -32,10 +32,10 @@ class Chain:
         self._definitions = dict(definitions)
         self._slope = slope
         self._known: dict[tuple[sp.Basic, sp.Symbol], sp.Expr] = {}
-        self.named: list[Definition] = []  # derivatives with more than one term, under a name of their own
+        self.named: list[Definition] = []  # derivatives with more than one term, as definitions of their own
 
     def by(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-        """D expression/d variable, all other states and groups held."""
+        """Derivative of `expression` by `variable`, with all other states and groups held."""
         calls = {node: sp.Dummy(positive=True) for node in expression.atoms(AppliedUndef) if is_slot_call(node)}
         hidden = expression.xreplace(calls)
         shown = {dummy: node for node, dummy in calls.items()}
@@ -66,7 +66,7 @@ class Chain:
         return self._known[key]
 
     def _name(self, found: sp.Expr, name: str) -> sp.Expr:
-        """A derivative that is a sum, or a product of several that move, under a name of its own; quotients cancel."""
+        """A derivative under its own name if it is a sum or a product of varying factors; quotients are cancelled."""
         moving = [part for part in sp.Mul.make_args(found) if part.free_symbols - set(self._constant)]
         several = len(moving) > 1 and not any(part.is_Pow and part.exp.is_negative for part in moving)
         if not (isinstance(found, sp.Add) or several):
@@ -76,7 +76,7 @@ class Chain:
         return symbol
 
     def _short(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
-        """The derivative of a definition; of a power in a product by the product itself, where that cannot be zero."""
+        """The derivative of a definition; for a power in a product, in terms of the product if that cannot be zero."""
         value = self._definitions[symbol]
         if isinstance(value, sp.Add):
             return self.by(value, variable)
@@ -92,5 +92,5 @@ class Chain:
 
 
 def _expanded(expression: sp.Expr) -> sp.Expr:
-    """Products over sums multiplied out, so that like terms meet; functions stay as they are."""
+    """Products over sums expanded, so that like terms combine; functions are left unchanged."""
     return sp.expand(expression, power_exp=False, power_base=False, log=False, trig=False)

@@ -12,17 +12,17 @@ from ...vocabulary.quantities import normal_velocity
 from .c_text import Constants
 from .layout import comment, function
 
-WORKS = {"capillary": "bridge", "attraction": "attraction"}  # of the ledger, and the slot of the force
+WORKS = {"capillary": "bridge", "attraction": "attraction"}  # name in the ledger, and slot of the force
 Calls = dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]]
 
 
 def attracting(model: Model) -> list[str]:
-    """Slots of the forces that attract."""
+    """Slots of the attractive forces."""
     return [slot for slot in WORKS.values() if slot in model.slots]
 
 
 def edge_function(event: sp.Expr, constants: Constants) -> list[str]:
-    """Where the tangential force ends."""
+    """C function with the gap beyond which the tangential force vanishes."""
     call = next(node for node in event.atoms(AppliedUndef) if is_slot_call(node))
     text = constants.factor(call, "edge")
     return [
@@ -33,7 +33,7 @@ def edge_function(event: sp.Expr, constants: Constants) -> list[str]:
 
 
 def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]:
-    """Work against attractions by the laws' antiderivatives: force over the rate at which its argument grows."""
+    """C function of the work against attractions, from the laws' antiderivatives by the chain rule."""
     gap, terms = model.states[0], []
     for slot in attracting(model):
         force = next(value for symbol, value in model.definitions if symbol.name == f"{slot}_force")
@@ -44,7 +44,7 @@ def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]
         factor = constants.factor(per, f"{slot}_work_factor")
         at = "gap" if scale == "1.0" else f"{scale}*gap"
         terms.append(f"{factor}*{slot}_force_work(&c->{name}, {at})")
-    what = "Capillary work" if attracting(model) == ["bridge"] else "Work against what attracts"
+    what = "Capillary work" if attracting(model) == ["bridge"] else "Work against the attractions"
     return [
         "#if !CAPILLARY_STATE",
         *comment(f"{what} up to a gap over m v0^2, from a fixed but arbitrary gap."),
@@ -55,7 +55,7 @@ def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]
 
 
 def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list[str]:
-    """What the film takes of the normal velocity along a gap: du/dx is minus its force over the velocity."""
+    """C functions of the loss of normal velocity in the film: du/dx is minus the force over the velocity."""
     force = next(value for symbol, value in model.definitions if symbol.name == "film_force").subs(FILM, 1)
     call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
     name = next(name for name, (slot, _, _) in calls.items() if slot == "film")
@@ -64,13 +64,13 @@ def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list
     factor = constants.factor(sp.cancel(force / call / normal_velocity), "film_momentum_factor")
     return [
         "#define FILM_MOMENTUM 1",
-        *comment("Velocity over v0 that the film takes per gap."),
+        *comment("Loss of normal velocity in the film per gap, over v0/x0."),
         *function(
             "static inline vec film_slowing(const constants *c, vec gap)",
             [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
         ),
         "#if defined(FILM_RESISTANCE_WORK)",
-        *comment("Velocity over v0 that the film takes on the way to a gap, from a fixed but arbitrary gap."),
+        *comment("Loss of normal velocity in the film up to a gap, over v0, from a fixed but arbitrary gap."),
         *function(
             "static inline vec film_momentum(const constants *c, vec gap)",
             [f"return {factor}*film_resistance_work(&c->{name}, gap);"],

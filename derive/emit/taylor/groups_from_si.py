@@ -1,4 +1,4 @@
-"""From quantities in SI to the groups of a collision, in C."""
+"""C function from quantities in SI to the groups of a collision."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ from .c_text import Text
 from .layout import comment, function
 
 _PER_DISTANCE = R / x0
-_OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", volume, contact_angle)  # the law's own
+# the distance of the bridge law itself
+_OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", volume, contact_angle)
 
 
 def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
-    """The groups from SI quantities, whose names are exported in the order they are given in.
+    """The groups from SI quantities; names and order of the quantities are exported.
 
     Arguments:
         own: groups of a user's model in SI quantities.
@@ -42,14 +43,14 @@ def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symb
 
 
 def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
-    """What groups are made of: the vocabulary in its order, then what a user has declared."""
+    """The quantities in groups: those of the vocabulary in its order, then those declared by a user."""
     used = set().union(*(expression.free_symbols for expression in expressions.values()))
     found = [one.symbol for one in VOCABULARY.values() if one.symbol in used]
     return found + sorted(used - set(found), key=lambda symbol: str(symbol.name))
 
 
 def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
-    """How the groups change with the quantities in SI, and which of them each quantity moves; `own` as above."""
+    """Derivatives of the groups by the quantities in SI, and the groups that each quantity affects; `own` as above."""
     wanted = _expressions(model, own)
     known = {group for group, expression in wanted.items() if group != expression}
     text = Text(lambda symbol: f"v->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]")
@@ -76,14 +77,14 @@ def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
 
 
 def _own_rupture_slope(symbol: sp.Symbol) -> sp.Expr:
-    """Of the rupture gap by the law's own distance."""
+    """Derivative of the rupture gap for the law's own distance."""
     if symbol in (volume, contact_angle):
         return _PER_DISTANCE * slot_call("bridge", f"rupture_distance_by_{symbol.name}", volume, contact_angle)
     return _power_slope(_PER_DISTANCE, symbol, rupture_gap)
 
 
 def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:
-    """D group/d symbol; by the group itself where the symbol is a factor that is never zero."""
+    """Derivative of a group by `symbol`; in terms of the group if the symbol is a factor that is never zero."""
     if expression == symbol:
         return sp.Integer(1)
     power = expression.as_powers_dict().get(symbol, 0)

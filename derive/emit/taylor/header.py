@@ -1,4 +1,4 @@
-"""The C header of a structure: constants, Taylor recurrences of its flow, and what the lanes' driver asks of it."""
+"""The C header of a structure: constants, Taylor recurrences of its flow, and the functions that the runtime calls."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ _FLAGS = (FILM, SHEAR)
 
 @dataclass(frozen=True)
 class Beside:
-    """What a user's model brings beside the library's vocabulary.
+    """Additions of a user's model to the library's vocabulary.
 
     Arguments:
         definitions: its groups in SI quantities.
         meanings: of groups and quantities, by name.
-        extra: what its calls of a slot's function take beside that one's own arguments.
+        extra: additional arguments of its calls, by slot function.
     """
 
     definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
@@ -40,7 +40,7 @@ class Beside:
 
 
 class Header:
-    """Text of one structure's header, built part by part around its constants."""
+    """Text of one structure's header, assembled part by part around its constants."""
 
     def __init__(self, model: Model, beside: Beside) -> None:
         self.model, self.beside = model, beside
@@ -82,7 +82,7 @@ class Header:
         expression = sp.sympify(expression)
         return program.series(expression, name) if program.moves(expression) else expression
 
-    # ---- the whole
+    # ---- the complete header
 
     def text(self, digest: str, provenance: str, doc: str) -> str:
         """The header."""
@@ -107,7 +107,7 @@ class Header:
                 f"#if {' && '.join([*closed, *(['!WITH_LEDGER'] if self.ledger.there else [])])}",
                 "#define CAPILLARY_STATE 0",
                 "#else",
-                "#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is integrated along */",
+                "#define CAPILLARY_STATE 1 /* no closed form, or a ledger: the work is a state */",
                 "#endif",
             ]
         else:
@@ -115,7 +115,7 @@ class Header:
         lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
         lines += self.ledger.enumerations()
         lines += [
-            "/* Where coefficient k lies of a series that only sums are made of: these alone ask for what is past. */",
+            "/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */",
             "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)",
         ]
         upper = ", ".join(state.upper() for state in states)
@@ -147,7 +147,7 @@ class Header:
         return [
             *lines,
             *scale_function(self.model, self.beside.definitions),
-            *comment("What is computed once a collision, from its groups."),
+            *comment("Constants computed once per collision from its groups."),
             *function("static inline void prepare(constants *c)", body),
             "",
         ]
@@ -156,7 +156,7 @@ class Header:
         return self.beside.meanings.get(group.name) or VOCABULARY[group.name].meaning
 
     def _glass_groups(self) -> str:
-        """What a user's glass law takes beside gap and approach, as arguments."""
+        """Additional arguments of a user's glass law, as C text."""
         (call,) = (
             node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node)
         )
@@ -173,7 +173,7 @@ class Header:
         lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif", *self.ledger.states()]
         lines += [f"    {field}" for field in self.made.fields()]
         lines += self.ledger.series()
-        lines += ["    vec acceleration[TERMS]; /* of the gap, were it not held */"]
+        lines += ["    vec acceleration[TERMS]; /* of the gap, also while it is held */"]
         lines += ["    vec approach[TERMS];", "    glass_pressure_clearance_series glass;"]
         return [*lines, "} series;", ""]
 
@@ -203,7 +203,7 @@ class Header:
         head = "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
         doc = (
             "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside "
-            "the tangential edge, else 0; the gap is held where not moving."
+            "the tangential edge, else 0; the gap is held in lanes that are not moving."
         )
         unused = "(void)film; (void)shear;"
         glass = function(
@@ -215,7 +215,7 @@ class Header:
         )
         return [
             *comment(doc), *function(head, [unused, *body]), "",
-            *comment("Coefficient k of the glass criterion's clearance."), *glass, "",
+            *comment("Coefficient k of the clearance of the glass criterion."), *glass, "",
             *function(
                 "static inline vec glass_clearance(const constants *c, const vec *y)",
                 ["return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);"],
@@ -227,7 +227,7 @@ class Header:
             return self.made.coefficient(rate)
         return f"(k == 0 ? {self.constants.text.vector(rate)} : splat(0.0))"
 
-    # ---- plain values
+    # ---- values
 
     def _value(self, name: str, head: str, results: dict[str, str], doc: str | None = None) -> list[str]:
         """A function of the states `y`; `results` maps outputs to C targets ('return' for the value itself)."""
@@ -312,8 +312,8 @@ class Header:
                     "orbital_energy": "found[ORBITAL_ENERGY]",
                     "surface": "found[SLIP_ENERGY]",
                 },
-                "Slip omega - xi at this gap, J^2/(2 r^2), and what the shear could take there from the rotation "
-                "(surface arm), over m v0^2 (derive/equations/certificates/orbital_momentum.py).",
+                "Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2 "
+                "(derive/equations/certificates/orbital_momentum.py).",
             )
         if shape.oblique and not shape.strings and shape.partner != "wall":
             lines += self._value(

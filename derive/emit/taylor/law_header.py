@@ -1,4 +1,4 @@
-"""C headers of the laws: constants, recurrences and values of each function, and the work of a force where it closes.
+"""C headers of the laws: constants, recurrences and values of each function, and the work of a force in closed form.
 
 A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
 """
@@ -17,11 +17,11 @@ from .c_text import Constants, Recurrences, Text
 from .layout import comment, function
 from .program import Program, cheapest
 
-LIMIT = sp.Symbol("limit", positive=True)  # what an event compares a law's value with
+LIMIT = sp.Symbol("limit", positive=True)  # functions that an event compares with a limit, and that limit
 
 
 def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = frozenset()) -> tuple[bool, ...]:
-    """Which arguments of a law's function are series along a trajectory: all that are no groups.
+    """For each argument of a law's function, whether it varies along a trajectory: all except groups do.
 
     Arguments:
         groups: those of a user's model, beside the library's.
@@ -47,13 +47,13 @@ def law_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Sy
             lines += ["#define FILM_CAVITATES 1 /* no force while opening */", ""]
         elif each.for_proof:
             lines += _asked(law.slot, each)
-        elif each.name != "potential":  # which is the work of the force
+        elif each.name != "potential":  # for the work of the force
             lines += _function(law, each, moves(each.arguments, groups))
     return "\n".join(lines).rstrip() + "\n"
 
 
 def _asked(slot: str, each: LawFunction) -> list[str]:
-    """A plain function that only a stick proof calls."""
+    """A plain function that only a stick certificate calls."""
     name = f"{slot}_{each.name}"
     text = Text(lambda symbol: symbol.name)
     kept, _ = needed([each.result], each.definitions)
@@ -90,11 +90,11 @@ def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str
     constants = Constants({argument: f"c->{argument.name}" for argument in still})
     lines = _recurrences(name, each.doc, program, result, constants, moving)
     if each.falls:
-        lines += [f"#define {name.upper()}_FALLS 1 /* it never grows with its first argument */", ""]
+        lines += [f"#define {name.upper()}_FALLS 1 /* never increases with its first argument */", ""]
     work = _work(law, each, kept, moving, constants)
     if work is not None:
         lines += work_lines(name, work, constants, moving[0])
-    # what follows may hoist more constants, so the struct is written last
+    # later lines may hoist more constants, so the struct is written last
     return [*_constants(name, constants, still), *lines]
 
 
@@ -182,13 +182,13 @@ def _work(
 
 
 def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol) -> list[str]:
-    """A function with the antiderivative of a force."""
+    """A C function of the antiderivative of a force."""
     program = Program((moving,))
     result = program.series(work, "work")
     made = Recurrences(program, constants, lambda series: series)
     return [
         f"#define {name.upper()}_WORK 1",
-        *comment("An antiderivative of it: work in closed form."),
+        *comment("Antiderivative: the work in closed form."),
         *function(
             f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})",
             ["(void)c;", *made.values([result]), f"return {result};"],
@@ -204,7 +204,7 @@ def _clearance(
     moving: tuple[sp.Symbol, ...],
     still: tuple[sp.Symbol, ...],
 ) -> list[str]:
-    """`limit - value` times the value's positive denominator: the same sign, and no division along a trajectory."""
+    """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory."""
     result = each.result
     for symbol, value in reversed(kept):
         result = result.subs(symbol, value)
@@ -213,6 +213,6 @@ def _clearance(
     clearance = LIMIT * under - over if positive else LIMIT - result
     program, found = cheapest(sp.expand(clearance), (), moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in (*still, LIMIT)})
-    doc = f"Limit less value{', times the positive denominator' if positive else ''}: sign of the event function."
+    doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
     lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving)
     return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]

@@ -1,4 +1,4 @@
-"""C headers with the slopes of a law: series of its derivatives by each argument, out of the law's own series."""
+"""C headers with the derivatives of a law by each argument, as series in terms of the law's own series."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from .law_header import LIMIT, compared, moves
 from .layout import comment, each_term, function
 from .program import Program, cheapest
 
-UNUSED = "unused_"  # before the name of an argument that a law takes no notice of
+UNUSED = "unused_"  # prefix of an argument that a law ignores
 
 
 def arguments(slot: str, name: str, count: int, extra: tuple[sp.Symbol, ...] = ()) -> tuple[str, ...]:
-    """Names of a slot function's arguments as the laws that take so many have them.
+    """Names of a slot function's arguments, from laws with that number of arguments.
 
     Arguments:
-        extra: the last of them, which a user's model passes beside.
+        extra: additional arguments at the end, passed by a user's model.
     """
     for law in LAWS[slot].values():
         for each in law.functions:
@@ -37,11 +37,11 @@ def _by(argument: sp.Symbol) -> str:
 
 
 def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """The C header with the slopes of a law; `groups` are a user's."""
+    """The C header with the derivatives of a law; `groups` are a user's."""
     lines = comment(f"{provenance}\nEquations sha256 {digest}")
     lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
     for each in law.functions:
-        if each.for_proof or each.name in ("suction", "potential"):  # no force, and the work of one
+        if each.for_proof or each.name in ("suction", "potential"):  # no force, nor the work of one
             continue
         name = f"{law.slot}_{each.name}"
         moved = moves(each.arguments, groups)
@@ -56,7 +56,7 @@ def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp
 
 
 def _plain(name: str, each: LawFunction) -> list[str]:
-    """Slopes of a function of what is constant along a trajectory."""
+    """Derivatives of a function that is constant along a trajectory."""
     chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
     head = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
     lines = []
@@ -71,7 +71,7 @@ def _plain(name: str, each: LawFunction) -> list[str]:
 
 
 def shortest(program: Program, expressions: Iterable[sp.Expr], name: str) -> str | sp.Expr:
-    """The first of the cheapest forms of an expression, made in `program`; the expression itself if it is constant."""
+    """The first of the cheapest forms of an expression, compiled into `program`; the expression itself if constant."""
     forms = list(dict.fromkeys(expressions))
     if not program.moves(forms[0]):
         return forms[0]
@@ -85,7 +85,7 @@ def shortest(program: Program, expressions: Iterable[sp.Expr], name: str) -> str
 
 
 def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) -> None:
-    """Let a symbol stand for the cheapest form of an expression."""
+    """Define a symbol as the cheapest form of an expression."""
 
     def cost(form: sp.Expr) -> float:
         trial = program.continued()
@@ -96,7 +96,7 @@ def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) ->
 
 
 def factored(expression: sp.Expr) -> list[sp.Expr]:
-    """Other forms of a sum: what all its terms share before it, and what most of them do."""
+    """Alternative forms of a sum: the common factor of all terms extracted, or that of most terms."""
     forms = [sp.factor(expression)]
     if isinstance(expression, sp.Add):
         forms += [sp.collect(expression, symbol) for symbol in sorted(expression.free_symbols, key=str)]
@@ -157,7 +157,7 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
 
 
 def _clearance(name: str, each: LawFunction) -> list[str]:
-    """Slopes of `limit - value`: at the event's surface, those of the clearance but for its positive denominator."""
+    """Derivatives of `limit - value`: on the event surface, those of the clearance up to its positive denominator."""
     chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
     head = ", ".join(f"vec {argument.name}" for argument in (*each.arguments, LIMIT))
     body = [f"(void){argument.name};" for argument in (*each.arguments, LIMIT)]

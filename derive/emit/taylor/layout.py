@@ -1,4 +1,4 @@
-"""How emitted C is laid out: comments, functions, a statement for every coefficient."""
+"""Layout of emitted C: comments, functions, loops over coefficients."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _WIDTH = 110
 
 
 def each_term(line: str) -> str:
-    """Loop over k, one statement, for a series whose operands are fully known."""
+    """A loop over k with one statement, for a series whose operands are completely known."""
     return line if line.startswith("/*") else f"EACH_TERM({line})"
 
 
@@ -23,7 +23,7 @@ def comment(text: str) -> list[str]:
 
 
 def function(head: str, body: list[str]) -> list[str]:
-    """A C function; a head too long for a line is broken at its arguments, a statement at its operators."""
+    """A C function; long heads are broken at arguments, long statements at operators."""
     lines = textwrap.wrap(head, _WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
     lines.append("{")
     for line in body:

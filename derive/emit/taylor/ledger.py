@@ -1,7 +1,7 @@
-"""The energy ledger in C, behind WITH_LEDGER: what the forces take as further series, energies and losses of a state.
+"""The energy ledger in C, enclosed in WITH_LEDGER: work of the forces as series, energies and losses of a state.
 
-The plain kernel has none of it: series, constants and functions are there where the flag is set, and only in structures
-that keep the spin, so that a drift of angular momentum is seen.
+Kernels without a ledger have none of these series, constants and functions. Only structures that keep the spin have
+them, so that a drift of angular momentum is visible.
 """
 
 from __future__ import annotations
@@ -17,32 +17,32 @@ from .c_text import Constants, Recurrences
 from .layout import comment, function
 from .program import Program
 
-#: Terms of the ledger that are series of their own; the work against all attractions together is a state already.
+# : Terms of the ledger with a series of their own; the work against all attractions together is a state already.
 TERMS = {
     "normal_lubrication": "normal_loss",
     "tangential_lubrication": "tangential_loss",
     "attraction": "attraction_work",
 }
 _MEANING = {
-    "normal_loss": "energy taken by the film's normal force, over m v0^2",
-    "tangential_loss": "energy taken by the tangential force, over m v0^2",
+    "normal_loss": "energy dissipated by the normal force of the film, over m v0^2",
+    "tangential_loss": "energy dissipated by the tangential force, over m v0^2",
     "attraction_work": "work against van der Waals forces, over m v0^2",
 }
 Valued = Callable[[list[tuple[str, sp.Expr]], str, dict[str, str], str, Constants], list[str]]
 
 
 def behind_flag(lines: list[str]) -> list[str]:
-    """Lines that are there only for kernels with a ledger."""
+    """Lines compiled only with a ledger."""
     return ["#if WITH_LEDGER", *lines, "#endif"] if lines else []
 
 
 class Ledger:
-    """The parts of one structure's header that keep its ledger; none of them where there is none to be kept.
+    """The ledger parts of one structure's header; empty for structures without a ledger.
 
     Arguments:
         flow: the program of the right-hand side, whose series are shared.
         made: its recurrences.
-        constants: the structure's; what the ledger adds goes elsewhere.
+        constants: those of the structure; constants of the ledger are stored separately.
     """
 
     def __init__(self, model: Model, flow: Program, made: Recurrences, constants: Constants) -> None:
@@ -52,7 +52,7 @@ class Ledger:
         self.program = flow.continued()
         rates = dict(model["energy_rates"].outputs) if self.there else {}
         more, _ = needed([rate for key, rate in rates.items() if key in TERMS], model.definitions)
-        for symbol, expression in more:  # intermediates that the equations of motion do without
+        for symbol, expression in more:  # intermediates that the equations of motion do not use
             if symbol not in flow.named and not flow.moves(symbol):
                 self.program.define(symbol, expression)
         self._rates = {
@@ -65,7 +65,7 @@ class Ledger:
         self.made = Recurrences(self.program, self.constants, made.array)
 
     def enumerations(self) -> list[str]:
-        """How many states the ledger adds."""
+        """The number of states that the ledger adds."""
         if not self.there:
             return ["#define LEDGER_STATES 0"]
         return [
@@ -77,7 +77,7 @@ class Ledger:
         ]
 
     def places(self) -> list[str]:
-        """Where its states are, after all others."""
+        """Positions of the ledger's states, after all others."""
         first, *others = (name.upper() for name in self._rates) if self.there else ("",)
         start = f"{first} = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE"
         lines = [f"enum {{ {', '.join([start, *others])} }};"]
@@ -86,35 +86,35 @@ class Ledger:
         return behind_flag(lines if self.there else [])
 
     def states(self) -> list[str]:
-        """Series of its states."""
+        """Series of the ledger's states."""
         return behind_flag([f"    vec {name}[TERMS]; /* {_MEANING[name]} */" for name in self._rates])
 
     def series(self) -> list[str]:
-        """All other series."""
+        """All other series of the ledger."""
         return behind_flag([f"    {field}" for field in self.made.fields()])
 
     def coefficients(self) -> list[str]:
-        """Coefficient k of its series and k + 1 of its states."""
+        """Coefficient k of the ledger's series and k + 1 of its states."""
         lines = self.made.lines()
         lines += [f"s->{name}[k + 1] = {self.made.array(rate)}[k]*next;" for name, rate in self._rates.items()]
         return behind_flag(lines)
 
     def constants_struct(self) -> list[str]:
-        """What is computed once a collision for the ledger; after everything that uses it has been made."""
+        """The struct of the ledger's constants; to be called after all code that uses them has been generated."""
         fields = [f"    vec {name};" for name in self.constants.prepared]
         return behind_flag(["typedef struct {", *fields, "} ledger_constants;", ""] if fields else [])
 
     def member(self) -> list[str]:
-        """The constants' place in those of the structure."""
+        """The ledger's constants as a member of those of the structure."""
         return behind_flag(["    ledger_constants ledger;"] if self.constants.prepared else [])
 
     def prepare(self) -> list[str]:
-        """Statements that compute the constants."""
+        """Statements that compute the ledger's constants."""
         prepared = self.constants.prepared.items()
         return behind_flag([f"c->ledger.{name} = {self.constants.text.vector(value)};" for name, value in prepared])
 
     def functions(self, valued: Valued) -> list[str]:
-        """Energies of a state, its angular momentum, and the loss of a rebound."""
+        """Energies of a state, its angular momentum, and the loss at a rebound."""
         if not self.there:
             return []
         model = self.model
@@ -135,6 +135,6 @@ class Ledger:
             momentum = model["angular_momentum"]
             lines += valued(list(momentum.outputs), head, {"angular_momentum": "return"}, momentum.doc, self.constants)
         else:
-            doc = "There is no angular momentum that would be conserved."
+            doc = "No angular momentum is conserved."
             lines += [*comment(doc), *function(head, ["(void)c; (void)y;", "return splat(1.0);"]), ""]
         return [*behind_flag([f"enum {{ ENERGIES = {len(energies)} }};", *lines[:-1]]), ""]

@@ -20,20 +20,20 @@ Entry: TypeAlias = str | sp.Expr
 
 
 class LinearFlow:
-    """The matrix and the sources of one structure's tangent, and where emitted C has them."""
+    """The matrix and the source terms of one structure's tangent, and their places in emitted C."""
 
     def __init__(self, model: Model, digest: str, provenance: str, doc: str, beside: Beside) -> None:
         if beside.extra.get("glass.pressure"):
             raise EmissionError("no slopes of a glass law with quantities of its own")
         self.model, self.beside = model, beside
         self.header = Header(model, beside)
-        self.header.text(digest, provenance, doc)  # fills in its constants and calls
+        self.header.text(digest, provenance, doc)  # receives its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
         self._flow = {operation.name for operation in flow.operations}
         self._calls = {operation.name for operation in flow.operations if operation.kind == "call"}
         self.program = flow.continued()
-        self.slopes: dict[str, str] = {}  # name of a law's slope -> its array
+        self.slopes: dict[str, str] = {}  # name of a law's derivative -> its array
         self.chain = Chain(model.definitions, self._slope, (*model.groups, FILM, SHEAR))
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
@@ -67,12 +67,12 @@ class LinearFlow:
         return f"of->{series}.result" if series in self._calls else f"of->{series}"
 
     def _law_place(self, call: str) -> str:
-        """A law's slopes are local unless one is itself an entry."""
+        """C text of a law's derivative, a local variable unless it is itself an entry."""
         entries = {self.slopes[entry].split(".")[0] for entry in self._kept if entry in self.slopes}
         return "s->" if call in entries else ""
 
     def rates(self) -> list[tuple[str, sp.Expr]]:
-        """What the states' rates are, by name."""
+        """Expressions of the states' rates, by name."""
         rows = [(name, sp.sympify(rate)) for name, rate in self.model["right_hand_side"].outputs]
         if self.header.turning is not None:
             rows.append(("turned", self.model["turning_rate"].outputs[0][1]))
@@ -98,9 +98,9 @@ class LinearFlow:
 
     @property
     def flow(self) -> set[str]:
-        """Names of the series that the flow has, the states among them."""
+        """Names of the series of the flow, states included."""
         return self._flow | set(self.states)
 
     def array(self, name: str) -> str:
-        """Where emitted C has a series."""
+        """C text of the array of a series."""
         return self.made.array(name)

@@ -1,6 +1,6 @@
-"""From expressions to elementary operations on Taylor series: one recurrence each, shared parts once.
+"""Compilation of expressions to elementary operations on Taylor series, one recurrence each, common parts shared.
 
-A series is a symbol that moves along a trajectory; everything else is constant during it and computed once. The builder
+A series is a symbol that varies along a trajectory; everything else is constant along it and computed once. The builder
 walks a whitelist of sympy nodes, as the CasADi printer does.
 """
 
@@ -16,7 +16,7 @@ from sympy.core.function import AppliedUndef
 from ...physics.laws.base import is_slot_call
 from ..casadi.printer import EmissionError
 
-#: Products of whole series that an operation costs, a square being half of one.
+# : Cost of an operation in products of whole series; a square counts one half.
 COST = {
     "linear": 0.0,
     "product": 1.0,
@@ -35,13 +35,13 @@ COST = {
 
 @dataclass(frozen=True)
 class Operation:
-    """A series `name` out of others.
+    """A series `name` computed from others.
 
     Arguments:
         kind: a key of COST.
-        series: the series it is made of.
-        factors: constants: of a product its factor; of a linear combination one a series, then the term of order 0.
-        call: of a call, slot, function and all its arguments, a series' name as a string, a constant as expression.
+        series: names of its operands.
+        factors: constants: the factor of a product; for a linear combination one per operand, then the term of order 0.
+        call: slot, function and arguments of a call; a series by name, a constant as an expression.
     """
 
     name: str
@@ -55,7 +55,7 @@ class Program:
     """Operations in order, built by `series`.
 
     Arguments:
-        moving: symbols that are series from the start.
+        moving: symbols that are series initially.
     """
 
     def __init__(self, moving: Iterable[sp.Symbol]) -> None:
@@ -68,26 +68,26 @@ class Program:
 
     @property
     def cost(self) -> float:
-        """Products of series."""
+        """Total cost in products of series."""
         return sum(COST[operation.kind] for operation in self.operations)
 
     def passing(self, beside: AbstractSet[str] = frozenset()) -> frozenset[str]:
-        """Series that only linear combinations are made of, so that nothing asks for a coefficient once it is past.
+        """Series used in linear combinations only, of which past coefficients are not needed.
 
         Arguments:
-            beside: operations that do not count.
+            beside: operations that are ignored.
         """
         counted = [operation for operation in self.operations if operation.name not in beside]
         kept = {part for operation in counted if operation.kind != "linear" for part in operation.series}
-        plain = ("linear", "product", "square")  # of the others a coefficient is made of those before
+        plain = ("linear", "product", "square")  # coefficients of the other operations use all preceding ones
         return frozenset(each.name for each in self.operations if each.kind in plain and each.name not in kept)
 
     def give(self, symbol: sp.Symbol) -> None:
-        """Let `symbol` be a series that is made elsewhere."""
+        """Declare `symbol` as a series computed elsewhere."""
         self._moving[symbol] = self._free(symbol.name)
 
     def continued(self) -> Program:
-        """A program that knows these series and goes on from them; its own operations are those that follow."""
+        """A program that continues from these series; its own operations are those added later."""
         later = Program(())
         later.inputs = (*self.inputs, *(operation.name for operation in self.operations))
         later._moving = dict(self._moving)
@@ -96,18 +96,18 @@ class Program:
         return later
 
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
-        """Let `symbol` stand for an expression, as a series of its name or as a constant."""
+        """Define `symbol` as an expression: as a series of its name, or as a constant."""
         if self.moves(expression):
             self._moving[symbol] = self.series(expression, symbol.name)
         else:
             self.named[symbol] = expression
 
     def moves(self, expression: sp.Expr) -> bool:
-        """Whether an expression changes along a trajectory."""
+        """True if an expression varies along a trajectory."""
         return any(node in self._moving for node in sp.preorder_traversal(expression))
 
     def series(self, expression: sp.Expr, name: str | None = None) -> str:
-        """The name of the series of an expression that moves."""
+        """The name of the series of a varying expression."""
         if expression in self._moving:
             return self._moving[expression]
         made = self._build(expression, name)
@@ -127,7 +127,7 @@ class Program:
             if (known.kind, known.series, known.factors, known.call) == (kind, series, factors, call):
                 return known.name
             if kind == "product" and self._before and (known.kind, known.series) == (kind, series):
-                ratio = factors[0] / known.factors[0]  # the same but for its factor
+                ratio = factors[0] / known.factors[0]  # equal up to its constant factor
                 return self._add("linear", (known.name,), name, hint, (ratio, sp.Integer(0)))
         chosen = self._free(name or hint)
         self.operations.append(Operation(chosen, kind, series, factors, call))
@@ -174,7 +174,7 @@ class Program:
         return self._add("linear", tuple(series), name, "combination", (*factors, sp.Add(*alone)))
 
     def _split(self, node: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """A product's constant factor and what is left."""
+        """The constant factor of a product, and the remaining expression."""
         parts = node.as_ordered_factors()
         still = [part for part in parts if not self.moves(part)]
         return sp.Mul(*still), sp.Mul(*(part for part in parts if self.moves(part)))
@@ -188,7 +188,7 @@ class Program:
             part = self.series(over[0] if over else 1 / under[0], name if plain else None)
             return part if plain else self._add("linear", (part,), name, f"scaled_{part}", (factor, sp.Integer(0)))
         names = [self.series(part) for part in over]
-        # what has been inverted already is multiplied by, not divided by
+        # multiply by an existing inverse instead of dividing
         names += [self._moving[1 / part] for part in under if 1 / part in self._moving]
         under = [part for part in under if 1 / part not in self._moving]
         if not names:
@@ -242,7 +242,7 @@ class Program:
     def _circular(self, node: sp.Expr, name: str | None) -> str:
         angle = node.args[0]
         half = {angle: angle / 2}
-        if isinstance(node, sp.sin) and sp.sin(angle / 2) in self._moving:  # one pair serves both
+        if isinstance(node, sp.sin) and sp.sin(angle / 2) in self._moving:  # sine and cosine share one operation
             return self.series(2 * sp.sin(half[angle]) * sp.cos(half[angle]), name)
         inner = self.series(angle)
         sine = self._add("sine", (inner,), None, f"sine_of_{inner}")
@@ -264,7 +264,7 @@ def _divides(part: sp.Expr) -> bool:
 def cheapest(
     expression: sp.Expr, definitions: Iterable[tuple[sp.Symbol, sp.Expr]], moving: tuple[sp.Symbol, ...]
 ) -> tuple[Program, str | sp.Expr]:
-    """The program of an expression as it stands or expanded, whichever multiplies fewer series; and its result."""
+    """The program of an expression, as written or expanded, whichever is cheaper; and its result."""
     found: list[tuple[float, int, Program, str | sp.Expr]] = []
     for form in dict.fromkeys((expression, sp.expand(expression, trig=False))):
         program = Program(moving)

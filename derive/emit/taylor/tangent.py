@@ -1,7 +1,7 @@
-"""The C header of a structure's tangent: how its rates, start, jumps and outputs change with the states and the groups.
+"""The C header of a structure's tangent: derivatives of rates, start, jumps and outputs by the states and the groups.
 
-A derivative of the states obeys a linear equation, v' = A v + b, whose matrix and sources are series made once a step
-out of the flow's own; a direction then costs as many products as the matrix has entries that move.
+A derivative of the states obeys a linear equation, v' = A v + b, whose matrix and source terms are series computed once
+per step from those of the flow. A direction then costs as many products as the matrix has varying entries.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Tangent(LinearFlow):
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction."
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
-        lines += ["", *comment(f"{doc}\n\nIts tangent: derivatives of the states by the groups. {cost}"), ""]
+        lines += ["", *comment(f"{doc}\n\nTangent: derivatives of the states by the groups. {cost}"), ""]
         lines += self._enumerations()
         lines += [
             *self._constants(),
@@ -73,10 +73,15 @@ class Tangent(LinearFlow):
         body = [f"c->{name} = {self.constants.text.vector(value)};" for name, value in self.constants.prepared.items()]
         body += [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, (slot, call, _) in laws.items()]
         head = "static inline void prepare_slopes(slope_constants *c, const constants *v)"
-        return [*lines, *comment("What the slopes need once a collision."), *function(head, body), ""]
+        return [
+            *lines,
+            *comment("Constants of the derivatives, computed once per collision."),
+            *function(head, body),
+            "",
+        ]
 
     def _structs(self) -> list[str]:
-        lines = comment("What the rates change by: entries of the matrix, and what drives a direction.")
+        lines = comment("Derivatives of the rates: entries of the matrix, and source terms of a direction.")
         lines += ["typedef struct {", *(f"    {field}" for field in self._law_fields("s->"))]
         lines += [f"    {field}" for field in self.made.fields()]
         lines += [f"    vec {field}[TERMS];" for field in self._level_fields()]
@@ -103,11 +108,11 @@ class Tangent(LinearFlow):
             "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
             "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
         )
-        doc = "What the rates change by with the states, and with the groups that are asked for."
+        doc = "Derivatives of the rates by the states, and by the requested groups."
         return [*comment(doc), *function(head, body), ""]
 
     def _guarded(self) -> list[str]:
-        """Lines of the operations, those that only some groups need under a test of these."""
+        """C lines of the operations; those needed for some groups only are conditional on these."""
         always = {entry for entry in self.matrix.values() if isinstance(entry, str)}
         needs = {entry: {by} for (_, by), entry in self.sources.items() if isinstance(entry, str)}
         for (_, by), entry in self.sources.items():
@@ -128,7 +133,7 @@ class Tangent(LinearFlow):
             rows.append((own, [each_term(line)]))
             if operation.name in turning:
                 rows[-1] = own, ["#if TURNING_STATE", each_term(line), "#endif"]
-        # operations that more groups need come first; they never depend on those needed by fewer
+        # operations needed by more groups come first; they never depend on those needed by fewer
         rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
         lines: list[str] = []
         for own, some in groupby(rows, key=lambda row: row[0]):
@@ -168,7 +173,7 @@ class Tangent(LinearFlow):
             "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
             "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
         )
-        doc = "Coefficient k + 1 of a derivative of the states, with what drives it beside the states."
+        doc = "Coefficient k + 1 of a derivative of the states, with its source terms."
         return [*comment(doc), *function(head, body), ""]
 
     def _sources(self) -> list[str]:
@@ -184,26 +189,26 @@ class Tangent(LinearFlow):
             body += [*lines, _IN + "break;"]
         body.append("}")
         head = "static inline void sources(const slopes *s, const series *of, int group, const vec **source)"
-        doc = "What drives the derivatives by a group, where it is not zero."
+        doc = "Source terms of the derivatives by a group; zero ones are left unset."
         return [*comment(doc), *function(head, body), ""]
 
     def _values(self) -> list[str]:
-        """The start, the jump and the outputs in a direction: of the states `t`, of one group by one."""
+        """Start, jump and outputs in a direction: derivatives of the states `t`, and explicit ones by each group."""
         states = {name: f"after[{name.upper()}]" for name in self.states}
         lines = self._directed(
             "start", "static inline void start_along(const constants *v, int group, vec *after)", states, False,
-            "The start's derivative by a group.",
+            "Derivative of the initial state by a group.",
         )  # fmt: skip
         lines += self._directed(
             "rebound",
             "static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
-            states, True, "The derivative just after a rebound.",
+            states, True, "Derivative of the state just after a rebound.",
         )  # fmt: skip
         shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
         lines += self._directed(
             "outputs",
             "static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)",
-            shown, True, "The derivative of what a separated doublet shows.",
+            shown, True, "Derivative of the results for a separated doublet.",
         )  # fmt: skip
         if self.model.structure.oblique:
             lines += self._edge()
@@ -239,7 +244,7 @@ class Tangent(LinearFlow):
             body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
-        return [*comment("How the gap beyond which there is no tangential force changes."), *function(head, body), ""]
+        return [*comment("Derivative of the gap beyond which there is no tangential force."), *function(head, body), ""]
 
 
 def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:

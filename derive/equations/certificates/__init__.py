@@ -1,1 +1,1 @@
-"""Margins that prove a stick: by attraction, by strings, by the orbital angular momentum."""
+"""Stick certificates: margins that exclude separation, by attraction, by strings, by the orbital momentum."""

@@ -1,17 +1,20 @@
-"""Attraction certificate: three inequalities on the state that exclude separation at any energy, with their proof.
+"""Attraction certificate: three inequalities on the state that exclude separation, with their derivation.
 
-Oblique, with attractions F that fall with the gap, strings or not, midgap arm, per unit mass:
+For oblique collisions with attractions F that decrease with the gap, with or without strings, lever arm at mid-gap,
+per unit mass:
 
-1. As in `pendulum`, L never grows and F_t pulls omega and xi together: J = r^2 omega never exceeds J_max.
-2. F falls with the gap, S_n grows with gap and angle: at every gap, from now on, at least
-   `hold` = F(x_f) + S_n(contact, beta) - J_max^2/r^3 (in contact) pulls inward, beside lubrication; it must be > 0.
-3. What moves outward now, or rebounds with e_dry of the present approach, is stopped before x_f: its kinetic energy is
-   below hold (x_f - x) (`escape` < 0).
-4. What falls from X to x gains at most the work of F + max S_n; a rebound leaves e_dry^2 of it, and less than that is
-   needed to come back to X: e_dry^2 (F + max S_n) < F + S_n - J_max^2/r^3 at every gap, worst where F is least
-   (`rebound` < 0). So no maximum of the gap exceeds the one before.
+1. As in `pendulum`, L never grows and F_t reduces the slip omega - xi, so J = r^2 omega never exceeds J_max.
+2. F decreases with the gap, S_n increases with gap and angle. So at every later gap the force inward, lubrication
+   excluded, is at least `hold` = F(x_f) + S_n(contact, beta) - J_max^2/r^3 (in contact), which must be > 0.
+3. A doublet that opens now, or rebounds with e_dry times the present approach velocity, is stopped before x_f: its
+   kinetic energy is below hold (x_f - x) (`escape` < 0).
+4. A doublet that closes from the gap X to x gains at most the work of F + max S_n. A rebound leaves the fraction
+   e_dry^2 of it, and this is less than the energy needed to return to X if
+   e_dry^2 (F + max S_n) < F + S_n - J_max^2/r^3 at every gap; the least F is the worst case (`rebound` < 0). So no
+   maximum of the gap exceeds the one before.
 
-Energy proves most sticks sooner; this one also proves those that still spin fast, or chatter on glassy liquid.
+The energy certificate covers most sticks earlier. This one also covers doublets that still spin fast or chatter on a
+liquid in its glassy state.
 """
 
 from __future__ import annotations
@@ -46,13 +49,13 @@ LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
 
 
 def admits(structure: Structure) -> bool:
-    """Whether the proof is about this structure: equal spheres that turn, and something that attracts."""
+    """True for the structures covered: oblique, equal spheres, with an attraction."""
     attracts = structure.bridge or structure.attraction
     return structure.oblique and attracts and not structure.partner
 
 
 def _least(structure: Structure) -> sp.Expr:
-    """The attractions at the rupture distance (without a bridge at x0, where the film ends)."""
+    """The attractions at the rupture distance (without a bridge at x0, the edge of the film)."""
     forces = dict(intermediates_of(structure))
     end = rupture_gap if structure.bridge else sp.Integer(1)
     named = [force for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in forces]
@@ -60,7 +63,7 @@ def _least(structure: Structure) -> sp.Expr:
 
 
 def intermediates_of(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """The named forces of a structure; what is conserved does not enter them."""
+    """The named forces of a structure, without those that only a reduced structure has."""
     full = Structure(
         structure.oblique, structure.bridge, structure.strings, attraction=structure.attraction, spread=structure.spread
     )
@@ -85,7 +88,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """A stick is proved where `hold` > 0, `escape` < 0 and `rebound` < 0; forces over m v0^2/x0, energy over m v0^2."""
+    """The margins: a stick is certain if `hold` > 0, `escape` < 0 and `rebound` < 0; over m v0^2/x0 and m v0^2."""
     end = rupture_gap if structure.bridge else sp.Integer(1)
     outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
     pulled = LEAST + (LARGEST_PULL if structure.strings else 0)

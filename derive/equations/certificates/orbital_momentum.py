@@ -1,22 +1,24 @@
-"""When the momentum of the orbit holds a doublet: what proves that it never gets as far as a given gap, and why.
+"""Orbital-momentum certificate: conditions that exclude that a doublet reaches a given gap, with their derivation.
 
-Per unit mass, r = d a the centre distance there, J = r^2 omega the momentum of the orbit, W the work of what attracts:
+Per unit mass, with r = d a the centre distance at that gap, J = r^2 omega the orbital momentum, W the potential of the
+attractions:
 
-1. G = u^2/2 + W(x) - W(there) + (J^2/2)(1/r(x)^2 - 1/r^2) < 0 is needed to get there with the J of now. Film and
-   solids only take from u^2, and a J that falls takes more from J^2/r(x)^2 than from J^2/r^2: G never grows while
-   omega >= xi, since F_t then pulls J down, whatever the arm. (Strings pull J down as well, and their pull only grows.)
-2. J may grow where xi > omega. F_t exchanges momenta at a fixed rate, dJ = -(32/5) a^2 (d/2 lever) dxi. Let
-   `slip_energy` be what that exchange, at the distance d, can still take from the rotation: zero where omega = xi
-   there, never negative. G + slip_energy never grows, wherever the exchange happens (proved in `checks`).
-3. So while omega >= xi at d for the J of now, G < 0 holds the doublet; once omega = xi there, slip_energy = 0, and
-   from then on G + slip_energy < 0 does. One test: G + slip_energy (where xi > omega) < 0.
+1. To reach the gap with the present J requires G = u^2/2 + W(x) - W(gap) + (J^2/2)(1/r(x)^2 - 1/r^2) >= 0. Film and
+   solids only reduce u^2, and as J decreases, J^2/r(x)^2 decreases by more than J^2/r^2. So G never grows while
+   omega >= xi, since F_t then reduces J, for any lever arm. (Strings also reduce J, and their pull only grows.)
+2. J may grow while xi > omega. F_t exchanges momenta at a fixed ratio, dJ = -(32/5) a^2 (d/2 lever) dxi. Let
+   `slip_energy` be the energy that this exchange, at the distance d, can still transfer from the rotation: zero if
+   omega = xi at d, never negative. G + slip_energy never grows, at whatever distance the exchange happens (proved in
+   `checks`).
+3. So while omega >= xi at d for the present J, G < 0 excludes the gap. Once omega = xi there, slip_energy = 0, and from
+   then on G + slip_energy < 0 excludes it. Both are one test: G + slip_energy (where xi > omega) < 0.
 
-4. Where no shear acts beyond a distance e < d, J stops growing once omega = xi at e. With L conserved (midgap) that is
-   a state known in advance: the slip energy at d that is left there is never taken, and does not count in 3. None
-   counts where the J of now is larger already (`midgap_within`).
+4. If no shear acts beyond a distance e < d, J stops growing once omega = xi at e. With conserved L (lever arm at
+   mid-gap) that state is known in advance, and the slip energy that remains at d in it is never transferred: it is
+   subtracted in 3. If the present J is already larger, nothing is transferred (`midgap_within`).
 
-With the midgap arm that sum is the energy above the least one with this L at d. With the surface arm the exchange
-conserves sqrt(J) + (8/5) sqrt(xi) a along states that turn as one body, which takes the place of L.
+With the lever arm at mid-gap the sum is the energy above the least one with this L at d. With the lever arm at the
+surface the exchange conserves sqrt(J) + (8/5) sqrt(xi) a along states of rigid rotation, which replaces L.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from ...physics.structure import Structure
 from ...vocabulary.quantities import a, m, omega0, orbital_momentum, spin, v0, x
 from ..intermediates import SLIP
 
-RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), rho the distance at which omega = xi for this J
+RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), with omega = xi at the distance rho
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 omega0^2 over m v0^2
 
 
@@ -40,34 +42,37 @@ def spheres_inertia() -> sp.Expr:
 
 
 def exchanged(distance: sp.Expr, lever: sp.Expr) -> sp.Expr:
-    """-dJ/dxi of what the shear exchanges: dJ = -d F_t, (half the spheres' inertia) dxi = lever F_t."""
+    """-dJ/dxi of the exchange by shear: dJ = -d F_t, (half the spheres' inertia) dxi = lever F_t."""
     return spheres_inertia() * distance / (2 * lever)
 
 
 def lag() -> sp.Expr:
-    """The surface arm's -dJ/dxi over the distance."""
+    """-dJ/dxi over the distance, for the lever arm at the surface."""
     return exchanged(sp.Integer(1), sp.Integer(2))
 
 
 def midgap(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
-    """Slip energy over m a^2 omega0^2: that of the slip, since L = J + (32/5) a^2 xi is all that is conserved."""
+    """Slip energy over m a^2 omega0^2 for the lever arm at mid-gap: kinetic energy above that of rigid rotation.
+
+    The exchange conserves L = J + (32/5) a^2 xi and nothing else.
+    """
     return (momentum / distance**2 - turning) ** 2 / (2 * (1 / distance**2 + 1 / spheres_inertia()))
 
 
 def rigid_momentum(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
-    """J once omega = xi at this distance, with the L of now."""
+    """J once omega = xi at this distance, for the present L."""
     inertia = spheres_inertia()
     return distance**2 * (momentum + inertia * turning) / (distance**2 + inertia)
 
 
 def midgap_within(distance: sp.Expr, edge: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
-    """Slip energy as far as a shear can take it that ends at the distance `edge`, while omega < xi there."""
+    """Slip energy that a shear ending at the distance `edge` can transfer, while omega < xi there."""
     rigid = rigid_momentum(edge, momentum, turning)
     return midgap(distance, momentum, turning) - midgap(distance, rigid, rigid / edge**2)
 
 
 def _potential(share: sp.Expr) -> sp.Expr:
-    """Integral of rho/(rho + lag)^5 by rho, in share = 1/(rho + lag)."""
+    """Antiderivative of rho/(rho + lag)^5, in share = 1/(rho + lag)."""
     return -(share**3) / 3 + lag() * share**4 / 4
 
 
@@ -77,7 +82,10 @@ def rigid_share(momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
 
 
 def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Expr) -> sp.Expr:
-    """Slip energy over m a^2 omega0^2 with the surface arm: J^2/(2 d^2) less what is left once omega = xi there."""
+    """Slip energy over m a^2 omega0^2 for the lever arm at the surface.
+
+    It is J^2/(2 d^2) minus what remains of it once omega = xi at d.
+    """
     conserved = (sp.sqrt(momentum) + lag() * sp.sqrt(turning)) ** 4
     there = 1 / (distance + lag())
     return momentum**2 / (2 * distance**2) - conserved * (
@@ -86,7 +94,7 @@ def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Ex
 
 
 def admits(structure: Structure) -> bool:
-    """Whether the proof is about this structure: equal spheres that turn, and something that attracts."""
+    """True for the structures covered: oblique, equal spheres, with an attraction."""
     return structure.oblique and (structure.bridge or structure.attraction) and not structure.partner
 
 
@@ -97,7 +105,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """Omega - xi and J^2/(2 r^2) at the state's gap; the slip energy for either arm; energies over m v0^2."""
+    """The margins at the state's gap: omega - xi, J^2/(2 r^2), slip energy for either lever arm; over m v0^2."""
     found = {
         "slip": SLIP,
         "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),

@@ -1,6 +1,6 @@
-"""The laws of the model: one a file, each derived where it can be, each with its source.
+"""The laws of the model, one per file, each with its source and, where possible, its derivation.
 
-`LAWS[slot][name]` holds every selectable law. A structure's equations call a law through its slot, so eight bridge
+`LAWS[slot][name]` holds every selectable law. Equations call a law through its slot, so eight bridge
 laws are eight small modules and not eight copies of the equations.
 """
 

@@ -1,4 +1,4 @@
-"""Attraction other than the bridge's: van der Waals, summed over the bodies (Hamaker) and over the gap (Derjaguin)."""
+"""Van der Waals attraction, integrated over the bodies (Hamaker) and over the gap (Derjaguin)."""
 
 from __future__ import annotations
 
@@ -15,29 +15,30 @@ _h = sp.Symbol("h", positive=True)
 
 @cache
 def flat_pressure() -> sp.Expr:
-    """Attraction of two half-spaces per area, A/(6 pi h^3): the pair potential -C/d^6 summed over all pairs.
+    """Attraction of two half-spaces per unit area, A/(6 pi h^3): the pair potential -C/d^6 summed over all pairs.
 
     A = pi^2 C rho^2, rho the number density of either body.
     """
     strength, density, depth, s = sp.symbols("C rho z s", positive=True)
     on_one = sp.integrate(-strength * density * 2 * sp.pi * s / (s**2 + depth**2) ** 3, (s, 0, sp.oo))
-    by_depth = sp.integrate(on_one, (depth, depth, sp.oo))  # one atom at `depth` and a half-space
+    by_depth = sp.integrate(on_one, (depth, depth, sp.oo))  # a volume element at `depth` and a half-space
     per_area = sp.integrate(density * by_depth, (depth, _h, sp.oo))
     return sp.simplify(per_area.diff(_h).subs(strength, A_H / (sp.pi * density) ** 2))
 
 
 @cache
 def van_der_waals_force() -> sp.Expr:
-    """F_w = A a/(6 x^2) of nearly touching spheres: the flat attraction over h = x + s^2/(2a), 2 pi s ds = 2 pi a dh.
+    """F_w = A a/(6 x^2) of nearly touching spheres: the attraction of half-spaces integrated over h = x + s^2/(2a).
 
-    Neither retarded nor cut off: it holds at gaps well below the radius, down to atomic distances.
+    With 2 pi s ds = 2 pi a dh. Without retardation or cut-off: valid for gaps well below the radius and above atomic
+    distances.
     """
     return sp.integrate(flat_pressure() * 2 * sp.pi * a, (_h, x, sp.oo))
 
 
 @cache
 def van_der_waals_potential() -> sp.Expr:
-    """W_w(x) = -A a/(6 x): the work that separates the spheres from x, zero far away."""
+    """W_w(x) = -A a/(6 x): the potential of `van_der_waals_force`, zero at infinite separation."""
     return -sp.integrate(van_der_waals_force(), (x, x, sp.oo))
 
 

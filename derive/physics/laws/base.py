@@ -1,4 +1,4 @@
-"""What a law is: named pure functions of dimensionless arguments, with their intermediates and their source."""
+"""Laws: named pure functions of dimensionless arguments, with their intermediates and their source."""
 
 from __future__ import annotations
 
@@ -15,11 +15,13 @@ Definition = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class LawFunction:
-    """One function of a law: `definitions` name intermediates, in order, for `result`.
+    """A function of a law.
 
-    `for_proof`: only a stick certificate asks for it; without it collisions have no such certificate.
-    `falls`: it never grows with its first argument (proved in `checks`), which a certificate needs to know.
-    `references`: where it is published, if elsewhere than the law.
+    Arguments:
+        definitions: named intermediates, in the order in which `result` needs them.
+        for_proof: used by a stick certificate only. A law may lack it; then that certificate is not available.
+        falls: the function does not increase with its first argument (proved in `checks`), as certificates require.
+        references: its publications, if not those of the law.
     """
 
     name: str
@@ -42,7 +44,7 @@ class LawFunction:
             known.add(symbol)
 
     def __call__(self, *values: sp.Expr) -> sp.Expr:
-        """The closed expression at `values`, all intermediates put back in."""
+        """The closed expression at `values`, all intermediates substituted."""
         expression = self.result
         for symbol, value in reversed(self.definitions):
             expression = expression.subs(symbol, value)
@@ -51,9 +53,10 @@ class LawFunction:
 
 @dataclass(frozen=True)
 class Validity:
-    """Where a law was fitted or holds, as its source says: (least, largest) of a quantity, None for no bound known.
+    """The range in which a law was fitted or is valid, according to its source.
 
-    `volume` is V/R^3, `contact_angle` in rad, `separation` the gap over R.
+    Each is (least, largest), None for no known bound. `volume` is V/R^3, `contact_angle` in rad, `separation` the gap
+    over R.
     """
 
     source: str
@@ -67,9 +70,9 @@ class Law:
     """A selectable law: fills the slot `slot` under the name that scene files use.
 
     Arguments:
-        source: where it is from, as text.
-        validity: where it holds, if that is known.
-        references: where it is published.
+        source: its origin, as text.
+        validity: range in which it is valid, if known.
+        references: its publications.
     """
 
     slot: str
@@ -95,12 +98,12 @@ def slot_call(slot: str, function: str, *arguments: sp.Expr) -> sp.Expr:
 
 
 def is_slot_call(node: sp.Basic) -> bool:
-    """Whether a node is a call to a law not yet chosen."""
+    """True if a node is a call to a law that has not been chosen yet."""
     return isinstance(node, AppliedUndef) and "." in node.func.__name__
 
 
 def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
-    """Put the chosen laws' expressions in place of every slot call, inner calls first."""
+    """The expression with every slot call replaced by the chosen law's expression, inner calls first."""
     while True:
         calls = [node for node in expression.atoms(AppliedUndef) if is_slot_call(node)]
         if not calls:
@@ -118,7 +121,7 @@ def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
 
 
 def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
-    """`fill` for the slots in `laws` alone; the others stay calls, i.e. hold for any law."""
+    """`fill` for the slots in `laws` only; the remaining calls stand for any law."""
     kept: dict[sp.Basic, sp.Basic] = {}
     for node in expression.atoms(AppliedUndef):
         if is_slot_call(node) and node.func.__name__.split(".")[0] not in laws:

@@ -18,7 +18,7 @@ _D = "Capillary attraction over pi R sigma."
 
 
 def _n(text: str) -> sp.Rational:
-    """An exact rational from the printed decimal."""
+    """The exact rational of a printed decimal."""
     return sp.Rational(text)
 
 
@@ -49,7 +49,7 @@ def _exponential(
     rupture: str,
     remark: str = "",
 ) -> Law:
-    """Mikami's form exp(A h + B) + C, with B's and C's coefficients of the logarithm of V as given."""
+    """Mikami's form exp(A h + B) + C; B and C are linear in ln V with the given coefficients."""
     log_volume, A, B, C = sp.symbols("log_volume decay offset tail", real=True)
     definitions = (
         (log_volume, logarithm),
@@ -61,7 +61,7 @@ def _exponential(
 
 
 def _willett() -> Law:
-    """Willett et al. 2000, the full fit: f1..f4 are polynomials in ln V with coefficients quadratic in phi."""
+    """The full fit of Willett et al. (2000): f1..f4 are polynomials in ln V with coefficients quadratic in phi."""
     table = {
         "f1": (
             ("-0.44507", "0.050832", "-1.1466"),
@@ -106,7 +106,7 @@ def _willett() -> Law:
 
 
 def _fitted_up_to(largest: str) -> Validity:
-    """Willett et al.'s ranges: bridges up to a volume, contact angles up to 50 deg."""
+    """The fitted range of Willett et al.: bridge volume up to a bound, contact angles up to 50 deg."""
     return Validity(
         source=WILLETT.short,
         volume=(None, _n(largest)),

@@ -1,4 +1,4 @@
-"""Normal lubrication in a thin film, by integrating the film pressure over the wetted disc."""
+"""Normal lubrication force of a thin film: the film pressure integrated over the wetted disc."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _rim = sp.Symbol("rim", positive=True)
 
 @cache
 def pressure() -> sp.Expr:
-    """Film pressure p at local thickness h, from Reynolds' equation of an axisymmetric squeeze.
+    """Film pressure p at local thickness h, from Reynolds' equation for axisymmetric squeeze flow.
 
     (1/s) d/ds (s h^3/(12 mu) dp/ds) = u with h = x + s^2/(2a), so s ds = a dh; regular on the axis; p = 0 at the
-    film's rim h = x0.
+    rim of the film, h = x0.
     """
     s, thickness = sp.Symbol("s", nonnegative=True), x + sp.Symbol("s", nonnegative=True) ** 2 / (2 * a)
     flux = sp.integrate(12 * mu * u * s, s)  # s h^3 dp/ds, zero on the axis
@@ -29,27 +29,27 @@ def pressure() -> sp.Expr:
 
 
 def _over_disc(integrand: sp.Expr, rim: sp.Expr) -> sp.Expr:
-    """Integral over the wetted disc x < h < rim (2 pi s ds = 2 pi a dh)."""
+    """Integral of a function of h over the wetted disc x < h < rim (2 pi s ds = 2 pi a dh)."""
     return sp.integrate(sp.expand(integrand) * 2 * sp.pi * a, (_h, x, rim))
 
 
 @cache
 def normal_force() -> sp.Expr:
-    """F_n, positive against opening: minus the pressure integrated over the disc h < x0."""
+    """F_n, positive against separation: minus the pressure integrated over the disc h < x0."""
     return sp.factor(_over_disc(-pressure(), x0))
 
 
 @cache
 def unbounded_force() -> sp.Expr:
-    """F_n of a film without a rim: the limit x0 -> infinity, 6 pi mu a^2 u/x."""
+    """F_n of a film of unlimited extent: the limit x0 -> infinity, 6 pi mu a^2 u/x."""
     return sp.factor(sp.limit(sp.expand(normal_force()), x0, sp.oo))
 
 
 @cache
 def sustained_force() -> sp.Expr:
-    """F_n while opening of a liquid that sustains no tension: the pressure below ambient is cut off, max(p, 0).
+    """F_n while opening, of a liquid that sustains no tension: the pressure is cut off at ambient, max(p, 0).
 
-    With u > 0 the pressure is proportional to -(1/h^2 - 1/x0^2) < 0 all over the disc, so nothing is left.
+    For u > 0 the pressure is proportional to -(1/h^2 - 1/x0^2) < 0 on the whole disc, so the force vanishes.
     """
     speed, inside = sp.Symbol("speed", positive=True), sp.Symbol("inside", positive=True)
     at = sp.factor(pressure().subs(u, speed).subs(x0, _h + inside))  # anywhere in the disc, h < x0
@@ -58,20 +58,20 @@ def sustained_force() -> sp.Expr:
 
 @cache
 def rim_of_constant_volume() -> sp.Expr:
-    """H = sqrt(x^2 + V_b/(pi a)): rim of the disc that holds the bridge's volume V_b = V R^3 between the surfaces."""
+    """H = sqrt(x^2 + V_b/(pi a)): film thickness at the rim of the disc that holds the bridge volume V_b = V R^3."""
     filled = sp.factor(_over_disc(_h, _rim))  # pi a (H^2 - x^2)
     return next(root for root in sp.solve(sp.Eq(filled, volume * R**3), _rim) if root.is_positive)
 
 
 @cache
 def constant_volume_force() -> sp.Expr:
-    """F_n with the rim at H in place of x0: p = 0 at h = H, integrated over h < H."""
+    """F_n with p = 0 at the rim h = H instead of h = x0."""
     return normal_force().subs(x0, _rim)
 
 
 @cache
 def axis_pressure() -> sp.Expr:
-    """Pressure on the axis, h = x: the largest in the film."""
+    """Pressure on the axis, h = x, where it is largest."""
     return sp.factor(pressure().subs(_h, x))
 
 
@@ -81,14 +81,14 @@ def _scaled_rim() -> sp.Expr:
 
 
 def _resistance(force: sp.Expr) -> sp.Expr:
-    """A force over 6 pi mu a^2 u/x0, lengths in x0 (the rim too)."""
+    """A force over 6 pi mu a^2 u/x0, with all lengths (also the rim) in x0."""
     viscous_scale = 6 * sp.pi * mu * a**2 * u / x0
     scaled = sp.simplify(force / viscous_scale).subs({x: gap * x0, _rim: _rim * x0}, simultaneous=True)
     return sp.factor(sp.simplify(scaled))
 
 
 def _stopping(force: sp.Expr) -> LawFunction:
-    """Opening velocity that a film takes from here to its surface: its resistance's integral."""
+    """Integral of a film's resistance from the gap to the rim: the opening velocity, times St, that it stops."""
     taken = sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
     doc = "Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0."
     return LawFunction("stopping", (gap,), taken, doc, for_proof=True)

@@ -1,4 +1,4 @@
-"""The glass criterion: the film pressure on the axis reaches the glass-transition pressure of the liquid."""
+"""Glass criterion: the film pressure on the axis reaches the glass-transition pressure of the liquid."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ approach = sp.Symbol("approach", real=True)  # -u/v0, positive while closing
 
 @cache
 def _film_corrected() -> sp.Expr:
-    """Axis pressure over 3 mu a v0/x0^2."""
+    """Axis pressure over 3 mu a v0/x0^2, zero at the rim of the film."""
     scale = 3 * mu * a / x0**2
     return sp.factor(sp.simplify(axis_pressure() / scale).subs({x: gap * x0, u: -approach}, simultaneous=True))
 
 
 @cache
 def _literal() -> sp.Expr:
-    """The same without the rim's pressure, i.e. in the limit x0 -> infinity: 3 mu a |u|/x^2."""
+    """Axis pressure of a film of unlimited extent, i.e. in the limit x0 -> infinity: 3 mu a |u|/x^2."""
     unbounded = sp.limit(axis_pressure(), x0, sp.oo)
     return sp.simplify((unbounded * x0**2 / (3 * mu * a)).subs({x: gap * x0, u: -approach}, simultaneous=True))
 
 
 def _reach(pressure: sp.Expr) -> sp.Expr:
-    """The largest gap at which an approach meets the criterion: the pressure falls along the gap."""
+    """The largest gap at which an approach meets the criterion; the pressure decreases with the gap."""
     fast = sp.Symbol("approach", positive=True)
     (farthest,) = (root for root in sp.solve(pressure.subs(approach, fast) - glass_number, gap) if root.is_positive)
     return sp.simplify(farthest).subs(fast, approach)

@@ -1,4 +1,4 @@
-"""The publications that laws come from, once each: sources as text and `wetdoublet cite` are made of them.
+"""The publications of the laws, each declared once, for sources in text and for `wetdoublet cite`.
 
 A DOI is given where it is certain.
 """

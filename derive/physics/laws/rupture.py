@@ -1,4 +1,4 @@
-"""Where a doublet comes apart: the bridge's rupture distance (one for all, or a law's own), or the film's surface."""
+"""Gap at which a doublet separates: the rupture distance of the bridge (common, or a law's own), or the film's edge."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _LIAN = volume**_THIRD * (1 + contact_angle / 2)
 
 
 def rupture_distance(bridge: bool) -> sp.Expr:
-    """x_f = R V^(1/3) (1 + phi/2) with a bridge (Lian, Thornton & Adams 1993), x0 without."""
+    """x_f = R V^(1/3) (1 + phi/2) with a bridge (Lian, Thornton & Adams 1993), x0 without one."""
     return R * _LIAN if bridge else x0
 
 
-COMMON = (LIAN,)  # where the rupture distance of every law is published, unless it has its own
+COMMON = (LIAN,)  # publication of the rupture distance, unless a law has its own
 
-# Rupture distances over R that go with a force law, where they are published, and what more there is to say
+# Rupture distances over R published with a force law: distance, publication and a remark, by author
 _OWN: dict[str, tuple[sp.Expr, Reference, str]] = {
     "willett": (
         (1 + contact_angle / 2) * (volume**_THIRD + volume ** (2 * _THIRD) / 10),
@@ -36,7 +36,7 @@ _OWN: dict[str, tuple[sp.Expr, Reference, str]] = {
 
 
 def own_rupture(author: str) -> LawFunction:
-    """The rupture distance over R that goes with `author`'s force law."""
+    """The rupture distance over R published with `author`'s force law."""
     distance, published, remark = _OWN[author]
     doc = f"Rupture distance over R that goes with this law.\n\nSource: {published.short}{remark}."
     return LawFunction("rupture_distance", (volume, contact_angle), distance, doc, references=(published,))

@@ -1,8 +1,8 @@
 """Tangential lubrication: Couette shear of the film between surfaces that slide past each other.
 
-Two equal spheres sliding in opposite directions leave the film's pressure untouched (the gap does not change to
-first order on either side), so the shear stress is mu U/h and only its integral is needed. Its logarithm is cut off
-where the film, or the sphere, ends: that outer thickness is the one ambiguity, kept as two laws.
+Two equal spheres sliding in opposite directions do not change the film pressure (to first order the gap changes on
+neither side), so the shear stress is mu U/h and only its integral is needed. The logarithm is cut off where the film or
+the sphere ends. This outer thickness is ambiguous, hence two laws.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def tangential_force() -> sp.Expr:
 
 @cache
 def log_factor(outer: sp.Expr) -> sp.Expr:
-    """F_t over 8 pi mu a^2 (omega - xi), i.e. ln(h_outer/x), for an outer thickness in SI, in the dimensionless gap."""
+    """F_t over 8 pi mu a^2 (omega - xi), i.e. ln(h_outer/x) in the dimensionless gap, for an outer thickness in SI."""
     factor = sp.expand(tangential_force() / (8 * sp.pi * mu * a**2 * (omega - xi)))
     scaled = sp.logcombine(sp.simplify(factor)).subs({_outer: outer, x: gap * x0}, simultaneous=True)
     return sp.simplify(scaled.subs(x0, aspect * a))

@@ -1,4 +1,4 @@
-"""Start of a collision: initial contact at x = x0, impact of normal speed v0 at angle theta0, no spin."""
+"""Initial conditions: initial contact at x = x0, impact with normal speed v0 at angle theta0, no spin."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from ...vocabulary.quantities import a, beta, omega, theta0, u, v0, x, x0, xi
 
 
 def initial_rate() -> sp.Expr:
-    """omega0: the tangential speed v0 tan(theta0) over the centre distance at contact, 4a (as the paper has it)."""
+    """omega0: the tangential speed v0 tan(theta0) over the centre distance, taken as 4a as in the paper."""
     return v0 * sp.tan(theta0) / (4 * a)
 
 
 def start_values() -> dict[sp.Symbol, sp.Expr]:
-    """SI start values of x, u, omega, xi and beta."""
+    """SI initial values of x, u, omega, xi and beta."""
     return {x: x0, u: -v0, omega: initial_rate(), xi: sp.Integer(0), beta: sp.Integer(0)}

@@ -11,20 +11,20 @@ from .base import Law, LawFunction
 from .references import DOUBLETS
 
 r = sp.Symbol("r", positive=True)  # distance between the centres
-offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, horizontal swing of either sphere over a
+offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, with d the horizontal swing of either sphere
 
 
 def half_angles(expression: sp.Expr) -> sp.Expr:
-    """The expression in sines and cosines of beta/2 only, in which the swing is written."""
+    """The expression in terms of sin(beta/2) and cos(beta/2)."""
     half = beta / 2
     return expression.subs({sp.sin(beta): 2 * sp.sin(half) * sp.cos(half), sp.cos(beta): 1 - 2 * sp.sin(half) ** 2})
 
 
 @cache
 def swing_squared() -> sp.Expr:
-    """d^2: either sphere's horizontal distance from below its pivot, half the change of the separation vector.
+    """d^2, with d the horizontal displacement of either sphere: half the change of the separation vector.
 
-    Written in r - 4a and sin(beta/2): the form r^2 + 16 a^2 - 8 a r cos(beta) cancels at small swings.
+    Written in r - 4a and sin(beta/2), because r^2 + 16 a^2 - 8 a r cos(beta) cancels at small swings.
     """
     now = sp.Matrix([r * sp.cos(beta), r * sp.sin(beta)])
     rest = sp.Matrix([4 * a, 0])
@@ -37,14 +37,14 @@ def swing_squared() -> sp.Expr:
 
 @cache
 def height(small_angle: bool) -> sp.Expr:
-    """Height gained over a by a pendulum of length l/a = string_ratio swung out by d."""
+    """Height over a gained by a pendulum of length l/a = string_ratio displaced horizontally by d."""
     exact = string_ratio - sp.sqrt(string_ratio**2 - offset_squared)
     return exact.series(offset_squared, 0, 2).removeO() if small_angle else exact
 
 
 @cache
 def rise(small_angle: bool) -> sp.Expr:
-    """`height` over its conjugate: no cancellation at small swings."""
+    """`height` rationalised, without cancellation at small swings."""
     if small_angle:
         return height(True)
     conjugate = string_ratio + sp.sqrt(string_ratio**2 - offset_squared)

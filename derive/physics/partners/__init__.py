@@ -1,4 +1,4 @@
-"""What an unequal partner changes: another sphere (`pair`, from `bodies` and `rolling`), or a wall as its limit."""
+"""Unequal partners: another sphere (`pair`, from `bodies` and `rolling`), or a wall as its limit."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from . import pair, wall
 from .base import Rotation
 
 PUBLISHED: dict[str, tuple[Reference, ...]] = {"pair": (JEFFREY,), "wall": (GOLDMAN,)}
-"""Where the friction of a partner is published, to its leading logarithm."""
+"""Publications of the friction of a partner, to its leading logarithm."""
 
 
 def rotation(partner: str) -> Rotation:
-    """What the equations of a structure take from its partner, "pair" or "wall"."""
+    """The rotation of a structure with partner "pair" or "wall", for its equations."""
     return pair.rotation() if partner == "pair" else wall.rotation()
 
 

@@ -1,4 +1,4 @@
-"""What the rotation of a structure with an unequal partner is made of, nondimensional and ready to be emitted."""
+"""The rotational part of a structure with an unequal partner, nondimensional."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from ..laws.base import Definition
 
 @dataclass(frozen=True)
 class Rotation:
-    """States and expressions of all that is not along the line of centres.
+    """States and expressions of the motion other than along the line of centres.
 
     Arguments:
         states: the states beside gap and normal velocity.
         definitions: named intermediates, in order.
-        centrifugal: what opens the gap, over m v0^2/x0; 0 if nothing turns.
+        centrifugal: centrifugal force on the gap, over m v0^2/x0; 0 beside a wall.
         rates: of the states, per v0/x0.
-        turning: rate of the angle turned by the line of centres, None if it cannot turn.
+        turning: angular velocity of the line of centres, None beside a wall.
         kinetic: energy over m v0^2.
-        power: taken by the tangential film, over m v0^3/x0.
-        momentum: angular momentum over its start value, None if none is conserved.
-        outputs: what a separated pair shows.
+        power: dissipated by the tangential film force, over m v0^3/x0.
+        momentum: angular momentum over its initial value, None if it is not conserved.
+        outputs: results for a separated pair.
         least: (least rotational energy over m v0^2 for the state's angular momentum, its slope along the gap).
-        rigid: the state of least energy.
+        rigid: the state with that energy.
         start: the state at initial contact.
     """
 

@@ -1,6 +1,6 @@
-"""Mechanics of two unequal spheres: radii and masses out of reduced ones and ratios, Lagrangian, equations of motion.
+"""Mechanics of two unequal spheres: radii and masses from reduced ones and ratios, Lagrangian, equations of motion.
 
-The centre of mass is among the coordinates, so that linear momentum is there to be conserved.
+The centre of mass is among the coordinates, so that conservation of linear momentum can be checked.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ r = CENTRES * a + x
 
 @cache
 def radii() -> tuple[sp.Expr, sp.Expr]:
-    """R_1, R_2 from a = R_1 R_2/(R_1 + R_2) and R_2 = radius_ratio R_1."""
+    """R_1 and R_2 from a = R_1 R_2/(R_1 + R_2) and R_2 = radius_ratio R_1."""
     first = sp.Symbol("R_1", positive=True)
     (own,) = sp.solve(sp.Eq(a, sp.simplify(first * radius_ratio * first / (first + radius_ratio * first))), first)
     return sp.factor(own), sp.factor(own * radius_ratio)
@@ -29,7 +29,7 @@ def radii() -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def masses() -> tuple[sp.Expr, sp.Expr]:
-    """M_1, M_2 from m = M_1 M_2/(M_1 + M_2) and M_2 = mass_ratio M_1."""
+    """M_1 and M_2 from m = M_1 M_2/(M_1 + M_2) and M_2 = mass_ratio M_1."""
     shape = {a: m, radius_ratio: mass_ratio}
     one, other = radii()
     return one.subs(shape), other.subs(shape)
@@ -37,20 +37,20 @@ def masses() -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def centres() -> sp.Expr:
-    """(R_1 + R_2)/a; 4 for equal spheres."""
+    """Centre distance at contact over a, (R_1 + R_2)/a; 4 for equal spheres."""
     return sp.factor(sum(radii()) / a)
 
 
 @cache
 def inertias() -> tuple[sp.Expr, sp.Expr]:
     """Moments of inertia (2/5) M_i R_i^2."""
-    own = sphere_inertia() / (2 * m * (2 * a) ** 2)  # that of a sphere of mass 2m and radius 2a, over M R^2
+    own = sphere_inertia() / (2 * m * (2 * a) ** 2)  # that of a sphere of mass 2m and radius 2a over M R^2
     return tuple(sp.factor(own * mass * radius**2) for mass, radius in zip(masses(), radii(), strict=True))
 
 
 @dataclass(frozen=True)
 class PairMotion:
-    """Accelerations of the pair, its momenta and their rates, by coordinate: X, Y, x, beta, alpha_1, alpha_2."""
+    """Accelerations of the pair, its momenta and their rates, for the coordinates X, Y, x, beta, alpha_1, alpha_2."""
 
     accelerations: dict[str, sp.Expr]
     momenta: dict[str, sp.Expr]
@@ -60,9 +60,9 @@ class PairMotion:
 
 @cache
 def equations_of_motion() -> PairMotion:
-    """Lagrange's equations d/dt dT/dq' - dT/dq = Q for two free spheres that act on each other only.
+    """Lagrange's equations d/dt dT/dq' - dT/dq = Q for two free spheres with mutual forces only.
 
-    On sphere 2, at the far end of the line of centres, acts -F along it and -F_t across it, the opposite on sphere 1.
+    Sphere 2, at the far end of the line of centres, experiences -F along it and -F_t across it, sphere 1 the opposite.
     """
     q = {name: sp.Function(name, real=True)(time) for name in ("X", "Y", "x", "beta", "alpha_1", "alpha_2")}
     mass_1, mass_2, inertia_1, inertia_2 = named = sp.symbols("M_1 M_2 I_1 I_2", positive=True)

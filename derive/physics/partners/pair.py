@@ -1,4 +1,4 @@
-"""Two unequal spheres, each with its own spin: rotation, friction and angular momentum in states and groups."""
+"""Two unequal spheres, each with its own spin: rotation, friction and angular momentum in dimensionless form."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ TORQUE, PARTNER_TORQUE, SHEAR_FORCE = sp.symbols("torque partner_torque shear_fo
 
 
 def scaled(expression: sp.Expr) -> sp.Expr:
-    """A dimensionless SI expression in states and groups, the centre distance at contact being `centres` a."""
+    """A dimensionless SI expression in states and groups; the centre distance at contact is `centres` a."""
     return nondimensional(expression, CENTRES)
 
 
@@ -51,19 +51,19 @@ def _turned(expression: sp.Expr) -> sp.Expr:
 def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
     """Torques on the two spheres and the tangential force, in SI.
 
-    The torques are the leading logarithms, stretched by the arm's law: `midgap` by r/(R_1 + R_2), so that they add
-    up to r F_t and dL/dt = 0 identically; `surface` not at all.
+    The torques are the leading logarithms, multiplied by a factor from the law for the lever arm. For `midgap` the
+    factor is r/(R_1 + R_2), so that they add up to r F_t and dL/dt = 0 exactly; for `surface` it is 1.
     """
     log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
     slips = sp.Matrix([omega - xi, omega - partner_spin_rate])
     torques = torque_matrix() * slips * log
-    stretch = slot_call("arm", "lever", 4 * r / (CENTRES * a)) / 2  # the lever of equal spheres over their radius 2a
+    stretch = slot_call("arm", "lever", 4 * r / (CENTRES * a)) / 2  # lever arm for equal spheres over their radius 2a
     return (stretch * torques[0], stretch * torques[1]), (torques[0] + torques[1]) / (R_1 + R_2)
 
 
 def _friction() -> list[Definition]:
     log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
-    unit = 2 * sp.pi * mu * a**3  # of the torques per slip
+    unit = 2 * sp.pi * mu * a**3  # coefficients of the slip rates in the torques
     shape = (torque_matrix() / unit).subs({R_1: a * RADIUS, R_2: a * PARTNER_RADIUS})
     torque, partner_torque = LEVER * DRAG * sp.simplify(shape) * sp.Matrix([SLIP, PARTNER_SLIP])
     return [
@@ -94,7 +94,7 @@ def _definitions() -> tuple[Definition, ...]:
 
 
 def _kinetic() -> sp.Expr:
-    """Orbital energy and that of the two spins, over m v0^2; the centre of mass is at rest."""
+    """Kinetic energy of the orbital motion and of both spins, over m v0^2; the centre of mass is at rest."""
     orbital = _turned(m * r**2 * omega**2 / 2 / (m * v0**2))
     turning = scaled(m * a**2 * omega0**2 / 2 / (m * v0**2))
     return orbital + turning * SPIN_INERTIA * spin**2 + turning * PARTNER_INERTIA * partner_spin**2
@@ -102,7 +102,7 @@ def _kinetic() -> sp.Expr:
 
 @cache
 def rotation() -> Rotation:
-    """What the equations of an unequal pair are made of."""
+    """The rotation of an unequal pair, for its equations."""
     motion = equations_of_motion()
     named = {F_t: TANGENTIAL * SHEAR_FORCE, T_1: TANGENTIAL * a * TORQUE, T_2: TANGENTIAL * a * PARTNER_TORQUE}
     per_time = x0 / (v0 * m * a**2 * omega0)

@@ -1,8 +1,8 @@
 """Tangential lubrication of two unequal spheres, to leading logarithm, from Reynolds' equation.
 
 In the frame that turns with the line of centres both spheres only spin, at xi_i - omega, and the gap keeps its shape
-h = x + s^2/(2a). The sum of the surfaces' velocities drags liquid along the narrowing gap and raises a pressure; their
-difference shears it. Each torque follows from the stress on its sphere, and with the arms the force follows too.
+h = x + s^2/(2a). The sum of the surface velocities drags liquid along the narrowing gap and raises a pressure; their
+difference shears the liquid. Each torque follows from the stress on its sphere; torques and lever arms give the force.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import sympy as sp
 from ...vocabulary.quantities import a, mu, x
 
 R_1, R_2 = sp.symbols("R_1 R_2", positive=True)
-U_1, U_2 = sp.symbols("U_1 U_2", real=True)  # velocities of the surfaces at the gap, in the turning frame
+U_1, U_2 = sp.symbols("U_1 U_2", real=True)  # surface velocities at the gap, in the turning frame
 X, Y = sp.symbols("X Y", real=True)
 _h, _outer, _K = sp.symbols("h h_outer K")
 
@@ -31,9 +31,9 @@ def pressure_strength() -> sp.Expr:
 
 
 def _logarithm(integrand: sp.Expr) -> sp.Expr:
-    """Coefficient of ln(h_outer/x) in the integral over the disc of an integrand in X, h (2 pi s ds = 2 pi a dh).
+    """Coefficient of ln(h_outer/x) in the integral over the disc of an integrand in X and h (2 pi s ds = 2 pi a dh).
 
-    On a ring X^2 averages to s^2/2 = a (h - x).
+    X^2 averages to s^2/2 = a (h - x) over a ring.
     """
     averaged = sp.expand(integrand).subs(X**2, a * (_h - x))
     rings = sp.integrate(sp.expand(averaged * 2 * sp.pi * a), (_h, x, _outer))
@@ -42,9 +42,9 @@ def _logarithm(integrand: sp.Expr) -> sp.Expr:
 
 @cache
 def stresses() -> tuple[sp.Expr, sp.Expr]:
-    """Force by shear on the surfaces of sphere 1 and 2 along X, over ln(h_outer/x).
+    """Shear force on the surfaces of sphere 1 and 2 along X, over ln(h_outer/x).
 
-    Profile between the surfaces: linear, and the parabola of the pressure gradient dp/dX.
+    The velocity profile between the surfaces is linear plus the parabola due to the pressure gradient dp/dX.
     """
     gradient = _K / _h**2 - 2 * _K * X**2 / (a * _h**3)  # of K X/h^2, dh/dX = X/a
     couette = mu * (U_2 - U_1) / _h
@@ -55,7 +55,7 @@ def stresses() -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def pressure_forces() -> tuple[sp.Expr, sp.Expr]:
-    """Force by the pressure on sphere 1 and 2 along X, over ln(h_outer/x): their surfaces slope by -+X/R_i."""
+    """Pressure force on sphere 1 and 2 along X, over ln(h_outer/x), from the slope -+X/R_i of the surfaces."""
     push = _logarithm(-_K * X**2 / _h**2).subs(_K, pressure_strength())
     return sp.factor(push / R_1), sp.factor(push / R_2)
 

@@ -1,14 +1,12 @@
-"""Sphere against wall: the pair as the partner's radius and mass go to infinity, in quantities that stay finite.
+"""Sphere against wall: the limit of a pair for infinite radius and mass of the partner, in quantities that stay finite.
 
-r omega becomes the velocity v along the wall, while omega, and with it the centrifugal force m v^2/r, goes to zero: the
-line of centres does not turn, and the motion along it no longer knows of that across it. The wall does not spin.
+In the limit r omega becomes the velocity v along the wall, while omega and the centrifugal force m v^2/r vanish: the
+line of centres does not turn, and the normal motion is independent of the tangential motion. The wall does not spin.
 
-Nor does the motion across it need equations of its own. Friction is linear in sliding and rolling, and the gap enters
-through one common factor, so the two modes of its matrix stay the same all along the trajectory: slide and roll are
-    sums
-of exp(-decay) and exp(-ratio decay), and the one state is `decay`, the integral of the slower mode's rate. What has
-died away is then an exponential that is zero; it holds no integration, and has the right sign down to the smallest
-double.
+Friction is linear in sliding and rolling, and its matrix depends on the gap through one common factor only. Its two
+eigenmodes are therefore constant along the trajectory: slide and roll are sums of exp(-decay) and exp(-ratio decay),
+with one state `decay`, the integral of the slower mode's rate. A decayed mode is then a small exponential that limits
+no step size and keeps its sign.
 """
 
 from __future__ import annotations
@@ -50,7 +48,7 @@ SLOW_MODE, FAST_MODE = sp.symbols("slow_mode fast_mode", positive=True)
 
 
 def limit(expression: sp.Expr) -> sp.Expr:
-    """An SI expression of the pair beside a wall: omega = v/r, no spin of the partner, R_2 and M_2 to infinity."""
+    """An SI expression of the pair in the wall limit: omega = v/r, no spin of the partner, R_2 and M_2 to infinity."""
     at_rest = expression.subs(partner_spin_rate, 0).subs(omega, slide_rate / r)
     one, other = radii()
     in_ratios = at_rest.subs({R_1: one, R_2: other}).subs(CENTRES, centres())
@@ -61,14 +59,14 @@ def limit(expression: sp.Expr) -> sp.Expr:
 
 @cache
 def friction() -> tuple[sp.Expr, sp.Expr]:
-    """Torque on the sphere and the force against its sliding, in SI, over ln(h_outer/x)."""
+    """Torque on the sphere and force against its sliding, in SI, over ln(h_outer/x)."""
     torques = torque_matrix() * sp.Matrix([omega - xi, omega - partner_spin_rate])
     return limit(torques[0]), limit((torques[0] + torques[1]) / (R_1 + R_2))
 
 
 @cache
 def accelerations() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Of the gap (less the forces along it), along the wall (of v = r omega), and of the spin; in SI."""
+    """Accelerations in SI: of the gap (without forces along it), along the wall (v = r omega), and of the spin."""
     motion = equations_of_motion().accelerations
     opened = motion["x"]
     along = u * omega + r * motion["beta"]  # d(r omega)/dt
@@ -76,18 +74,18 @@ def accelerations() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
 
 
 def scaled(expression: sp.Expr) -> sp.Expr:
-    """A dimensionless SI expression in states and groups; v over v0 tan(theta0), the spin over that per a."""
+    """A dimensionless SI expression in states and groups; v over v0 tan(theta0), spin over v0 tan(theta0)/a."""
     sideways = v0 * obliquity
     return nondimensional(expression.subs({slide_rate: sideways * slide, xi: sideways / a * roll}, simultaneous=True))
 
 
 @dataclass(frozen=True)
 class Modes:
-    """Slide and roll as sums of two modes that decay.
+    """Slide and roll as sums of two decaying modes.
 
     Arguments:
-        rate: of the slower mode, per v0/x0; the one place where the gap enters.
-        ratio: the faster mode's rate over it.
+        rate: decay rate of the slower mode, per v0/x0; only this depends on the gap.
+        ratio: decay rate of the faster mode over that of the slower.
         slide, roll: weights of the slower and the faster mode.
     """
 
@@ -98,10 +96,10 @@ class Modes:
 
 
 def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]) -> Modes:
-    """The modes of rates that are linear in slide and roll, by a constant matrix times one common factor.
+    """The modes of rates that are linear in slide and roll, with a constant matrix times one common factor.
 
     Raises:
-        ValueError: the rates are not of this form, or a mode does not decay.
+        ValueError: the rates do not have this form, or a mode does not decay.
     """
     moving = sp.Matrix([slide, roll])
     found = sp.Matrix([sp.expand(rates[state]) for state in moving])
@@ -121,7 +119,7 @@ def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]
 
 @cache
 def friction_rates() -> tuple[tuple[Definition, ...], dict[sp.Symbol, sp.Expr]]:
-    """Force and torque of the friction by their names, and the rates of slide and roll in them, per v0/x0."""
+    """Friction force and torque by name, and the rates of slide and roll in terms of them, per v0/x0."""
     log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
     torque, force = friction()
     unit = _force_unit()
@@ -141,7 +139,7 @@ def _force_unit() -> sp.Expr:
 
 @cache
 def rotation() -> Rotation:
-    """What the equations beside a wall are made of."""
+    """The rotation of a sphere beside a wall, for its equations."""
     definitions, rates = friction_rates()
     begin = {slide: sp.Integer(1), roll: sp.Integer(0)}
     found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)

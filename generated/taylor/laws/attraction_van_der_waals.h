@@ -36,10 +36,10 @@ static inline vec attraction_force_value(const attraction_force_constants *c, ve
     return result;
 }
 
-#define ATTRACTION_FORCE_FALLS 1 /* it never grows with its first argument */
+#define ATTRACTION_FORCE_FALLS 1 /* never increases with its first argument */
 
 #define ATTRACTION_FORCE_WORK 1
-/* An antiderivative of it: work in closed form. */
+/* Antiderivative: the work in closed form. */
 static inline vec attraction_force_work(const attraction_force_constants *c, vec gap)
 {
     (void)c;

@@ -56,10 +56,10 @@ static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_ov
     return result;
 }
 
-#define BRIDGE_FORCE_FALLS 1 /* it never grows with its first argument */
+#define BRIDGE_FORCE_FALLS 1 /* never increases with its first argument */
 
 #define BRIDGE_FORCE_WORK 1
-/* An antiderivative of it: work in closed form. */
+/* Antiderivative: the work in closed form. */
 static inline vec bridge_force_work(const bridge_force_constants *c, vec gap_over_radius)
 {
     (void)c;

@@ -48,7 +48,7 @@ static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_ov
     return result;
 }
 
-#define BRIDGE_FORCE_FALLS 1 /* it never grows with its first argument */
+#define BRIDGE_FORCE_FALLS 1 /* never increases with its first argument */
 
 /* Rupture distance over R that goes with this law.
  *

@@ -38,7 +38,7 @@ static inline vec film_resistance_value(const film_resistance_constants *c, vec 
 }
 
 #define FILM_RESISTANCE_WORK 1
-/* An antiderivative of it: work in closed form. */
+/* Antiderivative: the work in closed form. */
 static inline vec film_resistance_work(const film_resistance_constants *c, vec gap)
 {
     (void)c;

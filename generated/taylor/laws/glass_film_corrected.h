@@ -18,8 +18,8 @@ typedef struct {
     vec result[TERMS];
 } glass_pressure_clearance_series;
 
-/* Limit less value, times the positive denominator: sign of the event function. Coefficient k of its series;
- * products of series: 1.5. */
+/* Limit minus value, times the positive denominator: the sign of the event function. Coefficient k of its
+ * series; products of series: 1.5. */
 INLINE void glass_pressure_clearance_next(glass_pressure_clearance_series *s, const
     glass_pressure_clearance_constants *c, const vec *gap, const vec *approach, int k)
 {
@@ -29,7 +29,7 @@ INLINE void glass_pressure_clearance_next(glass_pressure_clearance_series *s, co
     s->result[k] = s->approach_by_gap_squared[k] + c->limit*s->gap_squared[k] - approach[k];
 }
 
-/* Limit less value, times the positive denominator: sign of the event function. */
+/* Limit minus value, times the positive denominator: the sign of the event function. */
 static inline vec glass_pressure_clearance_value(const glass_pressure_clearance_constants *c, vec gap, vec
     approach)
 {

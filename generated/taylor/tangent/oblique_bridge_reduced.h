@@ -23,8 +23,8 @@
  *
  * Law slots: film, glass, shear, bridge.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 17 and those of the laws, then 5
- * a direction. */
+ * Tangent: derivatives of the states by the groups. Products of series: 17 and those of the laws, then 5 a
+ * direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -68,7 +68,7 @@ typedef struct {
     bridge_force_slope_constants bridge_force_law;
 } slope_constants;
 
-/* What the slopes need once a collision. */
+/* Constants of the derivatives, computed once per collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->momentum_by_aspect = 2.0*v->aspect + 8.0;
@@ -101,7 +101,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     bridge_force_slope_prepare(&c->bridge_force_law, &v->bridge_force_law);
 }
 
-/* What the rates change by: entries of the matrix, and what drives a direction. */
+/* Derivatives of the rates: entries of the matrix, and source terms of a direction. */
 typedef struct {
     vec centrifugal_force_by_obliquity[TERMS];
     vec normal_velocity_by_gap[TERMS];
@@ -122,7 +122,7 @@ typedef struct {
     vec turned_by_obliquity[TERMS];
 } slopes;
 
-/* What the rates change by with the states, and with the groups that are asked for. */
+/* Derivatives of the rates by the states, and by the requested groups. */
 static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
     *of, const constants *v, vec film, vec shear, unsigned asked)
 {
@@ -262,7 +262,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     }
 }
 
-/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+/* Coefficient k + 1 of a derivative of the states, with its source terms. */
 INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
     const constants *v, vec film, vec shear, const vec *const *source, int k)
 {
@@ -282,8 +282,8 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 #endif
 }
 
-/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
- * `after` over that number; what the sum gives is there. */
+/* Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after`
+ * holds divided by their number. Contributions of the sum have been added before. */
 INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
@@ -302,7 +302,7 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
 #endif
 }
 
-/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
 static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
 {
     (void)of; (void)v; (void)film; (void)shear;
@@ -310,7 +310,7 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
         32.0/(of->distance[0]*of->distance[0])) + film*of->film_resistance_law.result[0])/v->stokes;
 }
 
-/* What drives the derivatives by a group, where it is not zero. */
+/* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
     (void)s; (void)of;
@@ -344,7 +344,7 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     }
 }
 
-/* The start's derivative by a group. */
+/* Derivative of the initial state by a group. */
 static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
@@ -358,7 +358,7 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a rebound. */
+/* Derivative of the state just after a rebound. */
 static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
@@ -373,7 +373,7 @@ static inline void rebound_along(const constants *v, const vec *y, const vec *t,
     }
 }
 
-/* The derivative of what a separated doublet shows. */
+/* Derivative of the results for a separated doublet. */
 static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
 {
     (void)v;
@@ -396,7 +396,7 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
     }
 }
 
-/* How the gap beyond which there is no tangential force changes. */
+/* Derivative of the gap beyond which there is no tangential force. */
 static inline vec tangential_edge_along(const constants *v, int group)
 {
     (void)v;

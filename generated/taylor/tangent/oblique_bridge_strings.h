@@ -27,8 +27,8 @@
  *
  * Law slots: film, glass, shear, arm, bridge, strings.
  *
- * Its tangent: derivatives of the states by the groups. Products of series: 52 and those of the laws, then 13
- * a direction. */
+ * Tangent: derivatives of the states by the groups. Products of series: 52 and those of the laws, then 13 a
+ * direction. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -87,7 +87,7 @@ typedef struct {
     arm_lever_slope_constants arm_lever_law;
 } slope_constants;
 
-/* What the slopes need once a collision. */
+/* Constants of the derivatives, computed once per collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->film_force_by_gap_factor = 1.0/v->stokes;
@@ -136,7 +136,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     arm_lever_slope_prepare(&c->arm_lever_law, &v->arm_lever_law);
 }
 
-/* What the rates change by: entries of the matrix, and what drives a direction. */
+/* Derivatives of the rates: entries of the matrix, and source terms of a direction. */
 typedef struct {
     vec centrifugal_force_by_obliquity[TERMS];
     vec normal_velocity_by_gap[TERMS];
@@ -170,7 +170,7 @@ typedef struct {
     vec rotation_by_obliquity[TERMS];
 } slopes;
 
-/* What the rates change by with the states, and with the groups that are asked for. */
+/* Derivatives of the rates by the states, and by the requested groups. */
 static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
     *of, const constants *v, vec film, vec shear, unsigned asked)
 {
@@ -452,7 +452,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     }
 }
 
-/* Coefficient k + 1 of a derivative of the states, with what drives it beside the states. */
+/* Coefficient k + 1 of a derivative of the states, with its source terms. */
 INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
     const constants *v, vec film, vec shear, const vec *const *source, int k)
 {
@@ -473,8 +473,8 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
         t[ORBITAL_MOMENTUM], k) + source[ROTATION][k])*next;
 }
 
-/* A result's derivatives by coefficient k of the states, from those by coefficient k + 1 and later, in
- * `after` over that number; what the sum gives is there. */
+/* Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after`
+ * holds divided by their number. Contributions of the sum have been added before. */
 INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
     slope_constants *c, const constants *v, vec film, vec shear, int k)
 {
@@ -494,7 +494,7 @@ INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const s
         correlated(s->orbital_momentum_by_rotation, after[ORBITAL_MOMENTUM], k);
 }
 
-/* The rate at which a volume of states shrinks where a step starts: that of its fast modes. */
+/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
 static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
 {
     (void)of; (void)v; (void)film; (void)shear;
@@ -503,7 +503,7 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
         film*of->film_resistance_law.result[0])/v->stokes;
 }
 
-/* What drives the derivatives by a group, where it is not zero. */
+/* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
     (void)s; (void)of;
@@ -544,7 +544,7 @@ static inline void sources(const slopes *s, const series *of, int group, const v
     }
 }
 
-/* The start's derivative by a group. */
+/* Derivative of the initial state by a group. */
 static inline void start_along(const constants *v, int group, vec *after)
 {
     (void)v;
@@ -560,7 +560,7 @@ static inline void start_along(const constants *v, int group, vec *after)
     }
 }
 
-/* The derivative just after a rebound. */
+/* Derivative of the state just after a rebound. */
 static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
 {
     (void)v;
@@ -577,7 +577,7 @@ static inline void rebound_along(const constants *v, const vec *y, const vec *t,
     }
 }
 
-/* The derivative of what a separated doublet shows. */
+/* Derivative of the results for a separated doublet. */
 static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
 {
     (void)v;
@@ -599,7 +599,7 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
     }
 }
 
-/* How the gap beyond which there is no tangential force changes. */
+/* Derivative of the gap beyond which there is no tangential force. */
 static inline vec tangential_edge_along(const constants *v, int group)
 {
     (void)v;

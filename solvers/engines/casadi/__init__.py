@@ -1,1 +1,1 @@
-"""The reference engines: CVODES and Rosenbrock, phases located and replayed."""
+"""The reference engines, CVODES and Rosenbrock: location of events, and replay of the phases."""

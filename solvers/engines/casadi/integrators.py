@@ -1,4 +1,4 @@
-"""CasADi integrators of a flow: a plain one over a given duration, and one that stops at the first event.
+"""CasADi integrators of a flow: one over a given duration, and one that stops at the first event.
 
 Built once and cached; time is scaled so that every call runs over [0, 1] and the duration is a parameter.
 """
@@ -26,12 +26,12 @@ _EXPECTED = "Event support is experimental"
 
 
 class IntegrationFailed(Exception):
-    """An integrator gave up; the message is CasADi's last line."""
+    """Failure of an integrator; the message is CasADi's last line."""
 
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Keep CasADi's expected warning, and the pages it prints on a failure, out of the user's sight."""
+    """Suppress CasADi's expected warning and its prints on a failure."""
     with listening() as heard:
         yield
     for line in heard.getvalue().splitlines():
@@ -40,18 +40,18 @@ def quiet() -> Iterator[None]:
 
 
 def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Evaluate an integrator; its prints are dropped, its failure becomes one line."""
+    """Call an integrator, suppress its prints, and reduce its failure to one line."""
     check()
     with listening() as heard:
         try:
             found = _buffered(function)(x0, p)
         except (RuntimeError, SystemError) as error:
-            # CasADi wraps an interrupt that arrives while it works; CVODES swallows it and only prints it
+            # CasADi wraps an interrupt that arrives during a call; CVODES only prints it
             said = str(error) + heard.getvalue()
             if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
                 raise KeyboardInterrupt from None
             raise IntegrationFailed(_reason(str(error))) from None
-    if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES has treated as a failed step
+    if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES reported as a failed step
         raise KeyboardInterrupt
     if not np.isfinite(found).all():
         raise IntegrationFailed("the state is not finite")
@@ -70,7 +70,7 @@ def _reason(message: str) -> str:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Relative and absolute tolerance of an integrator, and the steps after which it gives up."""
+    """Relative and absolute tolerance of an integrator, and its limit of steps."""
 
     relative: float
     absolute: float
@@ -78,7 +78,7 @@ class Tolerance:
 
     @property
     def offset(self) -> float:
-        """Where quadratures start: at 1 if the absolute tolerance is too small to control one that starts at 0."""
+        """Initial value of quadratures: 1 if the absolute tolerance is too small to control one that starts at 0."""
         return 1.0 if self.absolute < 1e-4 * self.relative else 0.0
 
     def options(self, plugin: str) -> dict[str, Any]:
@@ -91,24 +91,24 @@ class Tolerance:
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
 
-# CVODES' global error at a given tolerance is 20 to 600 times Rosenbrock's (measured in docs/engineering): it is
-# given a tighter one, so that rtol means about the same for both.
+# At a given tolerance the global error of CVODES is 20 to 600 times that of Rosenbrock (measured in docs/engineering),
+# so it is given a tighter tolerance: rtol then means about the same for both.
 _CVODES_SHARE, _TIGHTEST = 1 / 30, 1e-14
 
 
-def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
-    """What an integrator is told so that results come out at about `rtol`.
+def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
+    """Tolerance of an integrator for results accurate to about `rtol`.
 
     The gap is controlled relative to x0, velocities relative to v0. Near grazing incidence the doublet turns within a
-    tiny part of x0, which must be resolved (unless strings pull harder); at very small angles without bridge or
-    strings, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0, which the absolute tolerance must not drown. Both
-    in whole decades, so that integrators are shared.
+    tiny part of x0, which must be resolved (unless strings exert larger forces). At very small angles without bridge or
+    strings, the doublet is opened by a force of tan^2(theta0) x0/a in v0^2/x0, which must exceed the absolute
+    tolerance. Tolerances are rounded to whole decades, so that integrators can be shared.
     """
     centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
     absolute = 1e-3
     if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
         absolute = 10.0 ** max(4 * math.floor(math.log10(centrifugal) / 4) - 3, -200)
-    if "weight" in groups:  # stiffness over string_ratio is at least 1
+    if "weight" in groups:  # the least value of stiffness over string_ratio is 1
         centrifugal -= groups["weight"] * groups["aspect"] / groups["string_ratio"]
     if centrifugal > 1:
         rtol = max(rtol * 10.0 ** -math.ceil(math.log10(centrifugal)), min(rtol, _TIGHTEST))
@@ -119,7 +119,7 @@ def tolerance(rtol: float, plugin: str, groups: Mapping[str, float]) -> Toleranc
 
 @dataclass(frozen=True)
 class Plain:
-    """A flow over a duration, without events. Call: (y, groups, duration) -> y at the end (columns on a grid)."""
+    """A flow over a duration, without events. Call: (y, groups, duration) -> y at the end (or columns on a grid)."""
 
     function: Function
     plugin: str
@@ -130,13 +130,13 @@ class Plain:
 
     @property
     def steps(self) -> int:
-        """Steps of the last call."""
+        """Number of steps in the last call."""
         return _buffered(self.function).steps
 
 
 @own_cache(512)
 def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...] = (1.0,)) -> Plain:
-    """The integrator of a flow, with the solution at the parts of the duration that `grid` names."""
+    """The integrator of a flow; `grid` names fractions of the duration at which the solution is returned as well."""
     parts = expressions(flow)
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
@@ -146,8 +146,9 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
 
 @dataclass(frozen=True)
 class EventHit:
-    """Where a locating integrator stopped: the event's name (None: none yet), its time, the state, and whether the
-    event's function had already dipped below zero before (its true crossing is then earlier).
+    """A stop of a locating integrator: event name (None: no event), time and state.
+
+    `dipped` is true if the event's function had already been negative before: its first zero is then earlier.
     """
 
     event: str | None
@@ -158,7 +159,7 @@ class EventHit:
 
 @dataclass(frozen=True)
 class Locator:
-    """Integrates a flow to its first event, or to the end of the duration."""
+    """Integrator of a flow to its first event, or to the end of the duration."""
 
     function: Function
     events: tuple[str, ...]
@@ -168,7 +169,7 @@ class Locator:
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> EventHit:
         parameters = np.concatenate([p, [duration, motion, level]])
-        riders = np.zeros(3 + len(self.dips))  # clock, active, number, passed minima
+        riders = np.zeros(3 + len(self.dips))  # clock, active, number, minima passed
         riders[1] = 1.0
         found = _call(self.function, x0=np.concatenate([y, riders]), p=parameters).ravel()
         after, (time, _, number) = found[: y.size], found[y.size : y.size + 3]
@@ -181,11 +182,11 @@ class Locator:
 
     @property
     def steps(self) -> int:
-        """Steps of the last call; 0 where it is compiled."""
+        """Number of steps in the last call; 0 for compiled integrators."""
         return _buffered(self.function).steps
 
     def value(self, event: str, y: np.ndarray, p: np.ndarray, motion: int, level: float) -> float:
-        """An event's function at a state."""
+        """The value of an event's function in a state."""
         column = self.values(y, np.concatenate([p, [1.0, motion, level]]))
         return float(column[self.events.index(event)])
 
@@ -194,12 +195,12 @@ class Locator:
 def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code: bool = False) -> Locator:
     """A Rosenbrock integrator that freezes at the first event.
 
-    A clock, a flag that freezes the flow, and the event's number ride along as states. CasADi looks at signs at the
-    ends of steps only, so a function that may dip below zero and return also stops the flow at its own minimum; the
-    stop holds only where the function is below zero there.
+    Clock, freeze flag and event number are additional states. CasADi checks signs at the ends of steps only, so a
+    function that may become negative and positive again also stops the flow at its own minimum; the stop counts only if
+    the function is negative there.
 
     Arguments:
-        machine_code: compile it to C, which pays from some hundred collisions on.
+        machine_code: compile it to C, which pays off beyond some hundred collisions.
     """
     parts, model = expressions(flow), flow.model
     duration, motion, level = SX.sym("duration"), SX.sym("motion"), SX.sym("level")
@@ -207,8 +208,8 @@ def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code
     minima = [k for k, event in enumerate(table) if event.dips]
     falling = [event.function for event in table]
     clock, active, number = SX.sym("clock"), SX.sym("active"), SX.sym("number")
-    # A minimum above zero is passed by, once a call: where a function creeps, its slope is rounding and would stop
-    # again and again.
+    # A minimum above zero is passed once per call: where a function varies slowly, its slope is dominated by rounding
+    # and would stop the flow repeatedly.
     passed = SX.sym("passed", len(minima))
     turning = [
         if_else(passed[position] > 0, 1, -jtimes(table[k].function, parts.variables, parts.rates))
@@ -261,8 +262,8 @@ def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code
 def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 
-    dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is about zero, but its
-    derivative is the saltation, and with the second-order terms the Hessian is right as well.
+    dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is nearly zero, but its
+    derivative is the saltation; the second-order terms make the Hessian correct as well.
     """
     parts, model = expressions(flow), flow.model
     motion, level = SX.sym("motion"), SX.sym("level")

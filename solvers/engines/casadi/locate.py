@@ -1,6 +1,6 @@
-"""Find the sequence of phases and events of a collision: a Rosenbrock flow per phase, frozen at its first event.
+"""Location of the phases and events of a collision: one Rosenbrock flow per phase, frozen at its first event.
 
-The events, what they do and the rules of a rebound are those of `generated/automaton.py`; this interprets them.
+The events, their effects and the rules of a rebound are those of `generated/automaton.py`; this module interprets them.
 """
 
 from __future__ import annotations
@@ -32,22 +32,22 @@ from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
 from ...scene.contact import contact_gap, contact_word
 from ...settings import CALL, STEPS
-from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance
+from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
-FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is given up after 16 * 8^21 of them
-_NOW_AND_THEN = 20  # phases of chatter between two looks at what holds it
+FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
+_NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
 _STRONG = 1e4  # square root of a force over m v0^2/x0
-_LOOSER = 1e3  # times a tolerance that an integrator cannot meet
+_LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
 EVENT_OF = {event.name: event for event in EVENTS}
-_GAP, _VELOCITY = 0, 1  # places in the state
+_GAP, _VELOCITY = 0, 1  # indices in the state
 
 
 @dataclass(frozen=True)
 class PhaseRun:
-    """One phase integrated for a duration (x0/v0) to an event, and what is reported of it.
+    """One phase of a duration (x0/v0) up to an event, and the events reported.
 
     Arguments:
-        event: name of the event function to land on; None if the trajectory stops inside the phase.
+        event: name of the event function to land on; None if the trajectory ends inside the phase.
         kinds: events reported at its end, in order.
         rebounds: the doublet rebounds at its end.
         holds: the normal velocity is zero from here on, or until release.
@@ -63,7 +63,7 @@ class PhaseRun:
 
 @dataclass
 class EventSequence:
-    """The located trajectory of a collision."""
+    """The sequence of phases and events of a collision."""
 
     model: Model
     p: np.ndarray
@@ -71,13 +71,13 @@ class EventSequence:
     steps: list[PhaseRun] = field(default_factory=list)
     separated: bool = False
     certified: bool = False
-    ends: list[np.ndarray] = field(default_factory=list)  # state after each step, its rebound included
+    ends: list[np.ndarray] = field(default_factory=list)  # state after each phase, including its rebound
     y: np.ndarray = field(default_factory=lambda: np.zeros(0))  # the last state, extras included
     time: float = 0.0  # of the last state
     smallest_gap: float = 1.0
     extras: tuple[str, ...] = ()
-    dry_loss: float = 0.0  # taken by rebounds and rests, over m v0^2
-    decided: float | None = None  # when the stick was certain, if the trajectory goes on from there
+    dry_loss: float = 0.0  # dissipated by rebounds and rests, over m v0^2
+    decided: float | None = None  # time at which the stick was certain, if the trajectory continues beyond it
 
     @property
     def kinds(self) -> list[str]:
@@ -96,7 +96,7 @@ class EventSequence:
 
 
 class EventLocator:
-    """Locates one collision; `run` returns its Path."""
+    """Locator of the events of one collision; `run` returns its EventSequence."""
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class EventLocator:
     ) -> None:
         rtol = min(rtol, LOOSEST)
         self.model, self.rtol, self.machine_code = model, rtol, machine_code
-        self.tolerance = tolerance(rtol, "rosenbrock", groups)
+        self.tolerance = tolerance_for(rtol, "rosenbrock", groups)
         self.p = model.group_values(groups)
         self.groups = groups
         self.proof: Certificate = proof_for(model, self.p, rtol)
@@ -130,9 +130,7 @@ class EventLocator:
         self._maxima: list[np.ndarray] = []  # states at maxima of the gap
 
     def run(self) -> EventSequence:
-        """Follow the collision to separation, to a cut-off, or to a proof that it never separates; on from a proof if
-        that comes before `until`.
-        """
+        """Integrate the collision to separation, to a cut-off, or to a certificate, and from there up to `until`."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error(
                 "at this angle the rotation reverses the approach within a rounding error of the film thickness",
@@ -144,7 +142,7 @@ class EventLocator:
         return path
 
     def _follow_on(self) -> None:
-        """Integrate on from the proof of a stick, without it."""
+        """Continue the integration beyond the certificate of a stick."""
         path, proved = self.path, self.path.certified
         path.decided, self.deadline = path.time, self.until
         self.proof, self.watch, self.spent = NoCertificate(), replace(self.watch, certificate=None), 0
@@ -170,7 +168,7 @@ class EventLocator:
         return self.path
 
     def _held_in_chatter(self) -> bool:
-        """Whether a doublet in long chatter is held by the momentum of its orbit as it is; it is then a stick."""
+        """True if the orbital-momentum certificate holds for a doublet in long chatter, which is then a stick."""
         phases, proof = len(self.path.steps), self.proof
         if (
             phases < CHATTER_PHASES
@@ -186,7 +184,7 @@ class EventLocator:
         return True
 
     def _spend(self, steps: int) -> None:
-        """Count the steps of a call of an integrator."""
+        """Count the steps of an integrator call."""
         self.spent += max(steps, CALL)
         if self.spent > self.steps:
             phases = len(self.path.steps)
@@ -200,12 +198,12 @@ class EventLocator:
             )
 
     def _criterion_met(self) -> str | None:
-        """A criterion already true where a phase starts: the first of the table."""
+        """The first criterion in the table that is already met at the start of a phase."""
         values = self.model.values("events", self.y, self.p)
         return next((kind for kind in CRITERIA if values[kind] <= 0), None)
 
     def _proved(self, elapsed: float) -> bool:
-        """Whether a stick is decided where a phase has come to, which ends the collision."""
+        """True if the collision ends here as a stick, by a certificate or by energy."""
         if at_maximum(self.y, self.phase):
             self._maxima.append(self.y)
         certainty = self.proof.decided(self.y, self.phase, self._maxima)
@@ -225,7 +223,7 @@ class EventLocator:
         return Flow(self.model.choice, self.phase.region, self.extras)
 
     def _run_phase(self) -> bool:
-        """Integrate to the next event and act on it; True if the trajectory is over."""
+        """Integrate to the next event and apply its effect; True if the collision is over."""
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         elapsed, stretch = 0.0, self._first_stretch()
         for _ in range(STRETCHES):
@@ -255,12 +253,12 @@ class EventLocator:
         )
 
     def _first_stretch(self) -> float:
-        """Length of the first interval: at most 1e5 times what the force takes to close the film."""
+        """Length of the first interval: at most 1e5 times the time in which the force closes the film."""
         force = abs(self.model.values("inward_force", self.y, self.p)["inward_force"])
         return FIRST_STRETCH * min(1.0, _STRONG / np.sqrt(force)) if force > 0 else FIRST_STRETCH
 
     def _advance(self, find: Locator, stretch: float, level: float) -> EventHit:
-        # an unreachable level is a large negative number: infinities would spoil the integrator's arithmetic
+        # an unreachable level is a large negative number, since infinities break the integrator's arithmetic
         level = max(level, -1e30)
         try:
             stop = find(self.y, self.p, stretch, self.phase.motion, level)
@@ -275,9 +273,9 @@ class EventLocator:
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _loosened(self) -> bool:
-        """Go on with a looser tolerance, where it had been tightened for the start of a grazing trajectory.
+        """Continue with a looser tolerance after the start of a grazing trajectory, for which it had been tightened.
 
-        Later the states may be so large that the tightened tolerance is below their rounding error.
+        Later states may be so large that the tightened tolerance is below their rounding error.
         """
         if self.tolerance.relative >= self.rtol:
             return False
@@ -286,10 +284,10 @@ class EventLocator:
         return True
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
-        """The first event crossed before a turning point within one step.
+        """The first event that was crossed before a turning point within one step.
 
-        The gap is monotone up to `turning`, so whatever lies below zero there was crossed before, once. If no
-        event was reported but a function is negative at the end, its crossing was masked by another function's minimum.
+        The gap is monotone up to `turning`, so every function that is negative there has one earlier zero. If no event
+        was reported but a function is negative at the end, its zero was masked by the minimum of another function.
         """
         crossed = [
             self._refined(find, stop, row.name, level)
@@ -301,7 +299,7 @@ class EventLocator:
         return min(crossed, key=lambda found: found.time, default=stop)
 
     def _refined(self, find: Locator, stop: EventHit, event: str, level: float) -> EventHit:
-        """The crossing before a stop at which `event` is below zero: bisection with secant steps on a plain flow."""
+        """The zero of an event function before a stop at which it is negative: bisection with secant steps."""
         integrate = plain(self._flow(), "rosenbrock", self.tolerance)
 
         def value(duration: float) -> tuple[float, np.ndarray]:
@@ -325,7 +323,7 @@ class EventLocator:
         return EventHit(event, after, y_after, False)
 
     def _act(self, event: Event, elapsed: float) -> bool:
-        """The effect of an event; True if it ends the collision."""
+        """Apply the effect of an event; True if it ends the collision."""
         before, phase = self.phase, self.phase
         word = self._word(event)
         for action in event.actions:
@@ -344,7 +342,7 @@ class EventLocator:
         return event.words[0]
 
     def _done(self, action: str, phase: Phase) -> Phase:
-        """The phase after an action, which may change the state as well."""
+        """The phase after an action, which may also change the state."""
         match action:
             case "gap = contact":
                 self._put(_GAP, self.contact_gap)
@@ -374,7 +372,7 @@ class EventLocator:
         return phase
 
     def _put(self, position: int, value: float) -> None:
-        """A state put exactly where the event has it, so that what is decided there does not depend on rounding."""
+        """A state set exactly onto an event's surface, so that later decisions do not depend on rounding."""
         self.y = np.array(self.y)
         self.y[position] = value
         self.path.y = self.y
@@ -384,9 +382,10 @@ class EventLocator:
         self.phase = phase
 
     def _rebound(self, kind: str, elapsed: float, event: str | None = None) -> None:
-        """A rebound; one too weak to leave rests, one where the doublet ruptures has left.
+        """A rebound; a weak one becomes resting contact, one at the rupture gap separates the doublet.
 
-        What holds a resting doublet is whatever reversed it, the glassy liquid included (docs/explanation/events.md).
+        The contact that holds a resting doublet is that of the rebound criterion, the glassy liquid included
+        (docs/explanation/events.md).
         """
         after = self.model.values("rebound", self.y, self.p)
         self.path.dry_loss += self.model.values("rebound_loss", self.y, self.p)["dry_contact"]
@@ -409,20 +408,21 @@ class EventLocator:
         self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds), phase)
 
     def _opening(self, phase: Phase) -> Phase:
-        """The phase that opens from here; from initial contact, beyond the film at once."""
+        """The phase that opens from here; on an edge, the phase is beyond that edge."""
         film = phase.film if self.y[0] != 1.0 or not self.model.edged else 0
         shear = phase.shear if self.y[0] != self.edge else 0
         return self._towards(OPENING, phase).with_(film=film, shear=shear)
 
     def _towards(self, motion: int, phase: Phase | None = None) -> Phase:
-        """The phase, the current one unless given, going `motion`."""
+        """The phase with the given `motion`, otherwise as the present one."""
         cavitated = self.model.cavitates and motion == OPENING
         return (phase or self.phase).with_(motion=motion, cavitated=cavitated)
 
     def _too_weak(self, rebound: float, inward: float) -> bool:
-        """A rebound that decides nothing: slower than REST_SPEED, or rising by less than the tolerance of the gap.
+        """True if a rebound becomes resting contact: slower than REST_SPEED, or rising by less than the tolerance.
 
-        Without drag it rises by u^2/(2 inward); what follows is chatter, a geometric series that dies in the same spot.
+        Without drag it rises by u^2/(2 inward); the chatter that would follow is a geometric series that ends at the
+        same gap.
         """
         return rebound < REST_SPEED or rebound**2 / (2 * inward) < self.rtol * float(self.y[0])
 
@@ -442,7 +442,7 @@ def locate(
     """Phases and events of a collision.
 
     Arguments:
-        extras: what else to integrate along (`rotation`); the path's last state carries it.
+        extras: additional quadratures (`rotation`), included in the sequence's last state.
         machine_code: use integrators compiled to C.
         until: time (x0/v0) to which a stick is followed on after its proof.
 

@@ -1,7 +1,7 @@
-"""Integrate located phases again with the chosen engine: smooth flows over known durations, each landed on its event.
+"""Integration of located phases with the chosen engine: smooth flows over known durations, each landed on its event.
 
-The path says which phases and events there are; the engine's own solution meets each event at a slightly different
-time, which the landing step corrects. So events, and later their derivatives, are the engine's own.
+The sequence of phases and events is given. The engine's own solution meets each event at a slightly different time,
+which the landing step corrects, so that events and their derivatives are those of the engine.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import EventSequence, PhaseRun
 
-_LANDED = 1e-4  # largest Taylor step, as a part of the phase, that is landed without integrating again
-_MISSES = 1e-13  # of its scale: what an event's function may be off after the step
-_RISES = 1e-9  # of its scale over the phase: an event's function falls where it is met, but for rounding at a graze
+_LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
+_MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
+_RISES = 1e-9  # in its scale per duration: slope above which the function rises at the landing
 _TRIES = 8
-_ROUNDING = 1e-15  # of a gap or speed of order 1: times and event functions below it are noise
+_ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
 
 
 class Stopped(Exception):
-    """The engine could not integrate a phase: `why`, in which step, at what time (x0/v0) and state.
+    """Failure of the engine in a phase: reason, phase, time (x0/v0) and state.
 
-    `missed`: its solution misses the located event, so a tighter tolerance may help.
+    `missed`: the solution does not meet the located event; a tighter tolerance may help.
     """
 
     def __init__(self, why: str, step: PhaseRun, time: float, y: np.ndarray, missed: bool = False) -> None:
@@ -39,7 +39,7 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Piece:
-    """An integrated phase: its name and flow, state at its start, start time and duration (x0/v0)."""
+    """An integrated phase: name, flow, initial state, start time and duration (x0/v0)."""
 
     name: str
     flow: Flow
@@ -50,7 +50,7 @@ class Piece:
 
 @dataclass
 class Replay:
-    """A path as one engine integrated it; states carry the extras, times are in x0/v0."""
+    """An event sequence as integrated by one engine; states include the extras, times are in x0/v0."""
 
     y: np.ndarray
     extras: tuple[str, ...] = ()
@@ -63,19 +63,19 @@ class Replay:
     pieces: list[Piece] = field(default_factory=list)
 
     def extra(self, name: str) -> float:
-        """A quadrature's value at the end."""
+        """The final value of a quadrature."""
         return float(self.y[len(self.y) - len(self.extras) + self.extras.index(name)]) - self.offset
 
 
 def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Replay:
-    """Integrate `path` with an integrator plugin.
+    """Integrate the event sequence `path` with an integrator plugin.
 
     Arguments:
-        kind: the model to integrate and its extras (the regions come from the path).
+        kind: the model and its extras (flags of film and shear are taken from the sequence).
         start: state at initial contact.
 
     Raises:
-        Stopped: the engine gave up, or its solution misses an event of the path.
+        Stopped: the engine failed, or its solution does not meet an event of the sequence.
     """
     model = kind.model
     known = dict(zip(path.model.groups, path.p, strict=True))
@@ -97,14 +97,14 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
             replayed.dry_loss += model.values("rebound_loss", replayed.y, p)["dry_contact"]
             after = model.values("rebound", replayed.y, p)
             replayed.y = np.concatenate([list(after.values()), replayed.y[size:]])
-        if step.holds:  # chatter takes what is left of the rebound
+        if step.holds:  # chatter dissipates what remains of the rebound's energy
             replayed.dry_loss += float(replayed.y[1]) ** 2 / 2
             replayed.y[1] = 0.0
     return replayed
 
 
 def as_located(path: EventSequence, choice: ModelKey) -> Replay:
-    """The located trajectory itself, its extras integrated along: one solution, which cannot miss its own events."""
+    """The located trajectory itself with its extras: its own solution, which meets its events by construction."""
     start = path.model.start(path.p)
     begun = np.concatenate([start, np.zeros(len(path.extras))])
     replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
@@ -121,7 +121,7 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
 def _integrate_onto_event(
     engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, replayed: Replay, p: np.ndarray
 ) -> tuple[float, np.ndarray]:
-    """Duration and end of one phase, on the event's surface."""
+    """Duration and final state of one phase, on the event's surface."""
 
     def integrate(duration: float) -> np.ndarray:
         try:
@@ -152,10 +152,10 @@ def _integrate_onto_event(
         landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
         if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
             if float(_slope(flow, watched, step.event)(landed, parameters)) > _RISES * scale / duration:
-                break  # met on the way back: the engine's own event was earlier
+                break  # the event was found in the backward direction: the engine's own event is earlier
             return duration + shift, landed
         if abs(shift) > nearer / 2:
-            break  # beside a saddle every step is amplified, and they go to and fro
+            break  # beside a saddle every step is amplified, and the iteration oscillates
         nearer = abs(shift)
         duration += shift
         y = integrate(duration)
@@ -165,7 +165,7 @@ def _integrate_onto_event(
 
 @own_cache(512)
 def _slope(flow: Flow, watch: WatchedEvents, event: str) -> Function:
-    """Rate of an event's function along the flow."""
+    """Rate of change of an event's function along the flow."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")
     table = {each.name: each.function for each in event_table(flow, watch, motion, level)}

@@ -1,4 +1,4 @@
-"""A trajectory as an xarray Dataset: gap, velocities, rates and angle over time, with units."""
+"""A trajectory as an xarray Dataset: gap, velocities, rates and angle against time, with units."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ...scene.scene import Scene
 from .integrators import IntegrationFailed, Tolerance, plain
 from .replay import Piece, Replay
 
-# Per phase, crowded towards its ends, where the fast transients are; the integrator's steps do not depend on them.
+# Per phase, denser towards its ends, where the fast transients are; the integrator's steps do not depend on them.
 _POINTS = 64
 _PART = np.linspace(0, 1, _POINTS + 1)
 _GRID = _PART**3 * (10 - 15 * _PART + 6 * _PART**2)
@@ -33,7 +33,7 @@ _VARIABLES: dict[str, tuple[str, str]] = {
 
 
 def attributes(scene: Scene, outcome: str, engine: str, rtol: float) -> dict[str, str | float]:
-    """What a file of the trajectory has to say of where it comes from: enough to compute it again."""
+    """Attributes for a file of the trajectory: its provenance, sufficient to compute it again."""
     release = version("wetdoublet")
     return {
         "title": f"Trajectory of an oblique wet collision: {scene.name or 'unnamed scene'}",
@@ -61,7 +61,7 @@ class Stretch:
 
 
 def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
-    """A piece of a chain, which is integrated again through the times asked for; ComputationError where that fails."""
+    """A phase of a replay, integrated again through the requested times; ComputationError if that fails."""
     size, turned = len(model.state), tuple(name for name in replayed.extras if name == "rotation")
     names, offset = (*model.state, *turned), replayed.offset if turned else 0.0
     kept = [*range(size), *(size + replayed.extras.index(name) for name in turned)]
@@ -69,7 +69,7 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
     def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         try:
             inside = integrated(parts)
-        except IntegrationFailed as failure:  # the located trajectory, by smaller steps, may have got through
+        except IntegrationFailed as failure:  # the located trajectory, with smaller steps, may succeed
             state = dict(zip(model.state, piece.start.tolist(), strict=False))
             message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
             raise ComputationError(message, piece.name, piece.time, state, advice) from None
@@ -80,7 +80,7 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
         grid = tuple(parts[1:])
         try:
             return plain(piece.flow, plugin, tolerance, grid)(piece.start, p, piece.duration)[kept]
-        except IntegrationFailed:  # the ledger's terms are not shown, and may be what fails
+        except IntegrationFailed:  # possibly due to the ledger, which is not needed here
             flow = replace(piece.flow, extras=turned)
             return plain(flow, plugin, tolerance, grid)(piece.start[kept], p, piece.duration)
 
@@ -94,10 +94,10 @@ def dataset(
     first: np.ndarray,
     attrs: Mapping[str, str | float] | None = None,
 ) -> xr.Dataset:
-    """A trajectory on a grid of _POINTS per phase; an event's time stands twice, before and after it.
+    """A trajectory on a grid of _POINTS per phase; the time of an event occurs twice, before and after it.
 
     Arguments:
-        first: the state at initial contact, shown alone where all is decided there.
+        first: the state at initial contact, used alone if the collision is decided there.
     """
     p, size = model.group_values(n.groups), len(model.state)
     times: list[np.ndarray] = []

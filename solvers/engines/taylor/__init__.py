@@ -1,1 +1,1 @@
-"""The Taylor kernel: emitted C recurrences, compiled on first use, that collide many doublets side by side."""
+"""The Taylor kernel: emitted C recurrences, compiled on first use, that integrate many collisions in parallel lanes."""

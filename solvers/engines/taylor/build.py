@@ -1,4 +1,4 @@
-"""A kernel as a loaded library: source put together from emitted headers, compiled once into the user's cache."""
+"""The kernel as a loaded library: source from emitted headers and the runtime, compiled once into the user's cache."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from .layout import MOST_STEPS, RESULTS, declarations
 if TYPE_CHECKING:
     from ...scene.scene import Scene
 
-# No -ffast-math: NaN and infinity are compared with. Products may be fused with sums; sqrt sets no errno.
-# -w: the suite compiles every file with -Wall -Wextra -Werror; the warnings of a newer compiler are not the user's.
+# No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
+# -w: the tests compile every file with -Wall -Wextra -Werror; warnings of a newer compiler should not reach users.
 FLAGS = (
     "-O2",
     "-funroll-loops",
@@ -39,7 +39,7 @@ FLAGS = (
     "-std=gnu11",
     "-w",
 )
-# For a few collisions: compiled in half the time, the same arithmetic, some 5 % slower (docs/engineering/kernel.md).
+# For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 LARGEST_ORDER = 16
 _ONCE = "#pragma once"
@@ -48,17 +48,17 @@ _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
 @dataclass(frozen=True)
 class Variant:
-    """What a kernel is compiled for.
+    """Compile-time options of a kernel.
 
     Arguments:
         order: of the series, 8 to LARGEST_ORDER.
-        rotation: the angle turned is integrated along where it is no state.
-        own_rupture: the bridge ruptures where its own law says.
-        gradients: derivatives by the groups are carried along.
-        backward: those of the restitution alone are taken back along the trajectory instead.
-        few: few collisions will be asked of it: compiled sooner.
-        ledger: what the forces take is integrated along; the structure must keep the spin.
-        trajectory: every step is written as it was taken.
+        rotation: with the angle turned as a quadrature, where it is not a state.
+        own_rupture: the bridge ruptures at its law's own distance.
+        gradients: with derivatives by the groups, along the trajectory.
+        backward: with derivatives of the restitution only, by the adjoint sweep.
+        few: for few collisions: compiled faster.
+        ledger: with the energy ledger; the structure must keep the spin.
+        trajectory: every step is recorded.
     """
 
     choice: ModelKey
@@ -72,7 +72,7 @@ class Variant:
     trajectory: bool = False
 
     def __post_init__(self) -> None:
-        """Drop what has no effect, so that equal kernels are compiled once."""
+        """Reset options without effect, so that equal kernels are compiled once."""
         structure = self.choice.structure
         if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
             object.__setattr__(self, "rotation", False)
@@ -80,14 +80,14 @@ class Variant:
 
 @cache
 def lanes() -> int:
-    """Doubles side by side that this machine's registers hold."""
+    """Number of doubles in a vector register of this machine."""
     flags = _processor()
     return next((count for count, flag in _NEEDED.items() if flag in flags), 1)
 
 
 @cache
 def _processor() -> frozenset[str]:
-    """What the processor can do, as the system says it; a machine that is not asked about has SSE2 or its like."""
+    """Processor features, as the operating system reports them; on other systems the baseline is assumed."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
@@ -100,7 +100,7 @@ def _processor() -> frozenset[str]:
 
 
 def supported(scene: Scene) -> bool:
-    """Whether the kernel can collide a scene here: its laws have recurrences, and there is a compiler."""
+    """True if the kernel can integrate a scene here: its laws have recurrences, and there is a compiler."""
     return compiler() is not None and all(headers(select_model(scene, oblique, fold=True)) for oblique in (True, False))
 
 
@@ -110,7 +110,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
 
 
 def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, str]:
-    """The files of a variant that the runtime includes beside its own, by name.
+    """Files of a variant that the runtime includes besides its own, by name.
 
     Arguments:
         emitted: its emitted headers.
@@ -145,7 +145,7 @@ def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, s
 
 
 def _emitted(variant: Variant) -> tuple[str, ...] | None:
-    """The emitted headers of a variant; None where a law has no recurrence."""
+    """The emitted headers of a variant; None if a law has no recurrence."""
     plain = headers(variant.choice)
     if plain is None or not variant.gradients:
         return plain
@@ -165,15 +165,15 @@ def _stem(variant: Variant) -> str:
 
 
 def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
-    """Name of the library of a source in the cache."""
+    """File name of the library compiled from a source."""
     machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
     return f"{_stem(variant)}-{key(text, flags, machine)}.so"
 
 
 def is_compiled(variant: Variant) -> bool:
-    """Whether the library of a variant has been compiled before; nothing is derived or compiled to see."""
+    """True if the library of a variant is in the cache; nothing is derived or compiled for the answer."""
     if not has(f"{_stem(variant)}-"):
-        return False  # its headers need not even have been derived
+        return False  # its headers may not have been derived yet
     entry = _expected(variant, _flags(variant))
     return entry is not None and has(entry.removesuffix("so"))
 
@@ -186,7 +186,7 @@ def _expected(variant: Variant, flags: tuple[str, ...]) -> str | None:
 
 @once
 def kernel(variant: Variant) -> ctypes.CDLL | None:
-    """The loaded kernel of a variant; None for a model it does not know, without a compiler, or where that fails."""
+    """The loaded kernel of a variant; None for an unsupported model, without a compiler, or if compilation fails."""
     found, emitted = compiler(), _emitted(variant)
     if found is None or emitted is None:
         return None
@@ -202,7 +202,7 @@ def kernel(variant: Variant) -> ctypes.CDLL | None:
 
 
 def compile_all(variants: Collection[Variant]) -> None:
-    """Have the kernels of several variants, compiled side by side where they are not there yet."""
+    """Compile the kernels of several variants in parallel, where they are not cached."""
     if len(variants) > 1:
         threads: list[int] = []
 
@@ -210,7 +210,7 @@ def compile_all(variants: Collection[Variant]) -> None:
             threads.append(threading.get_ident())
             kernel(variant)
 
-        with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, as compilers are separate processes
+        with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes
             try:
                 list(pool.map(compiled_here, variants))
             except BaseException:

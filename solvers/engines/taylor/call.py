@@ -1,7 +1,7 @@
-"""Many collisions of one scene by the kernel: quantities in SI in, answers out, on several cores.
+"""Integration of many collisions of one scene by the kernel: quantities in SI in, answers out, on several cores.
 
-What the kernel hands over (resting too long, no budget left, beyond its range) is named by its status and is for the
-caller to compute by other means.
+Collisions that the kernel hands over (long resting contact, exhausted budget, out of range) are marked by their status;
+the caller computes them by other means.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _CHUNK = 4096  # collisions in a block for a thread
 
 @dataclass(frozen=True)
 class Impacts:
-    """Collisions of one scene: angle (rad) and speed (m/s), and other quantities in SI by the vocabulary's names."""
+    """Collisions of one scene: angles (rad), speeds (m/s), other quantities in SI by their names in the vocabulary."""
 
     scene: Scene
     speed: np.ndarray
@@ -37,7 +37,7 @@ class Impacts:
     others: Mapping[str, np.ndarray]
 
     def part(self, which: np.ndarray | slice) -> Impacts:
-        """Some of them."""
+        """A subset of the collisions."""
         others = {name: values[which] for name, values in self.others.items()}
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
@@ -46,7 +46,7 @@ RunKernel = Callable[[Impacts, np.ndarray], None]
 
 
 def order_for(rtol: float) -> int:
-    """Order of the series that is cheapest for a tolerance (docs/engineering/kernel.md)."""
+    """Order of the series with the least cost for a tolerance (docs/engineering/kernel.md)."""
     return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
 
 
@@ -59,7 +59,7 @@ def variant(
     trajectory: bool = False,
     few: bool = False,
 ) -> Variant:
-    """What the kernel of a scene is compiled for, at a tolerance."""
+    """The variant of the kernel for a scene at a tolerance."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
     return Variant(choice, order_for(rtol), rotation, own, few=few, ledger=ledger, trajectory=trajectory)
 
@@ -67,12 +67,12 @@ def variant(
 def run_kernel(
     impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = STEPS, few: bool = False
 ) -> np.ndarray | None:
-    """An array of ANSWER, a collision each; None if there is no kernel here.
+    """An array of ANSWER, one per collision; None if no kernel is available.
 
     Arguments:
         rotation: also the angle turned.
-        budget: steps after which a collision is handed over.
-        few: by a kernel that is compiled sooner and integrates a little slower.
+        budget: number of steps after which a collision is handed over.
+        few: use a kernel that compiles faster and integrates slightly slower.
     """
     found = np.zeros(impacts.angle.size, ANSWER)
     turns = impacts.angle > 0
@@ -90,7 +90,7 @@ def _fill(
 ) -> bool:
     if run is None:
         return False
-    whole = count == found.size  # then nothing is copied
+    whole = count == found.size  # no copy in this case
     which = those if whole else np.flatnonzero(those)
 
     def chunk(first: int) -> None:
@@ -106,17 +106,17 @@ def _fill(
         for first in firsts:
             chunk(first)
     else:
-        with ThreadPoolExecutor(threads) as pool:  # the kernel releases the interpreter's lock
+        with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
             list(pool.map(chunk, firsts))
     return True
 
 
 def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> RunKernel | None:
-    """The kernel of these impacts; None if there is none here."""
+    """The kernel of these impacts; None if none is available."""
     scene = those.scene
     if not supported(scene):
         return None
-    choice = select_model(scene, oblique, fold=not those.others)  # what varies may make a partner unequal
+    choice = select_model(scene, oblique, fold=not those.others)  # the varied quantities may make a partner unequal
     library = kernel(variant(scene, choice, rtol, rotation, few=few))
     if library is None:
         return None
@@ -131,10 +131,10 @@ def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: i
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray) -> Task:
-    """What a kernel is asked of impacts that fit it.
+    """The task of a kernel for impacts that fit it.
 
     Arguments:
-        made: answers to be filled, zeros of ANSWER.
+        made: array for the answers, zeros of ANSWER.
     """
     asked = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
     given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
@@ -148,7 +148,7 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
 
 
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int) -> RunKernel:
-    """A kernel as a function of impacts that fit it, and answers to be filled (zeros of ANSWER)."""
+    """A kernel as a function of impacts that fit it and of an array for the answers (zeros of ANSWER)."""
 
     def run(impacts: Impacts, made: np.ndarray) -> None:
         task(library, impacts, rtol, budget, made).run()

@@ -1,11 +1,11 @@
-"""Chatter that has spent the kernel's steps: whether its last state is held for good, or the limit that it nears."""
+"""Chatter that has exhausted the kernel's steps: certificates for its last state, or the limit that it approaches."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ....generated.automaton import OUTCOMES, STICK, Status
-from ...certificates import OrbitalMomentumCertificate, comes_to, proof_for
+from ...certificates import OrbitalMomentumCertificate, limit_of_circling, proof_for
 from ...model.dimensionless import nondimensionalise
 from ...model.model import ModelKey, load
 from ...scene.scene import Scene
@@ -14,19 +14,23 @@ from ...scene.scene import Scene
 def decide(
     answers: np.ndarray, scene: Scene, speed: np.ndarray, angle: np.ndarray, choice: ModelKey, rtol: float
 ) -> None:
-    """Make sticks of the collisions among `answers` whose last state is held by the momentum of the orbit.
+    """Decide as sticks the collisions among `answers` whose last state has an orbital-momentum certificate.
 
-    A doublet that circles in and out of its film loses less with every turn: thousands of turns decide nothing that
-    the last state does not. `shown` has that state from the normal velocity on.
+    A doublet that circles in and out of its film loses less with every turn, so further steps do not decide more than
+    the last state does. `shown` has that state from the normal velocity on.
     """
     for k in np.flatnonzero(answers["status"] == Status.CHATTER).tolist():
-        told, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
+        answer, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
         if proof is None:
             continue
-        y = _state(proof, told)
+        y = _state(proof, answer)
         if proof.holds(y) or proof.settles(y):
-            told["status"], told["outcome"], told["certified"] = Status.DECIDED, OUTCOMES.index(STICK), proof.proves
-            told["shown"] = 0.0
+            answer["status"], answer["outcome"], answer["certified"] = (
+                Status.DECIDED,
+                OUTCOMES.index(STICK),
+                proof.proves,
+            )
+            answer["shown"] = 0.0
 
 
 def limits(
@@ -38,7 +42,7 @@ def limits(
     choice: ModelKey,
     rtol: float,
 ) -> list[bool | None]:
-    """Whether doublets that circle are held in the limit of many turns; None where that is not clear.
+    """For circling doublets, True if a certificate holds in the limit of many turns; None where that is not clear.
 
     Arguments:
         earlier, answers: of the same impacts after fewer steps and after more.
@@ -46,9 +50,9 @@ def limits(
     found: list[bool | None] = []
     for k in range(answers.size):
         both = earlier[k], answers[k]
-        circles = all(told["status"] in (Status.NO_BUDGET, Status.CHATTER) for told in both)
+        circles = all(answer["status"] in (Status.NO_BUDGET, Status.CHATTER) for answer in both)
         proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
-        found.append(None if proof is None else comes_to(proof, *(_state(proof, told) for told in both)))
+        found.append(None if proof is None else limit_of_circling(proof, *(_state(proof, answer) for answer in both)))
     return found
 
 
@@ -59,8 +63,8 @@ def _proof(
     found = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
     return (
         found if isinstance(found, OrbitalMomentumCertificate) and not model.strings else None
-    )  # strings may feed the slip
+    )  # strings may transfer energy to the slip
 
 
-def _state(proof: OrbitalMomentumCertificate, told: np.void) -> np.ndarray:
-    return np.array([told["final_gap"], *told["shown"][: len(proof.model.state) - 1]])
+def _state(proof: OrbitalMomentumCertificate, answer: np.void) -> np.ndarray:
+    return np.array([answer["final_gap"], *answer["shown"][: len(proof.model.state) - 1]])

@@ -7,25 +7,25 @@ from ...host.remarks import say
 from ...host.thread_caches import once
 from ...model.model import ModelKey
 
-_NONE = "#error "  # how a header begins that could not be emitted
+_NONE = "#error "  # start of a header that could not be emitted
 
 
 @once
 def automaton() -> tuple[str, str, str]:
-    """Texts of the headers of the automaton: enumerations and constants, gaps of contact, the switch over effects."""
+    """Texts of the automaton's headers: enumerations and constants, contact gaps, switch over effects."""
     rules, criteria, effects = (emitted.header(f"taylor/{name}.h") for name in ("automaton", "criteria", "effects"))
     return rules, criteria, effects
 
 
 @once
 def headers(choice: ModelKey) -> tuple[str, ...] | None:
-    """Texts of the headers of a choice, laws first; None where a law has no recurrence, which is said once."""
+    """Texts of the headers of a choice, laws first; None if a law has no recurrence, with one warning."""
     return _sound("no Taylor kernel", _texts(choice, tangent=False))
 
 
 @once
 def tangents(choice: ModelKey) -> tuple[str, ...] | None:
-    """Texts of the headers with the derivatives of a choice, laws first; None where a law has none, said once."""
+    """Texts of the headers with derivatives of a choice, laws first; None if a law has none, with one warning."""
     return _sound("no derivatives by the Taylor kernel", _texts(choice, tangent=True))
 
 
@@ -59,6 +59,6 @@ def _folder(tangent: bool) -> str:
     return "taylor/tangent" if tangent else "taylor"
 
 
-@once  # a process
+@once  # once per process
 def _say(without: str, why: str) -> None:
     say(f"{without} ({why}): other engines answer")

@@ -1,4 +1,4 @@
-"""C files that include one another as one text: what a compiler sees of a kernel, and what names it in the cache."""
+"""Expansion of #include lines: the complete source of a kernel, for its compilation and its name in the cache."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ _LINE = re.compile(r'^(?:#pragma once\n|#include "([^"]+)"\n)', re.MULTILINE)
 
 
 def included(text: str) -> list[str]:
-    """Files that a C text includes by `#include "..."`, in its order."""
+    """Files that a C text includes by `#include "..."`, in order."""
     return [name for name in _LINE.findall(text) if name]
 
 
 def resolved(text: str, made: Mapping[str, str]) -> str:
-    r"""A C text with each file that it includes put in its place, once, where it is first asked for.
+    r"""A C text with each included file inserted once, at its first #include.
 
-    What is included stands outside any condition: a file that a variant does without says so itself.
+    Includes must be unconditional: a file that a variant does not need contains the condition itself.
 
     Arguments:
         made: texts of the files that are not in the runtime's folder, by name.

@@ -1,7 +1,7 @@
-"""What crosses between Python and the kernel, declared once: as numpy types, and as the C structures they are.
+"""Data exchanged between Python and the kernel, declared once: as numpy types and as the corresponding C structures.
 
-The kernel's source begins with `declarations()`, which the C compiler holds to the sizes that numpy has. Every buffer
-goes over with its size in bytes; how many rows it holds is for the kernel to find, and it writes no others.
+The kernel's source begins with `declarations()`; the C compiler checks it against the sizes in numpy. Every buffer is
+passed with its size in bytes, and the kernel writes only as many rows as it holds.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 BUFFER = np.dtype([("at", np.uintp), ("bytes", "i8")], align=True)
 ANSWER = np.dtype(
     [
-        # restitution, tangential restitution, rotation rate, spin, partner's spin; handed over: states after the gap
+        # restitution, tangential restitution, rotation rate, spin, partner's spin; if handed over: states after the gap
         ("shown", "f8", 5),
         ("time", "f8"),
         ("smallest_gap", "f8"),
@@ -24,7 +24,7 @@ ANSWER = np.dtype(
         ("status", "i4"),
         ("steps", "i4"),
         ("reversal", "i4"),  # the first rebound criterion met; -1 for none
-        ("events", "i4"),  # those that the log had no room for as well
+        ("events", "i4"),  # including those for which the log had no room
     ],
     align=True,
 )
@@ -41,41 +41,41 @@ LEDGER = np.dtype(
             "capillary",
             "attraction",
             "dry",
-            "momentum",  # angular momentum over its start value
+            "momentum",  # angular momentum over its initial value
         )
     ],
     align=True,
 )
 NEARNESS = np.dtype([("least", "f8"), ("boundary", "f8"), ("hint", "f8")], align=True)
-# What a kernel is asked: numbers, then buffers; those that are not asked for are empty.
+# A task for a kernel: numbers, then buffers; those not needed are empty.
 TASK = np.dtype(
     [
         ("count", "i8"),
         ("budget", "i8"),  # steps of a trajectory
-        ("purpose", "i8"),  # kernels with a trajectory heed it
-        ("asked", "i8"),  # groups whose derivatives are carried, as bits
-        ("steps", "i8"),  # comes back: of all trajectories, those that found no row as well
+        ("purpose", "i8"),  # used by kernels with a trajectory
+        ("asked", "i8"),  # groups by which derivatives are computed, as bits
+        ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),
-        ("quantities", BUFFER),  # a BUFFER for each of `quantity_names`: `count` doubles in SI, or one for all
+        ("quantities", BUFFER),  # one BUFFER for each of `quantity_names`: `count` doubles in SI, or a single one
         ("answers", BUFFER),  # of ANSWER
-        ("log", BUFFER),  # of HAPPENING, equally many for each collision
+        ("log", BUFFER),  # of HAPPENING, the same number for each collision
         ("books", BUFFER),  # of LEDGER
-        ("rows", BUFFER),  # of step_row, as many as there are
-        ("peaks", BUFFER),  # a double a collision: the largest margin of the glass criterion while closing
-        ("by_group", BUFFER),  # RESULTS doubles for each of `group_names`, of each collision
-        ("gradients", BUFFER),  # RESULTS doubles for each of `quantity_names`, of each collision
+        ("rows", BUFFER),  # of step_row
+        ("peaks", BUFFER),  # one double per collision: the largest margin of the glass criterion while closing
+        ("by_group", BUFFER),  # RESULTS doubles for each of `group_names`, per collision
+        ("gradients", BUFFER),  # RESULTS doubles for each of `quantity_names`, per collision
         ("near", BUFFER),  # of NEARNESS
     ],
     align=True,
 )
-RESULTS = 8  # that are differentiated: those shown, then time, smallest gap, angle turned
-MOST_STEPS = 300  # of a trajectory whose derivatives are taken back
+RESULTS = 8  # that have derivatives: the outputs, then time, smallest gap, angle turned
+MOST_STEPS = 300  # most steps of a trajectory with an adjoint sweep
 _STRUCTURES = {"buffer": BUFFER, "answer": ANSWER, "happening": HAPPENING, "ledger": LEDGER, "nearness": NEARNESS}
 _C_TYPES = {"f8": "double", "i8": "int64_t", "i4": "int32_t"}
 
 
 def declarations(ledger: bool) -> str:
-    """C structures of these types, and proofs that a C compiler lays them out as numpy does."""
+    """C structures of these types, with static assertions that the compiler lays them out as numpy does."""
     lines = ["#include <stddef.h>", "#include <stdint.h>"]
     for name, layout in (*_STRUCTURES.items(), ("task", TASK)):
         if name == "ledger" and not ledger:
@@ -100,7 +100,7 @@ def _member(name: str, kind: np.dtype) -> str:
 
 
 def step_row(library: ctypes.CDLL) -> np.dtype:
-    """A step of a trajectory as this kernel writes it, by its own account of the states and terms that it has."""
+    """The type of a step's row in this kernel, from its exported states and terms."""
     states, terms, size = (number(library, name) for name in ("row_states", "row_terms", "row_bytes"))
     flags = [(name, "i4") for name in ("phase", "closing", "resting", "film")]
     found = np.dtype(
@@ -111,17 +111,17 @@ def step_row(library: ctypes.CDLL) -> np.dtype:
 
 
 def number(library: ctypes.CDLL, symbol: str) -> int:
-    """A constant int of a kernel."""
+    """A constant int exported by a kernel."""
     return ctypes.c_int.in_dll(library, symbol).value
 
 
 def names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:
-    """A kernel's list of names."""
+    """A list of names exported by a kernel."""
     return tuple(ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, symbol))).decode().split())
 
 
 class Task:
-    """One call of a kernel: the numbers and buffers that it is given, which live as long as this."""
+    """A call of a kernel: its numbers and buffers, kept alive as long as this object."""
 
     def __init__(self, library: ctypes.CDLL, count: int, rtol: float, budget: int) -> None:
         self._library = library
@@ -130,18 +130,18 @@ class Task:
         self._held: list[np.ndarray] = []
 
     def columns(self, columns: list[np.ndarray]) -> None:
-        """Quantities in SI in the order of `quantity_names`, each a number for every collision or one for all."""
+        """Quantities in SI in the order of `quantity_names`, each one number per collision or a common one."""
         table = np.zeros(len(columns), BUFFER)
         for row, column in zip(table, columns, strict=True):
             self._hold(row, column)
         self.buffer("quantities", table)
 
     def buffer(self, name: str, array: np.ndarray) -> None:
-        """Where results of that name go, or what is read."""
+        """Set the buffer of that name, for input or output."""
         self._hold(self._task[name], array)
 
     def number(self, name: str, value: int) -> None:
-        """Something else that is asked."""
+        """Set a number of the task."""
         self._task[name] = value
 
     def _hold(self, place: np.void | np.ndarray, array: np.ndarray) -> None:
@@ -150,10 +150,10 @@ class Task:
         place["at"], place["bytes"] = array.ctypes.data, array.nbytes
 
     def run(self) -> int:
-        """Have it done; how many steps it took, if they are counted.
+        """Run the task; returns the number of steps, if they are counted.
 
         Raises:
-            MemoryError: the kernel finds a buffer too small for what it would write, or has no memory of its own.
+            MemoryError: the kernel finds a buffer too small, or cannot allocate memory.
         """
         said: bytes | None = self._library.collide(self._task.ctypes.data)
         if said is not None:

@@ -1,4 +1,4 @@
-"""Trajectories by the kernel with their events, ledger and the polynomials of every step, where they are asked for."""
+"""Trajectories by the kernel, with their events, ledger and the polynomials of every step."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ class Steps:
     Attributes:
         rows: time and length (x0/v0), collision, phase (counted from 0), closing, resting, film, and the series: states
             by powers of the time since the step's start.
-        turned: which state is the angle turned; None if none is.
+        turned: index of the state that is the angle turned; None if there is none.
     """
 
     rows: np.ndarray
     turned: int | None
 
     def of(self, collision: int) -> Steps:
-        """Those of one collision."""
+        """The steps of one collision."""
         return Steps(self.rows[self.rows["collision"] == collision], self.turned)
 
     def within(self, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Times at the same parts of every step, and the states there (a row each)."""
+        """Times at the same fractions of every step, and the states there (one row each)."""
         since = self.rows["length"][:, None] * parts
         powers = since[:, None, :] ** np.arange(self.rows["series"].shape[2])[:, None]
         states = np.moveaxis(self.rows["series"] @ powers, 1, 0)
         return (self.rows["time"][:, None] + since).ravel(), states.reshape(states.shape[0], since.size)
 
     def states(self, times: np.ndarray) -> np.ndarray:
-        """States (a row each) of one collision at times (x0/v0) within its trajectory, from the step around each."""
+        """States (one row each) of one collision at times (x0/v0) within its trajectory."""
         at = np.searchsorted(self.rows["time"], times, side="right") - 1
         at = np.clip(at, 0, self.rows.size - 1)
         series, since = self.rows["series"][at], times - self.rows["time"][at]
@@ -54,8 +54,9 @@ class Steps:
 
 @dataclass(frozen=True)
 class Recorded:
-    """Trajectories: an ANSWER each, its events (the first `events` of a row), its LEDGER, all steps, and the largest
-    margin of the glass criterion while closing (a logarithm; -inf where none is known).
+    """Trajectories: an ANSWER each, its events (the first `events` of a row), its LEDGER, and all steps.
+
+    `peaks` has the largest margin of the glass criterion while closing (a logarithm; -inf if unknown).
     """
 
     answers: np.ndarray
@@ -79,15 +80,15 @@ def run_recorded(
     events: bool = True,
     room: tuple[int, int] = _ROOM,
 ) -> Recorded | None:
-    """Integrate impacts that are all oblique, or all head-on, with the angle turned; None if there is no kernel here.
+    """Trajectories of impacts, all oblique or all head-on, with the angle turned; None if no kernel is available.
 
     Arguments:
         ledger: also the energy ledger; the spin is then a state of its own.
-        trajectory: also every step.
+        trajectory: also record every step.
         purpose: other than WHOLE only with a trajectory.
-        fold: a partner that equals the sphere is treated as such.
-        keep: the steps; else the same kernel integrates without writing them down.
-        events: also what happened when; else answers only count it.
+        fold: treat a partner equal to the sphere as an equal sphere.
+        keep: return the steps; otherwise the same kernel integrates without recording them.
+        events: also return the events; otherwise answers only count them.
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are integrated
             again.
@@ -104,7 +105,7 @@ def run_recorded(
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, LEDGER)
-        rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel fills those that it counts
+        rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
         asked = task(library, impacts, rtol, budget, answers)
         asked.number("purpose", purpose)
         if events:

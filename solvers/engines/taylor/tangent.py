@@ -1,4 +1,4 @@
-"""Many collisions by the kernel with their derivatives: a direction for each group that the asked quantities move."""
+"""Many collisions by the kernel with derivatives: one direction for each group that the quantities affect."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from .headers import headers, tangents
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
-CHATTERS = 5  # the boundary of a trajectory that rested on the solids
-DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
+CHATTERS = 5  # boundary of a trajectory with resting contact
+DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
     6: (TIE, list(ENTRIES.values())[-1]),
     7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
 }
-STRICTER = 4.0  # steps that no direction holds are held to a tolerance stricter by this
-_CHUNK = 1024  # collisions whose derivatives are in work at a time
+STRICTER = 4.0  # stricter tolerance, by this factor, of steps that are not limited by directions
+_CHUNK = 1024  # number of collisions whose derivatives are computed at a time
 
 
 @dataclass(frozen=True)
@@ -35,12 +35,12 @@ class Carried:
     """Answers, and derivatives of their dimensionless results by quantities in SI.
 
     Arguments:
-        answers: of ANSWER, a collision each.
-        slopes: (collisions, quantities, RESULTS); zero where nothing separated.
-        near: (collisions, 3); of what separated, the least measure of its nearness to a boundary, which
-            (runtime/tangents.h), and the least of those measures that are not in DISTANCES.
+        answers: of ANSWER, one per collision.
+        slopes: (collisions, quantities, RESULTS); zero unless the doublet separated.
+        near: (collisions, 3), for separated doublets: the least measure of the distance to a boundary, that boundary
+            (runtime/tangents.h), and the least measure of those not in DISTANCES.
         quantities: names in the vocabulary, in the order of `slopes`.
-        by_energy: sticks are proved by their energy, a level below a barrier.
+        by_energy: sticks are decided by the energy certificate.
     """
 
     answers: np.ndarray
@@ -60,10 +60,10 @@ def run_tangent(
     budget: int = STEPS,
     backward: bool = False,
 ) -> Carried | None:
-    """Derivatives of impacts that are all oblique, or all head-on; None if there is no kernel here.
+    """Derivatives of impacts that are all oblique, or all head-on; None if no kernel is available.
 
     Arguments:
-        moved: quantities that are differentiated by; None: all.
+        moved: quantities to differentiate by; None: all.
         order: of the series; None: the cheapest for the tolerance.
         backward: of the restitution alone, taken back along the trajectory: for the price of one direction.
             Trajectories of more than some hundred steps are handed over.
@@ -95,23 +95,23 @@ def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: 
 
 
 def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False) -> Variant:
-    """What the kernel that differentiates a scene's collisions is compiled for."""
+    """The variant of the kernel that differentiates a scene's collisions."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
     return Variant(select_model(scene, oblique), order, rotation, own, gradients=True, backward=backward)
 
 
 def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
-    """Whether the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler.
+    """True if the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler.
 
     Arguments:
-        oblique: of oblique ones, of those head-on: what is not asked about is not derived.
+        oblique: for oblique collisions, or for head-on ones; only that structure is derived.
     """
     choices = [select_model(scene, own) for own in oblique]
     return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 
 def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None) -> int:
-    """The groups that these quantities move, as bits."""
+    """The groups affected by these quantities, as bits."""
     bits = (ctypes.c_uint * len(quantities)).in_dll(library, "moved_groups")
     found = 0
     for name, own in zip(quantities, bits, strict=True):

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...engines.casadi.integrators import EventHit, tolerance
+from ...engines.casadi.integrators import EventHit, tolerance_for
 from ...engines.casadi.locate import EVENT_OF, EventLocator, EventSequence
 from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
@@ -56,8 +56,12 @@ class ScipyLocator(EventLocator):
     def __init__(self, model: Model, groups: dict[str, float], rtol: float, method: str) -> None:
         super().__init__(model, groups, rtol)
         self.method = method
-        told = tolerance(rtol, "rosenbrock", groups)
-        self.options: dict[str, Any] = {"method": method, "rtol": max(told.relative, _TIGHTEST), "atol": told.absolute}
+        tolerance = tolerance_for(rtol, "rosenbrock", groups)
+        self.options: dict[str, Any] = {
+            "method": method,
+            "rtol": max(tolerance.relative, _TIGHTEST),
+            "atol": tolerance.absolute,
+        }
 
     def _run_phase(self) -> bool:
         """Integrate a phase as `EventLocator._run_phase` does, with few long calls instead of short intervals."""

@@ -9,7 +9,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 from wetdoublet.solvers.collision.collide import collide
-from wetdoublet.solvers.engines.casadi.integrators import tolerance
+from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.formatting.markdown import ms, table
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -146,7 +146,9 @@ def _known(scene: Scene) -> tuple[Course, np.ndarray, np.ndarray, dict[str, floa
 def _replay_alone(scene: Scene, engine: str) -> None:
     course, p, durations, groups = _known(scene)
     evaluate(
-        trajectory_expression(course, ("restitution",), engine, tolerance(RTOL, engine, groups)).function, p, durations
+        trajectory_expression(course, ("restitution",), engine, tolerance_for(RTOL, engine, groups)).function,
+        p,
+        durations,
     )
 
 

@@ -18,7 +18,7 @@ import pytest
 from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide
 from wetdoublet.solvers.collision import by_casadi
 from wetdoublet.solvers.collision.by_casadi import _compute
-from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance
+from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance_for
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence, locate
 from wetdoublet.solvers.engines.casadi.replay import Replay, replay
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -72,7 +72,7 @@ def test_threads_give_the_serial_results() -> None:
 
 def soon(rtol: float, engine: str, groups: Mapping[str, float]) -> Tolerance:
     """What an integrator is told that gives up after three steps."""
-    return replace(tolerance(rtol, engine, groups), steps=3)
+    return replace(tolerance_for(rtol, engine, groups), steps=3)
 
 
 def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
@@ -142,7 +142,7 @@ def test_nothing_extra_is_integrated() -> None:
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
     n = nondimensionalise(scene, *scene.need_impact())
     flows = [
-        _compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance, replay)[2] for ledger in (False, True)
+        _compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance_for, replay)[2] for ledger in (False, True)
     ]
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")

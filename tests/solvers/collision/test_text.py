@@ -50,7 +50,7 @@ def test_fits_a_terminal(collisions, name):
     ("name", "outcome", "why"),
     [
         ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no rebound criterion met"),
-        ("bounces", "bounce", "rebound by the glass criterion"),
+        ("bounces", "bounce", "rebounded because the liquid reached its glass transition"),
         ("sticks at touch", "stick", "proved at contact: energy below the barrier"),
         ("sticks later", "stick", "proved: energy below the barrier (certificate)"),
         ("half turn", "stick", "cut off after 767.4 ms: half a turn"),

@@ -10,7 +10,7 @@ import pytest
 from casadi import Function, jtimes, vertcat
 from wetdoublet.solvers import InputError, Scene, collide, sensitivities
 from wetdoublet.solvers.engines.casadi import integrators
-from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import SX, load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region, event_table, expressions
@@ -202,7 +202,7 @@ def test_options_that_derivatives_rest_on() -> None:
     """CVODES controls the error of adjoint quadratures, absolute tolerances are 1e-3 of the relative ones, and the
     spacing of checkpoints is CasADi's own.
     """
-    told = tolerance(1e-9, "rosenbrock", nondimensionalise(GLASS, float(GLASS.speed or 0), 0.5).groups)
+    told = tolerance_for(1e-9, "rosenbrock", nondimensionalise(GLASS, float(GLASS.speed or 0), 0.5).groups)
     assert told.absolute == pytest.approx(1e-3 * told.relative)
     assert told.options("cvodes")["quad_err_con"] is True
     assert "steps_per_checkpoint" not in {**told.options("cvodes"), **told.options("rosenbrock")}

@@ -1,10 +1,11 @@
-/* Derivatives of the restitution by all groups at once: a trajectory's tape is read from its end.
+/* Adjoint sweep: derivatives of the restitution by all groups at once, from the tape of a trajectory, in reverse.
  *
- * `of` holds the restitution's derivatives by the states. What a step does to a direction (tangent_step.h) is linear, a
- * product of matrices; here the same product is taken from the other side, so that it costs one direction whatever the number
- * of groups, and is the same but for rounding. The trajectory goes first, without directions: its steps are those of the states, at a
- * tolerance that allows for that. What no tolerance allows for is a mode that decays faster than a step's series can tell;
- * such trajectories, and long ones, are for directions that hold the step.
+ * `of` holds the derivatives of the restitution by the states. The effect of a step on a direction (tangent_step.h) is
+ * linear, a product of matrices. The adjoint sweep applies the transposed product, at the cost of a single direction
+ * for any number of groups, with the same result up to rounding. The forward pass has no directions: its steps are
+ * controlled for the states, with a stricter tolerance. That does not suffice for modes that decay faster than the
+ * series of a step resolves; such trajectories, and long ones, are left to the forward directions, which limit the
+ * step.
  */
 #pragma once
 
@@ -38,7 +39,7 @@ typedef struct {
     } \
 }
 
-/* The derivatives by the step's start, and in `after` those by what drives each coefficient. */
+/* Derivatives by the state at the start of the step, and in `after` those by the source term of each coefficient. */
 static __attribute__((noinline)) void retrace(vec *of, vec (*after)[TERMS], const vec *power, const slopes *d,
     const slope_constants *c, const constants *v, vec film, vec shear)
 {
@@ -57,7 +58,7 @@ static void unmeet(retreat *r, const taped_step *step, mask falls, unsigned aske
     vec total = splat(0.0), one = splat(1.0), zero = splat(0.0);
     for (int state = 0; state < STATES; state++)
         total += r->of[state]*m.rate[state];
-    vec value = only(falls, -total/choose(falls, m.pace, one)); /* of the restitution, by the event's function */
+    vec value = only(falls, -total/choose(falls, m.pace, one)); /* d restitution/d event function */
     r->of[GAP] += value*choose(m.gap, one, choose(m.turned, zero, m.by_gap));
     r->of[NORMAL_VELOCITY] += value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach));
     for (int group = 0; group < GROUPS; group++)
@@ -104,7 +105,7 @@ static void unstep(retreat *r, const taped_step *step, unsigned asked)
     }
 }
 
-/* A trajectory's end: what the restitution is by the states there. */
+/* The end of a trajectory: derivatives of the restitution by the states there. */
 static void unend(retreat *r, const struct tape *t, const taped_note *note)
 {
     int lane = note->lane;
@@ -151,7 +152,7 @@ static void undo_rebound(retreat *r, const taped_note *note)
         r->of[state][lane] = found[state][lane];
 }
 
-/* A trajectory's start: the groups' own influence there, and all that was found. */
+/* The start of a trajectory: adds the dependence of the initial state on the groups, and writes the result. */
 static void unbegin(retreat *r, const queue *q, const taped_note *note)
 {
     int lane = note->lane;
@@ -172,7 +173,7 @@ static void take_back(const queue *q, retreat *r)
     const struct tape *t = q->tape;
     long note = t->noted - 1;
     memset(r, 0, sizeof *r);
-    if (t->ended) /* idle lanes repeat a sound one */
+    if (t->ended) /* idle lanes repeat a live one */
         for (int field = 0; field < FIXED; field++)
             ((vec *)&r->f)[field] = splat(t->rows[t->ended - 1][field]);
     for (long step = t->stepped; step >= 0; step--) {
@@ -190,7 +191,7 @@ static void take_back(const queue *q, retreat *r)
     }
 }
 
-/* All collisions, a tape at a time; 0 where there is no memory for one. */
+/* All collisions, one tape at a time; 0 if memory for the tape is not available. */
 static int there_and_back(queue *q)
 {
     struct tape t;

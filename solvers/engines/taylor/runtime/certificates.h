@@ -1,4 +1,5 @@
-/* Which proof of a stick a model has, by the rule of solvers/certificates/choice.py `proof_for`, and in which lanes it holds. */
+/* The certificate of a model, chosen as in solvers/certificates/choice.py `proof_for`, and the lanes in which it holds.
+ * */
 #pragma once
 
 #include "automaton.h"
@@ -16,7 +17,7 @@
 #if PROOF_BY_FILM
 enum { DEPTHS = ATTRACTION ? ATTRACTED_FILM_DEPTHS : FILM_DEPTHS };
 
-/* Velocity that the film takes between two gaps. */
+/* Loss of normal velocity in the film between two gaps. */
 #if defined(FILM_RESISTANCE_WORK)
 static inline vec film_takes(const constants *c, vec low, vec high)
 {
@@ -35,16 +36,19 @@ static vec film_takes(const constants *c, vec low, vec high)
 }
 #endif
 
-/* From `start` down to contact in steps of equal ratio: the gap after each. */
+/* Ratio of successive gaps in a geometric sequence from `start` to contact. */
 static inline vec ratio_of_depths(vec start, vec contact)
 {
     return vec_exp(vec_log(vec_max(contact, start*LEAST_DEPTH)/start)*(1.0/DEPTHS));
 }
 
 #if !ATTRACTION
-/* A film alone: velocity at every gap is known in advance. Closing, the film stops the motion at a gap before which no
- * speed meets the glass criterion; opening, before its surface. Speed falls and pressure per speed rises on the way: the
- * speed before a step and the gap after it bound the pressure between them. */
+/* Film certificate without attraction: the normal velocity at every gap follows from the film's momentum integral.
+ *
+ * While closing, the film stops the motion at a gap before which the glass criterion is not met; while opening, before
+ * the gap x0. As the gap decreases, the speed falls and the pressure per speed rises, so the speed before a step and
+ * the gap after it bound the pressure in between.
+ */
 static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
 {
     double margin = SAFETY*tolerance;
@@ -66,8 +70,11 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
     return stopped;
 }
 #else
-/* A film and an attraction without a bridge, along the line of centres alone: what closes at w under the film closes at
- * most at w + g with the attraction, g^2/2 its work from x0 on (solvers/certificates/film_and_attraction.py). */
+/* Film certificate with an attraction, without a bridge, for motion along the line of centres.
+ *
+ * If the approach velocity with the film only is w, it is at most w + g with the attraction, where g^2/2 is the work
+ * of the attraction from x0 on (solvers/certificates/film_and_attraction.py).
+ */
 static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
 {
     double margin = SAFETY*tolerance;
@@ -76,7 +83,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #else
     mask held = ~closing & (y[NORMAL_VELOCITY] - film_takes(c, y[GAP], splat(1.0)) < -margin);
 #endif
-    vec start = choose(closing, y[GAP], splat(1.0)); /* what opens may rise up to x0 before it falls */
+    vec start = choose(closing, y[GAP], splat(1.0)); /* an opening doublet may reach x0 before it falls back */
     vec speed = only(closing, -y[NORMAL_VELOCITY]), ratio = ratio_of_depths(start, contact), there[STATES];
     vec surface = capillary_work(c, splat(1.0));
     mask clear = splat_mask(-1);
@@ -95,8 +102,9 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #endif
 
 #if PENDULUM
-/* Strings that turn and a film: lanes where the margins of derive/equations/certificates/pendulum.py hold by more than their error, as
- * solvers/model/phases.py `pendulum_margin` has it. */
+/* Pendulum certificate: lanes where the margins of derive/equations/certificates/pendulum.py exceed their error, as in
+ * solvers/model/phases.py `pendulum_margin`.
+ */
 static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;
@@ -111,8 +119,11 @@ static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 #endif
 
 #if ATTRACTION_MARGINS
-/* What attracts holds for good by more than the error of the margins of derive/equations/certificates/attraction.py; a NaN proves nothing. They take
- * the solids for the nearest it gets: initial contact may lie inside them, and there nothing is proved. */
+/* Attraction certificate: the margins of derive/equations/certificates/attraction.py exceed their error.
+ *
+ * Comparisons with NaN are false. The margins take the contact gap as the smallest gap; if initial contact lies below
+ * it, the certificate does not apply.
+ */
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
     double margin = SAFETY*tolerance;
@@ -126,8 +137,9 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 
 #define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
 #if RESTS_FOR_GOOD
-/* At rest in a gap and held there while the slip dies away: the orbit exceeds that of rigid rotation by no more than the slip
- * energy would take, twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`). */
+/* Resting contact that persists while the slip decays: J exceeds its value in rigid rotation by no more than the slip
+ * energy allows, or by twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`).
+ */
 static mask rests_for_good(const constants *c, const vec *y, double tolerance)
 {
     vec margin = splat(SAFETY*tolerance), momentum = rigid_momentum(c, y), there[STATES];
@@ -137,7 +149,7 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
     momentum = vec_larger(y[ORBITAL_MOMENTUM], momentum);
 #else
     there[ORBITAL_MOMENTUM] = splat(1.0);
-    vec rigid[STATES], slip[STATES]; /* the deviation from rigid rotation, whose energy loses no digits in a difference */
+    vec rigid[STATES], slip[STATES]; /* deviation from rigid rotation: no cancellation in its energy */
     memcpy(slip, there, sizeof slip);
     rigid_rotation(c, y, rigid);
     for (int state = ORBITAL_MOMENTUM; state < MODEL_STATES; state++)
@@ -151,7 +163,7 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
 }
 #endif
 
-/* Lanes that are proved to stick, by what is looked at all along a trajectory. */
+/* Lanes in which a certificate excludes separation, of those certificates checked at every step. */
 static inline mask proved_sticks(
     const constants *c, const vec *y, const barrier *b, vec contact, mask closing, mask resting, double tolerance)
 {
@@ -173,8 +185,9 @@ static inline mask proved_sticks(
     return proved;
 }
 
-/* When to look at what holds for good: where a phase starts, and after some steps. Beside a proof by energy, which most
- * sticks meet first, only once a trajectory has become long. */
+/* Lanes in which the attraction certificate is checked: at the start of a phase, and after a number of steps. With an
+ * energy certificate, which covers most sticks earlier, only in long trajectories.
+ */
 enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, EVERY = PROOF_BY_ENERGY ? 64 : 16 };
 
 static inline mask now_and_then(mask fresh, mask phases, mask steps)
@@ -182,7 +195,7 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
     return (fresh & (phases >= EARLIEST_PHASE)) | ((steps & (EVERY - 1)) == EVERY - 1);
 }
 
-/* The same where it is looked at now and then. */
+/* Lanes in which a certificate that is checked at intervals excludes separation. */
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)asked; (void)tolerance;

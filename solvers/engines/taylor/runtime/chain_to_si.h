@@ -1,4 +1,4 @@
-/* From derivatives by groups to derivatives by quantities in SI, for as many collisions at once as there are lanes. */
+/* From derivatives by groups to derivatives by quantities in SI, for a vector of collisions at once. */
 #pragma once
 
 #include "model.h"

@@ -1,21 +1,23 @@
-/* Sums that stand long steps where a mode decays fast and all else creeps.
+/* Damped sums of the series, which permit long steps when a fast mode decays and everything else creeps.
  *
- * A truncated series amplifies a mode exp(-z), z its rate times the step, beyond z of 4 or 5: a creeping trajectory is held to
- * that step though nothing happens in it. With the last three coefficients times factors below one, the amplification
+ * A truncated series amplifies a mode exp(-z), z being its rate times the step, for z beyond 4 or 5, so a creeping
+ * trajectory is limited to that step. With the last three coefficients multiplied by factors below one, the
+ * amplification
  *     R(z) = sum of w_k (-z)^k/k!,  w_k = 1 up to ORDER - 3,
- * stays below 0.75 up to z = 13: the mode dies within some steps and no longer shows in the coefficients, so the step grows
- * until the creeping itself limits it, or that z. It costs three orders of accuracy, which the step allows for. The idea is
- * that of Chebyshev methods (Abdulle, SIAM J. Sci. Comput. 23, 2041 (2002)), applied to a series.
+ * stays below 0.75 up to z = 13. The mode then dies out within some steps and vanishes from the coefficients, so the
+ * step grows until it is limited by the creeping itself or by that z. The damped sum loses three orders of accuracy,
+ * which the step control accounts for. The idea is that of Chebyshev methods (Abdulle, SIAM J. Sci. Comput. 23, 2041
+ * (2002)), applied to a series.
  *
- * tests/solvers/engines/taylor/test_damped_sum.py holds the table to what it is said to do; tests/benchmarks/damping.py makes it.
+ * tests/solvers/engines/taylor/test_damped_sum.py checks the table; tests/benchmarks/damping.py computes it.
  */
 #pragma once
 
 #include "model.h"
 
 enum { EXACT = ORDER - 3 };
-static const double STIFF_FROM = 3.5; /* z at the step that the whole series allows: 4 to 6 where it is held, else 1 or 2 */
-static const double STRICTER = 4.0;   /* since an error here does not die with the next coefficient */
+static const double STIFF_FROM = 3.5; /* z of the full series: 4 to 6 if a mode limits the step, else 1 or 2 */
+static const double STRICTER = 4.0;   /* these errors do not decrease with the next coefficient */
 
 static const double DAMPING[9][3] = { /* order: largest z */
     {0.7765296, 0.3646531, 0.07577656}, /* 8: 12.9 */
@@ -35,7 +37,7 @@ static inline double damping(int k)
     return DAMPING[ORDER - 8][k - EXACT - 1];
 }
 
-/* The series of creeping lanes as the damped sum has them, so that events see what the states become. */
+/* Replaces the series of creeping lanes by the damped ones, so that events see the states that the step produces. */
 static inline void damp(vec (*a)[TERMS], mask creeps)
 {
     for (int state = 0; state < STATES; state++)

@@ -1,6 +1,6 @@
-/* The driver: series, step, first event, what it does; all lanes at once until the queue is empty.
+/* The driver: series, step, first event and its effect, for all lanes at once until the queue is empty.
  *
- * What is too rare to be fast is handed over to solvers/engines/casadi/locate.py, named by a status.
+ * Collisions too rare to be worth fast code are handed over to solvers/engines/casadi/locate.py; their status says why.
  */
 #pragma once
 
@@ -35,7 +35,7 @@ static void run(queue *q)
     EACH_LANE(lane) refill(q, &l, &f, lane);
     if (!bits(l.alive))
         return;
-    int sound = __builtin_ctz(bits(l.alive)); /* idle lanes repeat a live one, so that nothing traps or slows */
+    int sound = __builtin_ctz(bits(l.alive)); /* idle lanes repeat a live one: no traps, no slow arithmetic */
     EACH_LANE(lane) if (!l.alive[lane]) {
         for (int field = 0; field < FIXED; field++)
             ((vec *)&f)[field][lane] = ((vec *)&f)[field][sound];
@@ -51,7 +51,7 @@ static void run(queue *q)
         }
         if (!bits(l.alive))
             break;
-        /* a stick is as good a step later: the level is looked at in every second turn */
+        /* a stick may be certified a step later, so the energy is checked every second step only */
         mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         if (turn++ % 2 == 0)
             sticks |= proved_underway(&l, &f, q->rtol);
@@ -135,10 +135,10 @@ static void run(queue *q)
         spent |= only_if_full(q, l.alive);
         slow_ones = 0;
 #elif GRADIENTS
-        slow_ones = q->asked ? 0 : slow_ones; /* implicit.h knows nothing of derivatives */
+        slow_ones = q->asked ? 0 : slow_ones; /* implicit.h does not compute derivatives */
 #endif
 #if WITH_TRAJECTORY
-        /* only a series makes a row, and implicit.h knows no purpose */
+        /* only series steps are recorded, and implicit.h ignores the purpose */
         slow_ones = q->step_room || q->t->purpose != WHOLE ? 0 : slow_ones;
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)

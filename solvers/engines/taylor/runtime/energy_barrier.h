@@ -1,7 +1,7 @@
-/* Barriers of the effective potential, and the level of energy below which a stick is proved.
+/* Barriers of the effective potential, and the energy certificate.
  *
- * Any gap ahead whose potential exceeds the energy proves the stick, so a maximum that the grid steps over costs proofs
- * and never makes a wrong one.
+ * A gap ahead whose potential exceeds the energy cannot be passed. So a maximum missed by the grid makes the
+ * certificate later or impossible, but never wrong.
  */
 #pragma once
 
@@ -9,13 +9,13 @@
 #include "model.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
-#if !defined(BY_ORBITAL_MOMENTUM) /* derive/equations/certificates/orbital_momentum.py knows the model */
+#if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
 #define BY_ORBITAL_MOMENTUM 0
 #endif
 
 typedef struct {
-    vec near_gap, near_height; /* the first maximum that none beyond exceeds, and the next such one */
-    vec far_gap, far_height;   /* heights count the work against attractions from initial contact; -infinity where there is none */
+    vec near_gap, near_height; /* the first maximum not exceeded by any beyond it, and the next such maximum */
+    vec far_gap, far_height;   /* heights include the work against attractions; -infinity if there is none */
 #if SURFACE_ARM
     vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
 #endif
@@ -48,7 +48,7 @@ static vec integral(
 }
 
 #if defined(POTENTIAL)
-enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grids in the film and beyond, steps to a maximum */
+enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grid points in the film and beyond, iterations for a maximum */
 
 static vec slope_at(const constants *c, const vec *y, vec gap)
 {
@@ -87,7 +87,7 @@ static vec height_at(const constants *c, const vec *y, vec gap)
 }
 #endif
 
-/* Where the slope falls through zero between low and high, a few halvings from a maximum's width. */
+/* The zero of the slope between low and high, to a small fraction of the width of the maximum. */
 static vec summit(const constants *c, const vec *y, vec low, vec high)
 {
     vec at_low = slope_at(c, y, low), at_high = slope_at(c, y, high);
@@ -96,7 +96,7 @@ static vec summit(const constants *c, const vec *y, vec low, vec high)
         middle = choose((middle > low) & (middle < high), middle, 0.5*(low + high));
         vec slope = slope_at(c, y, middle);
         mask rising = slope > 0.0;
-        /* Illinois: an end kept twice counts half */
+        /* Illinois method: the value at an end kept twice is halved */
         at_high = choose(rising, 0.5*at_high, slope);
         at_low = choose(rising, slope, 0.5*at_low);
         low = choose(rising, middle, low);
@@ -120,7 +120,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         mask own = top & ~first;
         lower[0] = choose(own, low, lower[0]);
         upper[0] = choose(own, high, upper[0]);
-        mask other = top & first; /* the last one met is kept */
+        mask other = top & first; /* the last one found is kept */
         lower[1] = choose(other, low, lower[1]);
         upper[1] = choose(other, high, upper[1]);
         first |= top;
@@ -182,7 +182,9 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 }
 
 #if SURFACE_ARM && BY_ORBITAL_MOMENTUM && ATTRACTS
-/* Lanes whose orbit holds them below a gap ahead, angular momentum not being conserved (derive/equations/certificates/orbital_momentum.py). */
+/* Orbital-momentum certificate for a gap ahead, for the lever arm at the surface, which does not conserve angular
+ * momentum (derive/equations/certificates/orbital_momentum.py).
+ */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
     vec here[ORBITAL], there[ORBITAL], beyond[STATES];
@@ -192,7 +194,7 @@ static inline mask out_of_reach(const constants *c, const vec *y, const barrier 
     orbital_margins(c, beyond, there);
     vec needed = 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY] + work_done(c, y, b) - work + here[ORBITAL_ENERGY] - there[ORBITAL_ENERGY]
                  + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite, and so the test false, without a barrier */
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite without a barrier: test false */
     return (gap > y[GAP]) & (y[ORBITAL_MOMENTUM] >= 16.0*y[SPIN]) & (needed < -margin);
 }
 
@@ -203,7 +205,7 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
            | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
 }
 #elif SURFACE_ARM && ATTRACTS
-/* The orbit's momentum at a gap if all turns as one body. */
+/* The orbital momentum of rigid rotation at a gap. */
 static inline vec rigid_at(const constants *c, const vec *y, vec gap)
 {
     vec there[STATES];
@@ -212,8 +214,9 @@ static inline vec rigid_at(const constants *c, const vec *y, vec gap)
     return rigid_momentum(c, there);
 }
 
-/* Lanes whose energy is below the height of a gap ahead, lowered by what a drifting angular momentum can still add, as
- * solvers/certificates/energy_barrier.py `_drift` has it: no theorem. */
+/* Lanes whose energy is below the height of a gap ahead, lowered by the largest possible effect of the drift of angular
+ * momentum, as in solvers/certificates/energy_barrier.py `_drift`. Decides a stick, but is no certificate.
+ */
 static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
 {
     vec first[STATES], rigid = rigid_momentum(c, y), reach = choose(rests, y[GAP], gap);
@@ -238,7 +241,7 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
     vec height = height_ahead(y, b);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
     (void)rests;
-    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false for -infinity: its margin is infinite, NaN */
+    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false without a barrier (NaN) */
 }
 #endif
 #endif

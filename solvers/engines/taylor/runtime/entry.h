@@ -1,4 +1,4 @@
-/* What Python calls: a task is looked at, its collisions integrated. */
+/* The entry points for Python: validation of a task, and the integration of its collisions. */
 #pragma once
 
 #include "adjoint.h"
@@ -10,13 +10,13 @@
 #include "state.h"
 #include "step_record.h"
 
-/* Whether a buffer has room for so many rows. */
+/* True if a buffer has room for so many rows. */
 static int holds(buffer b, int64_t rows, size_t row)
 {
     return rows <= b.bytes/(int64_t)row;
 }
 
-/* The buffer of a task that is smaller than what is read from it or written to it; null if none is. */
+/* A message naming the buffer of a task that is too small; null if there is none. */
 static const char *misfit(const task *t)
 {
     if (!holds(t->quantities, QUANTITIES, sizeof(buffer)))
@@ -55,8 +55,10 @@ const int proved_by_energy = 0;
 #endif
 #endif
 
-/* Collides `count` collisions, with derivatives by the quantities if the kernel has them; what it writes to comes zeroed.
- * Returns null, or why nothing was done.
+/* Integrates `count` collisions, with derivatives by the quantities if the kernel has them; output buffers must be
+ * zeroed.
+ *
+ * Returns null, or the reason why nothing was done.
  */
 const char *collide(task *t)
 {

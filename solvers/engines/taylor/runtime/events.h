@@ -1,4 +1,4 @@
-/* The first event of a step in each lane: bounds first, Bernstein coefficients next, isolation last.
+/* The first event of a step in each lane: by bounds, then Bernstein coefficients, then isolation.
  *
  * The guards of derive/equations/automaton.py. Of coincident events the one that is looked for first counts, so the calls
  * of `look` stand in the order of its table.
@@ -9,14 +9,14 @@
 #include "roots.h"
 #include "state.h"
 
-/* The event functions of a step, each a series that is positive before its event, and the first to fall. */
+/* The first event of a step; event functions are series that are positive before their event. */
 typedef struct {
-    vec time;              /* of the first event, as a part of the step; beyond 1 if there is none */
+    vec time;              /* of the first event, as a fraction of the step; above 1 if there is none */
     mask event;
     vec gap;               /* at the end of the step */
 } first_event;
 
-/* sum of |a_k| h^k, k = 1..ORDER: what a function can change by within the step */
+/* sum of |a_k| h^k, k = 1..ORDER: bound on the change of a function within the step */
 static inline vec reach(const vec *a, vec h)
 {
     vec sum = vec_abs(a[ORDER]);
@@ -25,8 +25,9 @@ static inline vec reach(const vec *a, vec h)
     return sum*h;
 }
 
-/* A lower bound of |a(t)| with the sign of its start, 0 <= t <= h: its parabola's minimum less what the rest can do. A
- * decay, whose coefficients alternate, is far from zero by this and not by `reach`.
+/* A lower bound of sign(a(0)) a(t) for 0 <= t <= h: the minimum of its parabola minus a bound of the remainder.
+ *
+ * For a decay, whose coefficients alternate in sign, this bound is much sharper than `reach`.
  */
 static inline vec least_of(const vec *a, vec h)
 {
@@ -49,10 +50,11 @@ static inline vec sum_at(const vec *a, vec t)
     return sum;
 }
 
-/* Looks closer at the lanes of `close` for sign (a(t) - target) falling through zero; an earlier event stays.
+/* Searches the lanes of `close` for sign (a(t) - target) falling through zero; an earlier event is kept.
  *
- * Bernstein coefficients of all lanes at once: all positive, no root, the usual case; one change of sign, one root, found
- * by Newton's iteration within its bracket; more changes, the lane's first root is isolated.
+ * Bernstein coefficients are computed for all lanes at once. If all are positive there is no root (the usual case).
+ * With one change of sign there is one root, found by bracketed Newton iteration. With more, the lane's first root is
+ * isolated.
  */
 static __attribute__((noinline)) void look(
     first_event *found, mask close, const vec *a, vec target, vec sign, vec h, mask event)
@@ -63,7 +65,7 @@ static __attribute__((noinline)) void look(
         power *= h;
     }
     g[0] = sign*(a[0] - target);
-    mask zero = g[0] == 0.0; /* a function that starts on its own zero: that root is divided out */
+    mask zero = g[0] == 0.0; /* a function that vanishes at the start: that root is divided out */
     if (bits(close & zero)) {
         for (int k = 0; k < ORDER; k++)
             g[k] = choose(zero, g[k + 1], g[k]);
@@ -83,7 +85,7 @@ static __attribute__((noinline)) void look(
     vec time = choose(falls, splat(0.0), splat(NO_ROOT));
     mask one = close & ~falls & (changes == -1), many = close & ~falls & (changes < -1);
     if (bits(one)) {
-        vec from = b[0], to = b[ORDER], place = splat(0.0); /* the guess: where the control polygon changes sign */
+        vec from = b[0], to = b[ORDER], place = splat(0.0); /* initial guess: the sign change of the control polygon */
         for (int k = 1; k <= ORDER; k++) {
             mask change = (b[k - 1] >= 0.0) & (b[k] < 0.0);
             from = choose(change, b[k - 1], from);
@@ -91,7 +93,7 @@ static __attribute__((noinline)) void look(
             place = choose(change, splat(k - 1.0), place);
         }
         vec low = splat(0.0), high = splat(1.0), t = (place + from/(from - to))*(1.0/ORDER);
-        mask moves = one; /* a lane that has arrived stays, whatever its neighbours do */
+        mask moves = one; /* converged lanes stay unchanged, so that results do not depend on neighbouring lanes */
         for (int count = 0; count < 60 && bits(moves); count++) {
             vec value = g[ORDER], slope = splat(0.0);
             for (int k = ORDER - 1; k >= 0; k--) {
@@ -104,7 +106,7 @@ static __attribute__((noinline)) void look(
             vec newton = t - value/slope;
             mask inside = (newton >= low) & (newton <= high);
             vec next = choose(inside, newton, 0.5*(low + high));
-            /* Newton doubles the digits: a step of 1e-9 leaves an error of 1e-17 or so */
+            /* Newton converges quadratically: after a step of 1e-9 the error is about 1e-17 */
             mask arrived = (inside & (vec_abs(next - t) <= 1e-9*next)) | (high - low <= 4e-16*high);
             t = choose(moves, next, t);
             moves &= ~arrived;
@@ -131,9 +133,10 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
     found->time = splat(NO_ROOT);
     found->event = splat_mask(0);
     mask closing = l->closing, moves = l->alive & ~l->resting, close;
-    vec away = choose(closing, one, -one); /* the gap's event functions rise with this times the gap */
-    /* Where the doublet turns comes first: up to there the gap is monotone, and nearest at the end. Under a constant force a
-     * step is endless, and all that happens before the turn is in a tiny part of it. */
+    vec away = choose(closing, one, -one); /* the sign with which event functions of the gap increase */
+    /* The turning point comes first: up to there the gap is monotonic, and extremal at the end. Under a constant force
+     * steps are unlimited, and all events before the turning point lie in a tiny part of the step.
+     */
     vec part = one;
     mask turns = moves & ~(least_of(s->normal_velocity, h) > 0.0);
     if (bits(turns)) {
@@ -150,10 +153,10 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
         if (bits(close))
             look(found, close, s->glass.result, zero, one, h, splat_mask(AT_GLASS));
     }
-    /* the next gap at which something happens: contact or the film from outside, the film's edge or rupture */
+    /* the next gap with an event: contact, or the film edge from outside; film edge or rupture while opening */
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
-    edge &= ~(closing & (f->contact >= 1.0)); /* soft solids meet before the film is reached */
+    edge &= ~(closing & (f->contact >= 1.0)); /* soft solids touch outside the film */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
     mask event = (edge & splat_mask(AT_FILM_EDGE)) |
                  (~edge & ((closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE))));

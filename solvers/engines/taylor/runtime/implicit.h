@@ -1,12 +1,15 @@
-/* Trajectories that creep for long: past a saddle, or in a film that strings press, a slow mode is all that is left.
+/* Implicit steps for trajectories that creep for long: past a saddle, or in a film pressed by strings, only a slow
+ * mode is left.
  *
- * A Taylor step is held to 13 decay times of the fast modes (damped_sum.h), and near a separatrix there are 1e4 such steps.
- * Lanes that have crept for PATIENCE steps are parked; as soon as all lanes of a vector are such, or nothing else is left,
- * they go on together by the linearly implicit Euler method, extrapolated (Deuflhard, SIAM Rev. 27, 505 (1985); Hairer &
- * Wanner, Solving ODEs II, IV.9): L-stable, so that steps follow the slow mode alone. Every lane has its own step.
+ * A Taylor step is limited to 13 decay times of the fast modes (damped_sum.h), and near a separatrix there are 1e4
+ * such steps. Lanes that have crept for PATIENCE steps are parked. When a full vector of such lanes is available, or
+ * nothing else remains, they are continued by the extrapolated linearly implicit Euler method (Deuflhard, SIAM Rev.
+ * 27, 505 (1985); Hairer & Wanner, Solving ODEs II, IV.9), which is L-stable, so that steps follow the slow mode only.
+ * Every lane has its own step.
  *
- * Steps are judged by their own change, not by the state: the unstable mode grows from nearly nothing, and when it gets
- * away hangs on its relative error. A step on which an event could lie is not taken: the lane goes back to its series.
+ * The error is measured relative to the change over a step, not to the state: the unstable mode grows from nearly
+ * zero, and the time of its departure depends on its relative error. A step that could contain an event is rejected,
+ * and the lane returns to Taylor steps.
  */
 #pragma once
 
@@ -16,13 +19,13 @@
 #include "state.h"
 
 enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
-static const double WORTH = 25.0;      /* Taylor steps that one of these must replace: it costs five to ten */
-static const double LITTLE = 1e-5;     /* of a state: difference for its derivatives */
-static const double FLOOR = 5e-14;     /* of a state: rounding, as extrapolation enlarges it */
+static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
+static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
+static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
-    series s;                        /* of which order zero is used */
+    series s;                        /* only order zero is used */
     const constants *c;
     vec film, shear;
     mask moving;
@@ -38,7 +41,7 @@ static __attribute__((noinline)) void rates_at(slow *w, const vec *y, vec *rate)
         rate[state] = a[state][1];
 }
 
-/* Central differences: an error of the derivatives is one of the stiff part, which extrapolation does not remove. */
+/* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
 static void find_rates(slow *w, const vec *y)
 {
     vec there[STATES], above[STATES], below[STATES];
@@ -56,7 +59,7 @@ static void find_rates(slow *w, const vec *y)
     }
 }
 
-/* Elimination of I - h J, no pivots: a lane where that fails becomes NaN, and its step is not taken. */
+/* LU factors of I - h J without pivoting: where that fails, a lane becomes NaN and its step is rejected. */
 typedef struct {
     vec left[MODEL_STATES][MODEL_STATES], over[MODEL_STATES];
 } eliminated;
@@ -76,7 +79,7 @@ static void eliminate(const slow *w, vec h, eliminated *e)
     }
 }
 
-/* Solves (I - h J) d = h f; what is integrated along has no column of its own. */
+/* Solves (I - h J) d = h f; quadratures have no column. */
 static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, vec *d)
 {
     for (int i = 0; i < MODEL_STATES; i++) {
@@ -96,7 +99,7 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
     }
 }
 
-/* Lanes where no event can lie between two states: what may fall to zero keeps half of what it had. */
+/* Lanes in which no event can lie between two states: quantities that could reach zero keep half their value. */
 static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const vec *from, const vec *to)
 {
     const vec zero = splat(0.0);
@@ -122,7 +125,7 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
     return clear;
 }
 
-/* One step of each lane: the changes, their errors over what is allowed, and whether an event could lie in it. */
+/* One step of each lane: the changes, their errors relative to the tolerance, and whether an event is excluded. */
 static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate, vec h, vec *change, mask *clear)
 {
     vec table[COLUMNS][STATES], y[STATES], now[STATES], d[STATES], error = splat(0.0), carried = error;
@@ -161,7 +164,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         y[state] = l->y[state] + change[state];
         vec allowed = f->tolerance*vec_abs(change[state]) + FLOOR*vec_abs(l->y[state]);
         if (state == GAP)
-            carried = allowed/l->stride; /* an error of the normal velocity dies within a stride */
+            carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
         if (state == NORMAL_VELOCITY)
             allowed = carried;
         error = vec_larger(error, vec_abs(change[state] - table[COLUMNS - 2][state])/allowed);
@@ -170,7 +173,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
     return error;
 }
 
-/* Parked lanes, on to where they creep no longer: proved, or back in the queue with what they have come to. */
+/* Continues parked lanes until they no longer creep: certified, or returned to the queue with their new state. */
 static __attribute__((noinline)) void crawl(queue *q)
 {
     lanes l;
@@ -209,7 +212,7 @@ static __attribute__((noinline)) void crawl(queue *q)
         mask leaves = busy & ~(h > least_step);
         for (unsigned left = bits(leaves); left; left &= left - 1) {
             int lane = __builtin_ctz(left);
-            l.crept[lane] = taken[lane] ? 0 : -10*PATIENCE; /* to no avail: not again soon */
+            l.crept[lane] = taken[lane] ? 0 : -10*PATIENCE; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);
         }
         busy &= ~leaves;

@@ -1,5 +1,6 @@
-/* The energy ledger of a trajectory, in m v0^2: energies from the states at initial contact and at the end, losses and works as
- * integrals along the trajectory, and what rebounds took. Nothing is made to close: what is left over is the trajectory's error.
+/* The energy ledger of a trajectory, in m v0^2: energies of the initial and final states, losses and works as
+ * integrals along the trajectory, and losses at rebounds. The terms are computed independently, so their residual is
+ * the numerical error.
  */
 #pragma once
 
@@ -7,19 +8,19 @@
 #include "model.h"
 
 #if WITH_LEDGER
-/* What a rebound from this state takes. */
+/* Books the loss of a rebound from this state. */
 static void book_rebound(ledger *book, const constants *c, const vec *y, int lane)
 {
     book->dry += rebound_loss(c, y)[lane];
 }
 
-/* Contact takes what is left of a rebound that rests. */
+/* Books the remaining kinetic energy of a rebound that rests as dry contact. */
 static void book_rest(ledger *book, const vec *y, int lane)
 {
     book->dry += 0.5*y[NORMAL_VELOCITY][lane]*y[NORMAL_VELOCITY][lane];
 }
 
-/* The trajectory of a lane is over in this state. */
+/* Closes the ledger with the final state of a lane's trajectory. */
 static void close_book(ledger *book, const constants *c, const vec *y, int lane)
 {
     vec first[STATES], stored[2][ENERGIES];
@@ -37,7 +38,7 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
     book->attraction = y[ATTRACTION_WORK][lane];
 #endif
 #if CAPILLARY_STATE
-    book->capillary = y[CAPILLARY_WORK][lane] - book->attraction; /* the state is the work against all that attracts */
+    book->capillary = y[CAPILLARY_WORK][lane] - book->attraction; /* the state includes all attractions */
 #endif
     book->momentum = booked_momentum(c, y)[lane];
 }

@@ -1,7 +1,7 @@
-/* How near a trajectory comes to a boundary between outcomes, where derivatives jump or diverge: the measures of
- * solvers/sensitivity/boundary_distance.py, taken on the series of each step.
+/* Distance of a trajectory from boundaries between outcomes, where derivatives jump or diverge: the measures of
+ * solvers/sensitivity/boundary_distance.py, on the series of each step.
  *
- * They are looked at closely only where a bound leaves room for a value below WORTH_SAYING.
+ * They are evaluated accurately only where a bound permits a value below WORTH_SAYING.
  */
 #pragma once
 
@@ -24,8 +24,9 @@ static inline vec polynomial_at(const vec *a, int order, vec t)
     return sum;
 }
 
-/* The least part of the pressure's limit that a step leaves: the lowest of some places, then Newton's iteration to where
- * the clearance is least. */
+/* The least relative clearance of the glass criterion within a step: the lowest of some samples, refined by Newton's
+ * iteration to the minimum.
+ */
 static __attribute__((noinline)) vec least_spare(const fixed *f, const series *s, vec h)
 {
     const vec(*a)[TERMS] = (const void *)s;
@@ -55,7 +56,7 @@ static __attribute__((noinline)) vec least_spare(const fixed *f, const series *s
     return spare(&f->c, y);
 }
 
-/* How flat a step meets the glass criterion at its end: to second order, what the pressure goes beyond its limit by. */
+/* How far the pressure would exceed its limit without the rebound, to second order, over the limit. */
 static double flatness(const fixed *f, const series *s, const vec *at, double h, int lane)
 {
     double slope = 0.0, bend = 0.0;
@@ -70,7 +71,7 @@ static double flatness(const fixed *f, const series *s, const vec *at, double h,
 }
 
 #if PROOF_BY_ENERGY
-/* Whether a barrier is a saddle and not the rim, and how near to it a doublet turns. */
+/* Squared relative distance of a turning point from the nearest saddle; `saddle` is 0 if no barrier but the rim exists. */
 static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
 {
     double gaps[2] = {f->b.near_gap[lane], f->b.far_gap[lane]};
@@ -86,7 +87,7 @@ static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
     return least;
 }
 
-/* The square of the normal velocity where it is least within a step. */
+/* The least squared normal velocity within a step. */
 static double slowest(const series *s, double h, int lane)
 {
     double low = 0.0, high = h, sign = s->normal_velocity[1][lane] < 0.0 ? -1.0 : 1.0;
@@ -152,7 +153,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
     carried *along = &l->along;
     mask moves = l->alive & ~l->resting;
     mask close = moves & l->closing & ~(falls & (event == AT_GLASS));
-    if (bits(close)) { /* the limit without motion falls with the gap, so where the start is far the end is */
+    if (bits(close)) { /* the clearance without motion falls with the gap: test at the start first */
         vec start[STATES];
         memcpy(start, l->y, sizeof start);
         start[NORMAL_VELOCITY] = splat(0.0);
@@ -176,7 +177,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
         vec rate = ORDER*s->normal_velocity[ORDER];
         for (int k = ORDER - 1; k > 0; k--)
             rate = rate*h + (double)k*s->normal_velocity[k];
-        dips &= choose(l->closing, -rate, rate) > 0.0; /* it slows first, and gains last */
+        dips &= choose(l->closing, -rate, rate) > 0.0; /* the speed decreases first and increases last */
     }
     for (unsigned left = bits(dips); left; left &= left - 1) {
         int lane = __builtin_ctz(left), saddle;

@@ -1,4 +1,4 @@
-/* Collisions on their way: quantities in, constants and proofs at initial contact, lanes filled and emptied, answers out. */
+/* The queue: quantities in, constants and certificates at initial contact, lanes filled and emptied, answers out. */
 #pragma once
 
 #include "certificates.h"
@@ -10,7 +10,7 @@
 #include "tape.h"
 #include "tolerance.h"
 
-/* Constants, barrier and start of the next collisions; those proved sticks at initial contact never take a lane. */
+/* Constants, barrier and start of the next collisions; sticks certified at initial contact never take a lane. */
 static void fill_queue(queue *q)
 {
     fixed f;
@@ -85,9 +85,9 @@ static void fill_queue(queue *q)
     }
 }
 
-typedef double word_of_lane __attribute__((may_alias)); /* a trajectory's fields are vectors of doubles or of integers */
+typedef double word_of_lane __attribute__((may_alias)); /* fields are doubles or integers */
 
-/* A lane's trajectory to a row, and back. */
+/* Copies a lane's trajectory to a row, and back. */
 static void pack(double *row, const lanes *l, const fixed *f, int lane)
 {
     for (int field = 0; field < FIXED; field++)
@@ -104,7 +104,7 @@ static void unpack(const double *row, lanes *l, fixed *f, int lane)
         ((word_of_lane *)l)[field*LANES + lane] = row[FIXED + field];
 }
 
-/* Puts the next collision of the queue into a lane; the lane rests if there is none. */
+/* Puts the next collision of the queue into a lane; the lane becomes idle if there is none. */
 static void refill(queue *q, lanes *l, fixed *f, int lane)
 {
     if (q->resumes) {
@@ -139,7 +139,7 @@ static void refill(queue *q, lanes *l, fixed *f, int lane)
 #endif
 }
 
-/* A lane's trajectory waits for others that creep; it integrates on if enough wait. */
+/* Moves a lane's trajectory to those waiting for implicit.h; it continues in its lane if these are enough. */
 static void park(queue *q, lanes *l, fixed *f, int lane)
 {
     if (q->parks == LANES)
@@ -150,7 +150,7 @@ static void park(queue *q, lanes *l, fixed *f, int lane)
 
 _Static_assert(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
 
-/* What came of a trajectory. */
+/* Writes the answer of a trajectory. */
 static void settle(queue *q, const lanes *l, const fixed *f, int lane, int status, int outcome, int certified)
 {
     answer *a = &q->answers[l->index[lane]];
@@ -165,7 +165,7 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
 #elif OBLIQUE && STRINGS
     a->turned = l->y[ROTATION][lane];
 #endif
-    if (status > PROVED_AT_TOUCH) /* handed over: where it has come to */
+    if (status > PROVED_AT_TOUCH) /* handed over: the state reached */
         for (int state = NORMAL_VELOCITY; state < MODEL_STATES; state++)
             a->shown[state - NORMAL_VELOCITY] = l->y[state][lane];
     if (status == DECIDED && outcome != STICK) {
@@ -190,7 +190,7 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
 #endif
 }
 
-/* The trajectory of a lane is over: what came of it, and the next one. */
+/* Ends the trajectory of a lane: its answer is written, and the next collision takes the lane. */
 static void finish(queue *q, lanes *l, fixed *f, int lane, int status, int outcome, int certified)
 {
     settle(q, l, f, lane, status, outcome, certified);

@@ -1,7 +1,7 @@
 /* The first root of a polynomial on (0, 1], by isolation: Descartes' rule on Bernstein coefficients.
  *
- * No sign variation, no root; one, exactly one root, which a bracketed Newton iteration finds; more, the interval is
- * halved. A double crossing is found, a graze decided, and no sampling is involved.
+ * Without sign variation there is no root. With one there is exactly one root, found by bracketed Newton iteration.
+ * With more the interval is halved. So double crossings are found and grazes decided without sampling.
  */
 #pragma once
 
@@ -26,7 +26,7 @@ __attribute__((constructor)) static void fill_binomials(void)
     }
 }
 
-/* The single root in [low, high], at whose ends the polynomial differs in sign. */
+/* The single root in [low, high]; the polynomial has opposite signs at the ends. */
 static double refined(const double *a, int order, double low, double high, int low_positive)
 {
     double t = 0.5*(low + high);
@@ -66,7 +66,7 @@ static double isolated(const double *a, int order, const double *b, double low, 
     if (variations == 1)
         return refined(a, order, low, high, b[0] > 0.0 || (b[0] == 0.0 && sign < 0));
     if (depth == DEEPEST)
-        return NO_ROOT; /* touches to the last bit: not met */
+        return NO_ROOT; /* touches zero to rounding: not counted as a root */
     double left[TERMS + 1], right[TERMS + 1];
     memcpy(right, b, sizeof(double)*(size_t)(order + 1));
     for (int k = 0; k <= order; k++) {
@@ -76,6 +76,6 @@ static double isolated(const double *a, int order, const double *b, double low, 
     }
     double middle = 0.5*(low + high);
     double first = isolated(a, order, left, low, middle, depth + 1);
-    /* after the halving, right[] runs from the middle to the end */
+    /* after the halving, right[] holds the coefficients of the second half */
     return first < NO_ROOT ? first : isolated(a, order, right, middle, high, depth + 1);
 }

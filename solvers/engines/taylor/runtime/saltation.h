@@ -1,4 +1,4 @@
-/* What meets an event: where its function falls, how fast, and how its surface moves with the groups. */
+/* Saltation: the derivatives of an event's function, its rate along the trajectory, and the motion of its surface. */
 #pragma once
 
 #include "criteria.h"
@@ -7,14 +7,14 @@
 #include "state.h"
 
 #if GRADIENTS
-/* What an event asks of the states: its function's derivatives by the states, along the trajectory, and by the groups. */
+/* Derivatives of the function of an event that ends a step. */
 typedef struct {
-    mask gap, turned, glass;   /* lanes by what is zero */
+    mask gap, turned, glass;   /* lanes by the kind of function */
     mask contact, end, edge;   /* of those at a gap, which one */
-    vec rate[STATES];          /* of the states as the event is met */
+    vec rate[STATES];          /* of the states at the event */
     vec by_gap, by_approach;   /* of the glass criterion */
-    vec pace;                  /* of the event's function along the trajectory */
-    vec at[STATES];            /* the states as it is met */
+    vec pace;                  /* rate of the event's function along the trajectory */
+    vec at[STATES];            /* the states at the event */
 } meeting;
 
 static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mask event)
@@ -42,7 +42,7 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
     return m;
 }
 
-/* The gap at which an event lies, in a direction. */
+/* Derivative of the gap of an event by a group. */
 static inline vec target_along(const fixed *f, const meeting *m, int group)
 {
     vec zero = splat(0.0), one = splat(1.0);

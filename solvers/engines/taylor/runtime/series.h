@@ -1,6 +1,6 @@
 /* Coefficient k of elementary functions of Taylor series (Jorba & Zou, Exp. Math. 14, 99 (2005)).
  *
- * What is divided by is inverted once, at order zero.
+ * Divisors are inverted once, at order zero.
  */
 #pragma once
 
@@ -9,8 +9,8 @@
 #define INLINE static inline __attribute__((always_inline))
 #define UNROLL _Pragma("GCC unroll 32")
 
-/* sum of a_j b_(k-j), j = from..to: from the middle outwards in two sums, so that the newest coefficients, which others
- * wait for, come last and all else is done before.
+/* sum of a_j b_(k-j), j = from..to, from the middle outwards in two sums: the newest coefficients are used last, so
+ * that the processor can start before they are available.
  */
 INLINE vec between(const vec *a, const vec *b, int k, int from, int to)
 {
@@ -28,7 +28,7 @@ INLINE vec between(const vec *a, const vec *b, int k, int from, int to)
     return low + high;
 }
 
-/* b is the newer: its last coefficient comes last of all */
+/* b is the newer series, so its last coefficient is used last */
 INLINE vec product(const vec *a, const vec *b, int k)
 {
     if (k == 0)
@@ -39,7 +39,7 @@ INLINE vec product(const vec *a, const vec *b, int k)
     return sum + a[0]*b[k];
 }
 
-/* Twice the sum of q_j q_(k-j) over j < k/2, from..., and the middle one if there is one. */
+/* Twice the sum of q_j q_(k-j) over from <= j < k/2, plus the middle term if there is one. */
 INLINE vec paired(const vec *q, int k, int from)
 {
     int middle = (k - 1)/2;
@@ -141,7 +141,7 @@ INLINE vec power(const vec *a, const vec *q, vec r, vec *over, int k)
     return sum*(1.0/k)**over;
 }
 
-/* Every k a constant, so that sums have no loop and coefficients stay in registers where they can. */
+/* Unrolled over k as a constant, so that sums have no loops and coefficients can stay in registers. */
 #define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
     term(11) term(12) term(13) term(14) term(15) term(16)
 _Static_assert(ORDER <= 16, "EVERY names all orders");

@@ -1,4 +1,4 @@
-/* What is known of collisions on their way: enumerations, what is fixed for a trajectory, trajectories side by side, what was asked. */
+/* Data of collisions under way: enumerations, constants of a trajectory, trajectories side by side, and the task. */
 #pragma once
 
 #include "automaton.h"
@@ -8,20 +8,20 @@
 #include "model.h"
 #include "tangents.h"
 
-static const double SLOW = 0.1; /* of v0: a normal velocity below counts as this for errors, since in a film they die */
+static const double SLOW = 0.1; /* in v0: least scale of the error of the normal velocity, which decays in a film */
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
 
-/* What is fixed for a trajectory. */
+/* Constants of a trajectory. */
 typedef struct {
     constants c;
     barrier b;
-    vec tolerance, rest; /* relative error of a step, and the normal velocity that counts as none */
+    vec tolerance, rest; /* relative error of a step, and the normal velocity that counts as zero */
     vec contact, end, edge;
 #if GRADIENTS
     slope_constants slopes;
 #if !BACKWARD
-    vec one[GROUPS]; /* a derivative's size where its elasticity is one, of a state of one */
+    vec one[GROUPS]; /* magnitude of a derivative of elasticity one, for a state of magnitude one */
 #endif
 #endif
 } fixed;
@@ -31,7 +31,7 @@ typedef struct {
     vec time, smallest, film, shear;
     vec stride; /* the last step */
     mask alive, closing, resting, fresh;
-    mask index, steps, phases, reversal, crept; /* crept: steps in a row that only a damped sum could take */
+    mask index, steps, phases, reversal, crept; /* crept: consecutive steps that required the damped sum */
 #if GRADIENTS
     carried along;
 #endif
@@ -40,32 +40,32 @@ typedef struct {
 enum { FIXED = sizeof(fixed)/sizeof(vec), LANE_STATE = sizeof(lanes)/sizeof(vec) };
 
 typedef struct {
-    task *t; /* what was asked; its buffers are as large as they say (solvers/engines/taylor/layout.py) */
+    task *t; /* the task; its buffers have the sizes it states (solvers/engines/taylor/layout.py) */
     const buffer *columns; /* quantities in SI */
     double rtol;
     answer *answers;
-    happening *log; /* `log_room` a collision, whose answer counts those that found none as well */
+    happening *log; /* `log_room` rows per collision; its answer also counts events beyond that */
     long log_room;
 #if WITH_LEDGER
-    ledger *books; /* one a collision */
+    ledger *books; /* one per collision */
 #endif
 #if WITH_TRAJECTORY
-    struct step_row *written; /* `step_room` steps of all collisions; the task counts those that found none as well */
+    struct step_row *written; /* `step_room` rows for the steps of all collisions; the task counts all steps */
     long step_room;
-    double *peaks; /* one a collision; null for none */
+    double *peaks; /* one per collision; null if not requested */
 #endif
     long count, next;
     int budget;
-    long queued, taken; /* collisions that are waiting, of `rows` */
+    long queued, taken; /* collisions waiting in `rows`, and how many of them were taken */
     long waiting[LANES];
     double rows[LANES][FIXED];
     double starts[LANES][STATES];
-    int parks, resumes; /* trajectories that wait for implicit.h, and that come from there */
+    int parks, resumes; /* trajectories waiting for implicit.h, and trajectories returning from it */
     double parked[LANES][FIXED + LANE_STATE], resumed[LANES][FIXED + LANE_STATE];
 #if GRADIENTS
-    double *by_group, *gradients; /* RESULTS derivatives by each group, by each quantity */
+    double *by_group, *gradients; /* RESULTS derivatives by each group, and by each quantity */
     nearness *near;
-    unsigned asked;               /* groups, as bits */
+    unsigned asked;               /* requested groups, as bits */
 #endif
 #if BACKWARD
     struct tape *tape;
@@ -73,7 +73,7 @@ typedef struct {
 } queue;
 
 #if WITH_TRAJECTORY
-/* Lanes whose stick may be proved, for the purpose of a trajectory. */
+/* Lanes in which certificates are evaluated, given the purpose of the trajectory. */
 static mask provable(const queue *q, mask closing)
 {
     long purpose = q->t->purpose;
@@ -81,7 +81,7 @@ static mask provable(const queue *q, mask closing)
 }
 #endif
 
-/* A quantity of a collision: its own, or the one for all. */
+/* A quantity of a collision: its own value, or the common one. */
 static inline double quantity(const queue *q, int k, long index)
 {
     const buffer *column = q->columns + k;
@@ -90,7 +90,7 @@ static inline double quantity(const queue *q, int k, long index)
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
-    certified = certified && !SURFACE_ARM; /* angular momentum drifts: no theorem */
+    certified = certified && !SURFACE_ARM; /* angular momentum drifts, so this is no certificate */
     answer *a = &q->answers[index];
     a->status = status;
     a->outcome = outcome;
@@ -106,13 +106,13 @@ static void note(queue *q, long index, int kind, double time)
     a->events++;
 }
 
-/* Lanes that are proved to stick as they are. */
+/* Lanes in which a certificate excludes separation from the present state. */
 static mask proved_underway(const lanes *l, const fixed *f, double tolerance)
 {
     return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
 }
 
-/* Where the film acts: a liquid that cavitates does not while it is opened. */
+/* 1 where the film acts; a cavitating liquid exerts no force while opening. */
 static inline vec acting(const lanes *l)
 {
 #if defined(FILM_CAVITATES)

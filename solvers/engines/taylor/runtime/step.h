@@ -1,4 +1,4 @@
-/* A step: the series of the states about its start, and the length for which they hold. */
+/* A step: the series of the states about its start, and the step length for which they are accurate. */
 #pragma once
 
 #include "damped_sum.h"
@@ -6,7 +6,8 @@
 #include "state.h"
 #include "tangents.h"
 
-/* The bits of a positive double, read as an integer, are nearly its logarithm: lengths only to some percent. */
+/* The bits of a positive double, read as an integer, approximate its logarithm: step lengths are exact to some percent.
+ * */
 static const int64_t ONE = 0x3ff0000000000000;
 
 static inline vec power_of(vec logarithm)
@@ -15,7 +16,8 @@ static inline vec power_of(vec logarithm)
     return (vec)(__builtin_convertvector(logarithm, mask) + ONE);
 }
 
-/* What a share of coefficient k may still grow by in the state that allows least, as a logarithm. */
+/* Least ratio, as a logarithm, of a state's scale to `share` times its coefficient k; `least_room` if that is smaller.
+ * */
 static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
     for (int state = 0; state < STATES; state++)
@@ -40,8 +42,8 @@ static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double s
 #define ROOM(k, share) __builtin_convertvector(room_of(scale, a, k, share, splat_mask(INT64_MAX)), vec)
 #endif
 
-/* The step whose last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2); lanes that a decaying
- * mode holds to it are in `creeps`, and take the step of the damped sum. */
+/* The step for which the last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2). Lanes limited by
+ * a decaying mode are returned in `creeps`, with the step of the damped sum. */
 static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 {
     const vec(*a)[TERMS] = (const void *)s;
@@ -53,7 +55,7 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
     vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
     vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);
     vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
-    /* of a mode exp(-z), z is the order times the last term over the one before */
+    /* for a mode exp(-z), z is ORDER times the ratio of the last two terms */
     *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
     if (bits(*creeps)) {
         vec damped = splat(INFINITY);
@@ -72,7 +74,7 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
 {
     EVERY(TERM)
-    s->acceleration[ORDER] = splat(0.0); /* known to one order less */
+    s->acceleration[ORDER] = splat(0.0); /* not computed at this order */
 }
 
 static __attribute__((noinline)) void expand_glass(series *s, const constants *c)

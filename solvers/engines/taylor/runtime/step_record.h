@@ -1,4 +1,4 @@
-/* The steps of a trajectory as they were taken, a row each: states as polynomials in the time since the step's start. */
+/* The steps of a trajectory, one row each: states as polynomials in the time since the start of the step. */
 #pragma once
 
 #include "events.h"
@@ -15,7 +15,7 @@ typedef struct step_row {
     double series[STATES][TERMS];
 } step_row;
 
-/* How a caller reads them. */
+/* Layout of the rows for the caller. */
 const int row_states = STATES, row_terms = TERMS, row_bytes = sizeof(step_row);
 #if OBLIQUE && STRINGS
 const int row_turned = ROTATION;
@@ -25,7 +25,7 @@ const int row_turned = TURNED;
 const int row_turned = -1;
 #endif
 
-/* Rows beyond the room that there is are counted and not written: the caller asks again with more room. */
+/* Rows beyond the available room are counted but not written; the caller repeats the call with more room. */
 static void keep_steps(queue *q, const lanes *l, const vec (*a)[TERMS], vec length)
 {
     for (unsigned left = bits(l->alive); left; left &= left - 1) {
@@ -49,8 +49,9 @@ static void keep_steps(queue *q, const lanes *l, const vec (*a)[TERMS], vec leng
 #if GLASS_REACH
 enum { LOOKS = 8 };
 
-/* The margin of the glass criterion where it is largest within a step, as the logarithm of the gap at which this speed
- * would meet it over the gap that there is, twice: ln(pressure/limit) for the literal criterion. */
+/* Largest margin of the glass criterion within a step: twice the logarithm of the gap at which the present speed would
+ * meet it, over the present gap; ln(pressure/limit) for the literal criterion.
+ */
 static __attribute__((noinline)) void note_peaks(const queue *q, const lanes *l, const fixed *f, const series *s, vec h)
 {
     vec largest = splat(0.0);
@@ -67,7 +68,7 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const lanes *l,
 }
 #endif
 
-/* What an event does, and whether the purpose of the trajectory is fulfilled with it. */
+/* The effect of an event; ends the trajectory if its purpose is fulfilled. */
 static void act_for_purpose(queue *q, lanes *l, fixed *f, int lane, int event)
 {
     long purpose = q->t->purpose, index = l->index[lane];

@@ -1,4 +1,4 @@
-/* Derivatives over a step: matrix and sources once, a linear recurrence for each direction, the saltation at an event. */
+/* Derivatives over a step: matrix and source terms once, a linear recurrence per direction, saltation at an event. */
 #pragma once
 
 #include "events.h"
@@ -18,8 +18,9 @@ static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slop
 
 static const vec NOTHING[TERMS];
 
-/* The derivatives' series, and what each coefficient is measured by: its own size, and what the state would change by if
- * its elasticity were one. A mode that decays fast may be gone from the states and not from these: they share the step. */
+/* Series of the derivatives, and the scale of their errors: their own magnitude, or the state's for an elasticity of
+ * one. A mode that has decayed in the state may persist in its tangent, so both share the step.
+ */
 static void expand_along(tangents *all, const lanes *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
     vec own[STATES];
@@ -42,13 +43,13 @@ static void expand_along(tangents *all, const lanes *l, const fixed *f, const se
     }
 }
 
-/* The derivatives at the end of a step, on the surface of the event that ends it. */
+/* Derivatives at the end of a step, on the surface of the event that ends it. */
 static void carry(lanes *l, const fixed *f, const series *s, const tangents *all, vec h, mask falls, mask event,
     unsigned asked)
 {
     carried *a = &l->along;
     meeting m;
-    falls &= h > 0.0; /* what is true on entry jumps where it is: no surface is met */
+    falls &= h > 0.0; /* a criterion met on entry (h = 0) does not cross its surface */
     int meets = bits(falls) != 0;
     if (meets)
         m = met(f, (const void *)s, h, falls, event);

@@ -1,21 +1,23 @@
-/* Derivatives carried along a trajectory, a direction for each group that was asked for.
+/* Derivatives along a trajectory, one direction for each requested group.
  *
- * A phase starts on its event, so a derivative of its start is one of the state on a surface that moves with the groups;
- * time is no variable of it, only a sum whose parts change with the events that end them (saltation).
+ * A phase starts on an event, so derivatives of its start are those of the state on a surface that moves with the
+ * groups. Time is not a state; it is a sum of durations, whose derivatives follow from the events (saltation).
  */
 #pragma once
 
 #include "model.h"
 
 #if GRADIENTS
-/* Columns of a collision's derivatives: the outputs, then these; only the restitution's are taken backwards. */
+/* Columns of a collision's derivatives: the outputs, then these; the adjoint sweep computes those of the restitution
+ * only. */
 enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED };
 _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
 
-/* How near a trajectory comes to a boundary between outcomes, by its own measures (solvers/sensitivity/boundary_distance.py). */
+/* Boundaries between outcomes, by the measures of distance to them (solvers/sensitivity/boundary_distance.py).
+ */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
 
-/* What the glass criterion's clearance is of that without motion: one less the pressure over its limit. */
+/* Clearance of the glass criterion over that without motion: one minus the pressure over its limit. */
 static inline vec spare(const constants *c, const vec *y)
 {
     vec still[STATES];
@@ -28,17 +30,17 @@ typedef struct {
 #if !BACKWARD
     vec t[GROUPS][STATES];
     vec time[GROUPS], smallest[GROUPS];
-    mask there[GROUPS]; /* the group has changed something by now */
+    mask there[GROUPS]; /* lanes in which the derivative by the group can be nonzero */
     vec least; /* smallest gap at an end of a phase */
 #endif
-    vec near;  /* least measure so far, and of which boundary */
-    vec hint;  /* least of those that are no distances, but say that one should be measured */
+    vec near;  /* least measure so far, and its boundary */
+    vec hint;  /* least of the measures that are not distances, but indicate that one should be computed */
     mask boundary;
 } carried;
 
 static void along_near(carried *a, int lane, double measure, int boundary)
 {
-    measure = measure == measure ? measure : 0.0; /* NaN is near */
+    measure = measure == measure ? measure : 0.0; /* NaN counts as zero distance */
     if (measure < a->near[lane]) {
         a->near[lane] = measure;
         a->boundary[lane] = boundary;
@@ -48,7 +50,7 @@ static void along_near(carried *a, int lane, double measure, int boundary)
 }
 
 #if BACKWARD
-enum { BEGUN, REBOUND, ENDED }; /* what a tape notes of a lane between steps */
+enum { BEGUN, REBOUND, ENDED }; /* notes on the tape between steps */
 
 static void along_start(carried *a, int lane)
 {
@@ -56,14 +58,14 @@ static void along_start(carried *a, int lane)
     a->boundary[lane] = FAR;
 }
 #else
-/* The series of a step: of each group that is carried, and by what they are measured. */
+/* Series of a step for each requested group, and the scales of their errors. */
 typedef struct {
     vec t[GROUPS][STATES][TERMS];
     mask scale[GROUPS][STATES];
     unsigned asked;
 } tangents;
 
-static const double DERIVATIVES = 4.0; /* of a derivative's error, to that of a state */
+static const double DERIVATIVES = 4.0; /* tolerance of derivatives relative to that of states */
 
 static void along_start(carried *a, const constants *v, int lane)
 {
@@ -95,7 +97,7 @@ static void along_rebound(carried *a, const constants *v, const vec *y, int lane
     }
 }
 
-/* The derivatives of what a separated doublet shows, a row a group. */
+/* Derivatives of the results for a separated doublet, one row per group. */
 static void along_finished(const carried *a, const constants *v, const vec *y, int lane, double (*rows)[RESULTS])
 {
     for (int group = 0; group < GROUPS; group++) {

@@ -1,28 +1,28 @@
-/* What a trajectory leaves for the way back: where each step began and what ended it, and what happened to lanes in between. */
+/* Tape for the adjoint sweep: state, step and event of every step, and what happened to lanes in between. */
 #pragma once
 
 #include "state.h"
 
 #if BACKWARD
-enum { BATCH = 512 }; /* collisions on one tape, of MOST_STEPS steps each */
+enum { BATCH = 512 }; /* collisions on one tape, with MOST_STEPS steps each */
 
 typedef struct {
-    vec y[STATES]; /* as the step began */
+    vec y[STATES]; /* at the start of the step */
     vec h, film, shear;
     mask moving, creeps;
-    mask falls, event; /* what was met at its end */
+    mask falls, event; /* the event at its end */
 } taped_step;
 
 typedef struct {
-    long after; /* so many steps */
+    long after; /* number of steps before the note */
     long index;
     int kind, lane;
     double y[STATES];
-    long row; /* of what was fixed for a trajectory, where it ended */
+    long row; /* row with the constants of a trajectory, for notes of its end */
 } taped_note;
 
 enum {
-    STEP_ROOM = (BATCH/LANES + 2)*(MOST_STEPS + 2), /* lanes are full while there is a queue */
+    STEP_ROOM = (BATCH/LANES + 2)*(MOST_STEPS + 2), /* lanes are full while the queue is not empty */
     NOTE_ROOM = 16*BATCH,
 };
 
@@ -34,13 +34,14 @@ struct tape {
     int full;
 };
 
-/* A mode that is gone from the states may not be from their derivatives: no step that would enlarge it (damped_sum.h). */
+/* A mode that has decayed in the state may persist in its tangent: limit the step to where it stays stable
+ * (damped_sum.h). */
 static const double STEADY = 6.0, STEADY_DAMPED = 13.0;
 
 static inline vec held_for_derivatives(const lanes *l, const fixed *f, const series *s, vec h, mask creeps)
 {
     vec most = choose(creeps, splat(STEADY_DAMPED), splat(STEADY));
-    return vec_min(h, most/contraction(s, &f->c, acting(l), l->shear)); /* infinite where nothing decays */
+    return vec_min(h, most/contraction(s, &f->c, acting(l), l->shear)); /* infinite without decay */
 }
 
 static void keep_on_tape(const queue *q, const lanes *l, vec h, mask creeps, mask falls, mask event)
@@ -57,7 +58,7 @@ static void keep_on_tape(const queue *q, const lanes *l, vec h, mask creeps, mas
     step->shear = l->shear;
     step->moving = ~l->resting;
     step->creeps = creeps;
-    step->falls = falls & (h > 0.0); /* what is true on entry jumps where it is: no surface is met */
+    step->falls = falls & (h > 0.0); /* a criterion met on entry (h = 0) does not cross its surface */
     step->event = event;
 }
 
@@ -82,7 +83,7 @@ static void note_on_tape(const queue *q, int kind, long index, int lane, const v
     }
 }
 
-/* Where there is no room left, trajectories end without an answer. */
+/* Without room on the tape, trajectories end without an answer. */
 static inline mask only_if_full(const queue *q, mask alive)
 {
     return q->tape->full ? alive : splat_mask(0);

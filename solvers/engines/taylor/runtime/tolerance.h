@@ -1,17 +1,19 @@
-/* Tolerances as solvers/engines/casadi/integrators.py has them: near grazing incidence the doublet turns within a tiny part
- * of x0; at very small angles, with nothing that attracts, the doublet is opened by tan^2(theta0) x0/a of v0^2/x0.
+/* Tolerances, as in solvers/engines/casadi/integrators.py.
+ *
+ * Near grazing incidence the doublet turns within a tiny part of x0. At very small angles without attraction, it is
+ * opened by a force of tan^2(theta0) x0/a in v0^2/x0.
  */
 #pragma once
 
 #include "automaton.h"
 #include "state.h"
 
-static const double SHARP = 2e-13; /* below it nothing tighter can be asked for, and the errors of many steps add up */
+static const double SHARP = 2e-13; /* tolerances below this are halved: errors of many steps accumulate */
 #if OBLIQUE
 static const double TIGHTEST = 1e-14;
 #endif
 
-/* Those of trajectories whose constants are known; returns the lanes that are beyond any tolerance. */
+/* Sets the tolerances of trajectories from their constants; returns the lanes beyond any tolerance. */
 static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;

@@ -1,4 +1,4 @@
-/* The rules of derive/equations/automaton.py; what each event does is emitted beside them, in effects.h. */
+/* The rules of derive/equations/automaton.py; the effects of the events are emitted into effects.h. */
 #pragma once
 
 #include "certificates.h"
@@ -15,7 +15,7 @@ static void separated(queue *q, lanes *l, fixed *f, int lane)
     finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);
 }
 
-/* The phase that opens from here; from initial contact, beyond the film at once. */
+/* Begins an opening phase; on an edge, the phase is beyond that edge. */
 static void opens(lanes *l, const fixed *f, int lane)
 {
     l->closing[lane] = 0;
@@ -26,14 +26,14 @@ static void opens(lanes *l, const fixed *f, int lane)
         l->shear[lane] = 0.0;
 }
 
-/* A new phase begins, and what holds on its entry is looked at. */
+/* Begins a new phase; the rebound criteria are checked on its entry. */
 static void new_phase(lanes *l, int lane)
 {
     l->phases[lane]++;
     l->fresh[lane] = -1;
 }
 
-/* A rebound; one too weak to leave rests, one where the doublet ruptures has left. */
+/* A rebound; one too weak to open the gap becomes resting contact, one at the rupture gap separates the doublet. */
 static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
     vec after[STATES];
@@ -52,13 +52,13 @@ static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
         l->reversal[lane] = kind;
     new_phase(l, lane);
     note(q, l->index[lane], kind, l->time[lane]);
-    if (l->y[GAP][lane] >= f->end[lane]) { /* the gap at which the two part */
+    if (l->y[GAP][lane] >= f->end[lane]) { /* the gap of separation */
         separated(q, l, f, lane);
         return;
     }
     double left = l->y[NORMAL_VELOCITY][lane], inward = inward_force(&f->c, l->y)[lane];
     double allowed = q->rtol*l->y[GAP][lane];
-    if (!TURNS && left == 0.0 && inward == 0.0) { /* nothing moves it */
+    if (!TURNS && left == 0.0 && inward == 0.0) { /* equilibrium */
         finish(q, l, f, lane, DECIDED, STICK, 1);
         return;
     }
@@ -73,13 +73,14 @@ static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
         l->y[NORMAL_VELOCITY][lane] = 0.0;
         l->resting[lane] = -1;
         l->closing[lane] = 0;
-        if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* nothing changes what holds them */
+        if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* the forces no longer change */
             finish(q, l, f, lane, DECIDED, STICK, 1);
     } else
         opens(l, f, lane);
 }
 
-/* The lanes of `asked`, which start a closing phase: a criterion that is already true, by rule the first of the table. */
+/* Rebound in the lanes of `asked`, which start a closing phase, if a criterion is met already: the first in the table.
+ * */
 static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
 {
     unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
@@ -99,8 +100,9 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
             reverse(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
 }
 
-/* Criteria on entry into a closing phase. A rebound at initial contact may end its collision: the next one that takes the
- * lane is looked at before it moves.
+/* Criteria on entry into a closing phase.
+ *
+ * A rebound at initial contact may end its collision; the next collision in that lane is then checked as well.
  */
 static void criteria_met(queue *q, lanes *l, fixed *f)
 {

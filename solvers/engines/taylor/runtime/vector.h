@@ -1,7 +1,7 @@
 /* Lanes: several doubles side by side, with the functions that recurrences start from.
  *
- * Vector extensions of gcc and clang; LANES is 8, 4, 2 or 1. No -ffast-math: comparisons with NaN are false, infinities
- * behave, and every loop below treats "not clearly so" as "look closer".
+ * Vector extensions of gcc and clang; LANES is 8, 4, 2 or 1. Compiled without -ffast-math: comparisons with NaN are
+ * false, infinities are respected, and loops treat a comparison that is not true as a case to examine.
  */
 #pragma once
 
@@ -17,7 +17,7 @@
 
 typedef double vec __attribute__((vector_size(8*LANES)));
 typedef int64_t mask __attribute__((vector_size(8*LANES)));
-typedef uint64_t word __attribute__((vector_size(8*LANES))); /* the bits of a double, which may overflow */
+typedef uint64_t word __attribute__((vector_size(8*LANES))); /* bits of a double, with defined overflow */
 
 #define EACH_LANE(lane) for (int lane = 0; lane < LANES; lane++)
 
@@ -56,7 +56,7 @@ static inline vec vec_min(vec a, vec b)
     return choose(a < b, a, b);
 }
 
-/* The same where proofs hang on it: NaN if either is. */
+/* The same for use in certificates: NaN if either operand is NaN. */
 static inline vec vec_larger(vec a, vec b)
 {
     return choose((a > b) | (a != a), a, b);
@@ -98,8 +98,9 @@ static inline vec vec_sqrt(vec x)
     return root;
 }
 
-/* exp: x = n ln 2 + r, |r| <= ln(2)/2, Taylor to r^13; about one unit in the last place. Held within a double's range above,
- * 0 below it. */
+/* exp: x = n ln 2 + r, |r| <= ln(2)/2, Taylor to r^13; accurate to about one unit in the last place. Clamped to the
+ * range of doubles above, 0 below it.
+ */
 static inline vec vec_exp(vec x)
 {
     mask dead = x < -708.0;
@@ -151,7 +152,7 @@ static inline vec vec_log(vec x)
     return choose(sound, result, splat(NAN));
 }
 
-/* sin and cos: argument less a multiple of pi/2 in three parts (|x| < 1e5), then fdlibm's polynomials. */
+/* sin and cos: argument minus a multiple of pi/2 in three parts (|x| < 1e5), then fdlibm's polynomials. */
 static inline void vec_sin_cos(vec x, vec *sine, vec *cosine)
 {
     const vec magic = splat(6755399441055744.0);

@@ -1,16 +1,16 @@
-/* Series made one after the other out of series that are known whole, so that what is multiplied stays in registers. */
+/* Recurrences whose operands are all known, unrolled, so that factors stay in registers. */
 #pragma once
 
 #include "series.h"
 
 #define TERM_AT(number, ...) { enum { k = number }; if (k < ORDER) { __VA_ARGS__ } }
-/* A statement for each coefficient k but the last, which no rate needs. */
+/* A statement for each coefficient k except the last, which no rate uses. */
 #define EACH_TERM(...) TERM_AT(0, __VA_ARGS__) TERM_AT(1, __VA_ARGS__) TERM_AT(2, __VA_ARGS__) TERM_AT(3, __VA_ARGS__) \
     TERM_AT(4, __VA_ARGS__) TERM_AT(5, __VA_ARGS__) TERM_AT(6, __VA_ARGS__) TERM_AT(7, __VA_ARGS__) \
     TERM_AT(8, __VA_ARGS__) TERM_AT(9, __VA_ARGS__) TERM_AT(10, __VA_ARGS__) TERM_AT(11, __VA_ARGS__) \
     TERM_AT(12, __VA_ARGS__) TERM_AT(13, __VA_ARGS__) TERM_AT(14, __VA_ARGS__) TERM_AT(15, __VA_ARGS__)
 
-/* sum of a_(m-k) b_m, m = k..ORDER-1: a product's coefficients weighed by b, taken back to those of its other factor. */
+/* sum of a_(m-k) b_m, m = k..ORDER-1: derivatives b by a product's coefficients, propagated to those of a factor. */
 INLINE vec correlated(const vec *a, const vec *b, int k)
 {
     vec sum = a[ORDER - 1 - k]*b[ORDER - 1];

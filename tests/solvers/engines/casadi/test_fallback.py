@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.by_casadi import by_casadi
-from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance
+from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance_for
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 
 IMPACTS = {"granulation": (0.06, "60 deg"), "pendulum": (1.5, "45 deg")}
@@ -22,10 +22,10 @@ def test_the_located_trajectory_is_returned_where_an_engine_cannot(preset: str, 
     usual = collide(preset, stokes=stokes, angle=angle, engine="rosenbrock")
 
     def soon(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tolerance:
-        return replace(tolerance(rtol, plugin, groups), steps=3)
+        return replace(tolerance_for(rtol, plugin, groups), steps=3)
 
     n = nondimensionalise(usual.scene, usual.speed, usual.angle)
-    found = by_casadi(usual.scene, n, 1e-9, engine, True, True, told=soon)
+    found = by_casadi(usual.scene, n, 1e-9, engine, True, True, control=soon)
     assert (found.engine, found.outcome, found.reversal) == ("rosenbrock", usual.outcome, usual.reversal)
     assert [event.kind for event in found.events] == [event.kind for event in usual.events]
     for name in ("restitution", "contact_time", "rotation", "smallest_gap", "final_spin"):
