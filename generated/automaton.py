@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 0ee71c1255360de299c9194ccfc0f013b0281ebd4eeecd168622998158dc36f3
+# Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -48,9 +48,10 @@ KINDS = (
 
 
 class Criterion(NamedTuple):
-    """A rebound criterion: the group at which it is met, whether that is a gap, what removes it, and its sentence."""
+    """A rebound criterion: the group at which it is met, its name and symbol, and what removes it."""
 
     limit: str
+    name: str
     contact: bool
     symbol: str
     removed_by: tuple[str, float] | None
@@ -60,6 +61,7 @@ class Criterion(NamedTuple):
 CRITERIA = {  # by word, in the order in which they apply on entry
     "glass": Criterion(
         limit="glass_number",
+        name="glass transition",
         contact=False,
         symbol="",
         removed_by=None,
@@ -67,6 +69,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
     ),
     "elastic": Criterion(
         limit="elastic_gap",
+        name="elastic length",
         contact=True,
         symbol="x_r",
         removed_by=("youngs_modulus", 1e+300),
@@ -74,6 +77,7 @@ CRITERIA = {  # by word, in the order in which they apply on entry
     ),
     "rough": Criterion(
         limit="rough_gap",
+        name="roughness",
         contact=True,
         symbol="x_b",
         removed_by=("roughness", 0.0),

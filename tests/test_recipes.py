@@ -48,7 +48,7 @@ CRITERION = [  # a row of the automaton
     (
         AUTOMATON,
         '    Criterion("rough"',
-        '    Criterion("wavy", "wavy_gap", "the gap is down to w", "rebound by w", removed_by=("waviness", 0.0)),\n{}',
+        '    Criterion("wavy", "wavy_gap", "waviness", "the gap is down to w", "waves", "w", ("waviness", 0.0)),\n{}',
     )
 ]
 LAW = [  # an entry of BRIDGES, and its name among the scene's
@@ -69,6 +69,25 @@ RESULT = [  # its row, and its expression
     ),
 ]
 COMMAND = [("solvers/commands/cli.py", '    "scenes", ', '{}"hello", ')]
+SMOOTH = """
+from wetdoublet.solvers import InputError, Scene
+solids = ("particles.youngs_modulus", "particles.poisson_ratio")
+given = {name: value for name, value in Scene.load("granulation").given if name not in solids}
+given |= {"particles.roughness": 0.0, "attraction.hamaker": 1e-19, "particles.waviness": 1e-6}
+Scene("", tuple(given.items()))
+try:
+    Scene("", tuple((given | {"particles.waviness": 0.0}).items()))
+except InputError as error:
+    print(error.accepted)
+"""
+CHECKED = """
+from wetdoublet.derive.checks.emitted import events_are_the_definitions
+from wetdoublet.derive.emit.document.theory import theory
+from wetdoublet.derive.physics.structure import Structure
+check = events_are_the_definitions([Structure(oblique=False, bridge=False, strings=False)])
+assert check.ok, check
+print([(line.note, line.latex) for line in theory() if line.note.startswith("(i")])
+"""
 HELLO = """\"\"\"`wetdoublet hello`: say hello.\"\"\"
 
 import click
@@ -149,6 +168,21 @@ def test_a_new_rebound_criterion(tree: Tree, engine: str) -> None:
     wavy = tree.told("collide", "granulation", *options(WAVY, 5.0, engine))
     assert (rough.reversal, wavy["reversal"]) == ("rough", "wavy")
     assert wavy["restitution"] == pytest.approx(rough.restitution, rel=1e-13)
+
+
+def test_a_new_rebound_criterion_is_drawn_printed_and_checked(tree: Tree, tmp_path: Path) -> None:
+    """The picture has its gap, the theory its line, and its event function is its group's definition."""
+    tree.run("collide", "granulation", *options(WAVY, 5.0, "cvodes"), "--plot", str(tmp_path / "wavy.svg"))
+    assert (tmp_path / "wavy.svg").stat().st_size > 0
+    assert "('(iii) waviness', 'x \\\\leq w')" in tree.python("-c", CHECKED)
+
+
+def test_the_new_criterion_keeps_the_gap_open(tree: Tree) -> None:
+    """A scene without other contact, whose attraction would be unbounded, is refused if the waves are flat."""
+    assert (
+        tree.python("-c", SMOOTH)
+        == "a positive particles.roughness or particles.waviness or particles.youngs_modulus\n"
+    )
 
 
 def test_a_new_entry_and_a_new_result_have_derivatives(tree: Tree) -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import sympy as sp
 
+from ..equations.events import CONTACT_GAPS
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR, force_laws
 from ..physics.laws import LAWS
@@ -106,7 +109,9 @@ def _si_events() -> dict[str, sp.Expr]:
     """The events as the paper states them, over the scales they are emitted in; x_f is not among them."""
     compliance = 2 * (1 - nu**2) / (sp.pi * E)
     elastic = (3 * sp.pi * compliance * mu * sp.sqrt(a) ** 3 * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)
-    return {
+    definitions = group_definitions()
+    by_group = {word: x / x0 - definitions[limit] for word, limit in CONTACT_GAPS.items()}  # without a published form
+    return by_group | {
         "glass": (p_gt - 3 * mu * a * (-u) / x**2) * x0**2 / (3 * mu * a * v0),
         "elastic": (x - elastic) / x0,
         "rough": (x - x_b) / x0,
@@ -118,13 +123,13 @@ def _si_events() -> dict[str, sp.Expr]:
     }
 
 
-def events_are_the_definitions() -> Check:
-    """Every event function, its groups by their definitions, is the criterion in SI."""
+def events_are_the_definitions(those: Iterable[Structure] | None = None) -> Check:
+    """Every event function, its groups by their definitions, is the criterion in SI; of all structures, or of these."""
     back = {gap: x / x0, normal_velocity: u / v0, **group_definitions()}
     laws = {"glass": LAWS["glass"]["literal"], "shear": LAWS["shear"]["immersed"]}
     defined = _si_events()
     left = []
-    for structure in structures():
+    for structure in structures() if those is None else those:
         model = derive(structure)
         end = 2 * a * volume ** sp.Rational(1, 3) * (1 + contact_angle / 2) if structure.bridge else x0
         expected = {**defined, "rupture": (end - x) / x0}

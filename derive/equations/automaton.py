@@ -46,29 +46,38 @@ class Criterion:
     Arguments:
         word: what the report calls it; its event function has the same name.
         limit: dimensionless group at which it is met: a gap, or a pressure.
-        contact: it is met at a gap, that of its limit; else where the film's pressure reaches the limit.
-        removed_by: quantity and value (SI) with which it is never met; for one that is met at a gap.
-        symbol: of its gap, in pictures.
+        name: of what it is met at, in texts.
         sentence: why a collision that met it first has bounced.
+        symbol: of its gap, in pictures.
+        removed_by: quantity and value (SI) with which it is never met.
+        contact: it is met at a gap, that of its limit, and then has a symbol and is removed by a quantity; else it is
+            met where the film's pressure reaches the limit.
     """
 
     word: str
     limit: str
+    name: str
     meaning: str
     sentence: str
-    contact: bool = True
     symbol: str = ""
     removed_by: tuple[str, float] | None = None
+    contact: bool = True
+
+    def __post_init__(self) -> None:
+        """Refuse a gap that pictures cannot name or that no quantity removes."""
+        if self.contact and not (self.symbol and self.removed_by):
+            raise ValueError(f"the rebound criterion {self.word!r} is met at a gap and needs symbol and removed_by")
 
 
 # In the order in which those that already hold where a closing phase starts apply: the first reverses the motion.
 CRITERIA = (
-    Criterion("glass", "glass_number", "the film pressure on the axis reaches the glass-transition pressure",
+    Criterion("glass", "glass_number", "glass transition",
+              "the film pressure on the axis reaches the glass-transition pressure",
               "rebound by the glass criterion, the liquid's own pressure", contact=False),
-    Criterion("elastic", "elastic_gap", "the gap is down to the elastic length",
+    Criterion("elastic", "elastic_gap", "elastic length", "the gap is down to the elastic length",
               "rebound by the elastic criterion, the spheres' deformation", symbol="x_r",
               removed_by=("youngs_modulus", 1e300)),
-    Criterion("rough", "rough_gap", "the gap is down to the roughness",
+    Criterion("rough", "rough_gap", "roughness", "the gap is down to the roughness",
               "rebound by contact of the surfaces' roughness", symbol="x_b", removed_by=("roughness", 0.0)),
 )  # fmt: skip
 CONTACTS = tuple(each for each in CRITERIA if each.contact)

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 0ee71c1255360de299c9194ccfc0f013b0281ebd4eeecd168622998158dc36f3 */
+ * Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.taylor.build import supported
+from ..engines.choice import boundary_engine
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
@@ -138,7 +138,7 @@ def boundary(
     rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
-    worth = _WORTH_BY_KERNEL if supported(loaded) else _WORTH
+    worth = _WORTH_BY_KERNEL if boundary_engine(loaded) == "taylor" else _WORTH
     cores = min(usable_cores(), max(1, angles.size // worth))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)

@@ -9,11 +9,11 @@ import numpy as np
 
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
 from ..engines.casadi.locate import EventLocator
-from ..engines.taylor.build import supported
+from ..engines.choice import boundary_engine
 from ..errors import ComputationError, InputError
-from ..model.contact import GAPS, NEVER_MET
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
+from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
@@ -43,7 +43,7 @@ class Look:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
-        self.kernel = supported(self.scene) if self.kernel is None else self.kernel
+        self.kernel = boundary_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
 
     @property
     def per_decade(self) -> int:
@@ -180,7 +180,7 @@ def blank(stokes: np.ndarray) -> np.ndarray:
 
 
 def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
-    """Gap over film thickness at which the solids meet, by roughness or elastic length, at normal speeds (m/s)."""
+    """Gap over film thickness at which the solids meet, at normal speeds (m/s)."""
     values = {**si_values(scene, None, None), "speed": speed}
     gap = np.zeros(speed.size)
     for name in GAPS.values():

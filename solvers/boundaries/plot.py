@@ -9,16 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from ...generated.automaton import OUTCOMES
-from ..collision.text import degrees, name_of, prefix
+from ..collision.text import against, degrees, name_of, prefix
 from ..errors import InputError
 from ..formatting import ticks
-from ..many.plot_map import COLOURS
+from ..formatting.style import EDGES, FILLS, HATCHES, INK, patch, picture, plain_text
 from ..settings import RTOL
 from .atlas_curves import LINES, curves_of
 from .found import Curve, Curves, Lines, Point
@@ -28,10 +26,7 @@ from .plot_labels import place_names
 if TYPE_CHECKING:
     from ..scene.scene import Scene
 
-_PALE = 0.45  # darker variants of the map's colours, for lines and text
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
-_INK, _NOTE = "#202020", "#6E6E6E"
-_LETTERS = ("S", "SRS", "B")
 _MARKS = {
     "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "corner": "D", "criterion change": "D",
     "graze meets escape": "s", "saddle meets rim": "v",
@@ -46,6 +41,7 @@ def plot(found: Lines) -> Figure:
     return draw(found.scene, found)
 
 
+@picture
 def draw(scene: Scene, found: Lines) -> Figure:
     """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
@@ -59,31 +55,23 @@ def draw(scene: Scene, found: Lines) -> Figure:
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
     axes = figure.add_subplot()
-    name = name_of(scene, 40).replace("$", r"\$")
+    name = plain_text(name_of(scene, 40))
     fixed = "" if whole.over == ANGLE else f" at {degrees(scene.angle)}"
-    axes.set_title(f"{name}: where the outcome changes{fixed}", fontsize=11)
+    axes.set_title(f"{name}{against(scene)}: where the outcome changes{fixed}")
     low, high = _shown(whole)
     factor = _frame(axes, scene, whole, low, high, single)
     regions = whole if not single else replace(whole, span=(0.0, 1.0))
     _fill(axes, regions, factor)
     for one in regions.curves:
-        axes.plot(np.array(one.x) / factor, one.stokes, color=_INK, linewidth=1.5, solid_capstyle="round", zorder=3)
+        axes.plot(np.array(one.x) / factor, one.stokes, color=INK, linewidth=1.5, solid_capstyle="round", zorder=3)
     if dots:
         _dots(axes, found)
     handles = _handles(regions)
     handles += _mark(axes, whole.points, factor, low, high)
     handles += _doubts(axes, found, whole, factor)
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), fontsize=8, frameon=False)
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), handleheight=1.1)
     place_names(figure, axes, _raster(regions, factor))
     return figure
-
-
-def _pale(colour: str) -> tuple[float, float, float]:
-    red, green, blue = (1 - _PALE * (1 - part) for part in to_rgb(colour))
-    return red, green, blue
-
-
-_PALE_COLOURS = tuple(_pale(colour) for colour in COLOURS)
 
 
 def _filled(scene: Scene, found: Lines) -> Curves:
@@ -163,7 +151,11 @@ def _fill(axes: Axes, whole: Curves, factor: float) -> None:
             x = (whole.span[0] + outline[:, 0] * across) / factor
             stokes = whole.window[0] * np.exp(outline[:, 1] * decades)
             # antialiased edges of neighbours would show the background
-            axes.fill(x, stokes, color=_PALE_COLOURS[label], linewidth=0, antialiased=False, zorder=1)
+            name = OUTCOMES[label]
+            axes.fill(x, stokes, color=FILLS[name], linewidth=0, antialiased=False, zorder=1)
+            if HATCHES[name]:
+                look: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
+                axes.fill(x, stokes, zorder=1.5, **look)
 
 
 def _raster(whole: Curves, factor: float) -> Any:
@@ -175,18 +167,13 @@ def _dots(axes: Axes, found: Lines) -> None:
     """Draw the changes on the requested lines."""
     pairs = [(math.degrees(at), one.stokes) for at, line in zip(found.angles, found.changes) for one in line]
     if pairs:
-        axes.plot(*zip(*pairs), "o", color=_INK, markersize=2.6, zorder=4, clip_on=False)
+        axes.plot(*zip(*pairs), "o", color=INK, markersize=2.6, zorder=4, clip_on=False)
 
 
 def _handles(whole: Curves) -> list[Any]:
     """Legend entries of the outcomes in the figure."""
     seen = {label for slab in whole.slabs() for label in slab.labels}
-    return [
-        Patch(
-            facecolor=_PALE_COLOURS[label], edgecolor=_INK, linewidth=0.5, label=f"{_LETTERS[label]}: {OUTCOMES[label]}"
-        )
-        for label in sorted(seen)
-    ]
+    return [patch(OUTCOMES[label]) for label in sorted(seen)]
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
@@ -198,7 +185,7 @@ def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: 
     handles: dict[str, Any] = {}
     for (x, stokes), kinds in places.items():
         style: Any = {
-            "marker": _MARKS[kinds[0]], "color": "white", "markeredgecolor": _INK, "markeredgewidth": 1.2,
+            "marker": _MARKS[kinds[0]], "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2,
             "markersize": 6,
         }  # fmt: skip
         axes.plot(x / factor, stokes, linestyle="", zorder=5, clip_on=False, **style)

@@ -10,10 +10,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ...generated.automaton import OUTCOMES
+from ..formatting.style import INK, halo
 
 _CELL = 3.0  # margin, pixels
 _CLEAR = 2  # cells between a name and the edge of its region
-_INK = "#202020"
 # Possible names of a region, the preferred first
 _NAMES = (
     (OUTCOMES[0], "S"),
@@ -47,7 +47,16 @@ def place_names(
     for label, region in _regions(labels):
         for name in _NAMES[label]:
             text = axes.text(
-                0, 0, name, fontsize=_FONT, ha="center", va="center", color=_INK, linespacing=1.1, zorder=7
+                0,
+                0,
+                name,
+                fontsize=_FONT,
+                ha="center",
+                va="center",
+                color=INK,
+                linespacing=1.1,
+                zorder=7,
+                path_effects=[halo()],
             )
             size = text.get_window_extent(renderer)
             at = _room(region, int(size.width / _CELL) + 2, int(size.height / _CELL) + 2)

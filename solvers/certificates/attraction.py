@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...generated.automaton import SAFETY
-from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
+from ..scene.contact import contact_gap
 from .base import Certainty, Certificate, NoCertificate
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.contact import contact_gap
+from ..scene.contact import contact_gap
 from .orbital_momentum import OrbitalMomentumCertificate
 from .quadrature import panels
 

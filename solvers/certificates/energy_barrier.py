@@ -14,9 +14,9 @@ from functools import lru_cache
 import numpy as np
 
 from ...generated.automaton import SAFETY
-from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
+from ..scene.contact import contact_gap
 from .base import BEYOND, Certainty
 from .quadrature import panels
 

@@ -9,9 +9,9 @@ from casadi import SX, Function
 
 from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH, SAFETY
 from ..host.thread_caches import own_cache
-from ..model.contact import contact_gap
 from ..model.model import Model
 from ..model.phases import Phase
+from ..scene.contact import contact_gap
 from .base import Certainty
 from .quadrature import panels
 

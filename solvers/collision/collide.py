@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
+from ..engines.choice import single_engine
 from ..host.arguments import check_flag
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
@@ -60,16 +60,15 @@ def collide(
         >>> collide("granulation", stokes=0.02, angle="75 deg").restitution > 1
         True
     """
-    rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
+    rtol, plugin = check_rtol(rtol), single_engine(check_engine(engine))
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
-    said = warn(loaded)
+    warn(loaded)
     by = _by_kernel if plugin == "taylor" else by_casadi
-    result = by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
-    return replace(result, warnings=said) if said else result
+    return by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
 
 
 def _by_kernel(

@@ -31,4 +31,4 @@ def html(one: Outcome) -> str:
     if one.energy is not None:
         end = f"{quantity(one.energy.final, 'J')} at the end; residual {one.energy.residual:.1e} J"
         rows.append(("energy", f"{quantity(one.energy.initial, 'J')} at contact", end))
-    return view(name_of(one.scene), rows, notes=[*one.warnings, *one.scene.assumed, f"{one.engine}, {one.steps} steps"])
+    return view(name_of(one.scene), rows, notes=[*one.validity, *one.scene.assumed, f"{one.engine}, {one.steps} steps"])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ..model.validity import NEEDS, sentences
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -98,7 +99,6 @@ class Outcome:
         decided: for a stick, the time at which it was certain, s: `until`, unless it was followed on.
         certified: True if a certificate proves the stick.
         reversal: the first rebound criterion met, if any.
-        warnings: one sentence for each law used outside its range of validity.
         rtol: relative tolerance that was asked for.
         trajectory: Dataset over `time`, if requested.
     """
@@ -129,9 +129,14 @@ class Outcome:
     rtol: float
     generalised_centrifugal: float | None = None
     final_spin_partner: float | None = None
-    warnings: tuple[str, ...] = ()
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """Where the collision leaves the model's range, a sentence each with the number and the limit."""
+        results = {name: getattr(self, name) for name in NEEDS}
+        return tuple(sentences(self.scene, self.speed, self.angle, self.outcome, results))
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
@@ -150,5 +155,5 @@ class Outcome:
         result["events"] = [{"kind": event.kind, "time": event.time} for event in self.events]
         result["energy"] = self.energy.to_dict() if self.energy else None
         result["angular_momentum_drift"] = self.angular_momentum_drift
-        result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol}
+        result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
         return result | {"units": {key: UNITS[key] for key in result if key in UNITS}} | origin(self.scene)

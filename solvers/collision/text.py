@@ -62,6 +62,13 @@ def name_of(scene: Scene, longest: int = 32) -> str:
     return _cut(scene.name, longest) or "unnamed scene"
 
 
+def against(scene: Scene) -> str:
+    """Return what the sphere meets, for a title; nothing if it is its equal."""
+    if scene.partner is None:
+        return ""
+    return " against a wall" if scene.wall else f" against a sphere of {plain(scene.radius_ratio)} times the radius"
+
+
 def _cut(text: str, longest: int) -> str:
     """Return a text on one line without control characters, shortened to `longest` characters."""
     text = " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
@@ -133,7 +140,7 @@ def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
-    remarks = [line for said in collision.warnings for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    remarks = [line for said in collision.validity for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
     return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene), *remarks])
 
 

@@ -23,6 +23,7 @@ def command(
     source: str | None,
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     changes: Sequence[str],
     model: str | None,
@@ -36,7 +37,7 @@ def command(
       wetdoublet cite granulation --set bridge.law=willett -o references.bib
     """  # noqa: D301 # click wants the character itself
     file = options.check_file(output, "-o")
-    scene = options.Asked.check(source, changes, stokes, speed, angle, model).scene()
+    scene = options.Asked.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
 
     from ..export.citations import as_bibtex, citations
 

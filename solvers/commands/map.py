@@ -59,7 +59,8 @@ def command(
 ) -> None:
     """Outcomes and restitution of SCENE over impact angle, Stokes number and further varied entries.
 
-    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end.
+    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end. The
+    picture has the exact boundaries over the cells, and hatches those where the model leaves its range.
 
     \b
     Example:
@@ -192,10 +193,11 @@ def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None
     from ..many.text_map import failures, table
 
     if picture is not None:
+        from ..boundaries.on_map import map_curves
         from ..host.files import save
         from ..many.plot_map import draw_map
 
-        save(draw_map(data), picture, dpi=150)
+        save(draw_map(data, map_curves(data)), picture, dpi=150)
     if file is None and picture is None:
         click.echo(table(data))
     failed = failures(data)

@@ -14,13 +14,14 @@ import numpy as np
 from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
+from ..model.validity import NEEDS
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
-from .results import MAPPED
+from .results import MAPPED, VALIDITY
 
 
 @dataclass(frozen=True)
@@ -144,8 +145,9 @@ def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 
 def check_outputs(of: Sequence[str], known: Sequence[str] = MAPPED) -> tuple[str, ...]:
-    """The quantities to keep; InputError for an unknown one."""
-    return check_names(of, known, "of")
+    """The quantities to keep, with those that the limits of the model need; InputError for an unknown one."""
+    kept = check_names(of, known, "of")
+    return tuple(dict.fromkeys((*kept, *NEEDS))) if VALIDITY in kept else kept
 
 
 def checked_impact(scene: Scene, impact: Mapping[str, Any], most: int | None = 1) -> dict[str, np.ndarray]:

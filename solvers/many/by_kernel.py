@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 import numpy as np
 
@@ -15,12 +14,14 @@ from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import ANSWER, LEDGER
 from ..engines.taylor.record import run_recorded
 from ..model.model import load, select_model
+from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
-from ..scene.quantities import NO_GLASS, quantities
+from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Batch
+from .columns import varied_columns
 from .results import LEDGER as OF_LEDGER
 from .results import NONE, RATES, REVERSALS
 
@@ -85,7 +86,8 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
     values: dict[str, np.ndarray] = {}
     with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
-            values, sound = _columns(request)
+            values = varied_columns(request)
+            sound = _sound(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
         else:
             sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
@@ -105,19 +107,12 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     return usual
 
 
-def _columns(request: Batch) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Quantities of every collision where entries vary, and a mask of those that certainly satisfy the entry rules."""
-    scene = request.scene
-    entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
-    found = quantities(entries | dict(request.vary), scene.ways)
-    values = {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
-    return values, _sound(scene, values)
-
-
 def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     """Mask of collisions that satisfy `scene.entry_rules` with a margin; the scene itself validates the others."""
     film = values["film_thickness"]
-    sound = values["roughness"] < film * (1 - _NEAR)
+    sound = np.ones(film.shape, bool)
+    for word in AT_ANY_SPEED:
+        sound &= gap_at_any_speed(word, values) < 1 - _NEAR
     rupture = film
     if scene.bridge is not None:
         formula, arguments = formulas(scene)["rupture_gap"]
@@ -126,12 +121,9 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
         rupture = gap * film
     if scene.pendulum is not None:
         sound &= values["string_length"] > (4 * values["reduced_radius"] + rupture / 2) * (1 + _NEAR)
-    if (
-        scene.particles.youngs_modulus is None
-    ):  # attraction diverges at zero gap, and without glass criterion nothing stops the approach
-        sound &= (values["roughness"] > 0) | (scene.attraction is None) & (
-            values["glass_transition_pressure"] < NO_GLASS
-        )
+    # attraction diverges at zero gap, and without glass criterion nothing stops the approach
+    stopped = (scene.attraction is None) & (values["glass_transition_pressure"] < NO_GLASS)
+    sound &= ~np.asarray(never_touching(values)) | stopped
     for ratio in ("radius_ratio", "mass_ratio"):
         if scene.partner is not None and ratio in values:
             sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))

@@ -24,12 +24,13 @@ from ..host.pictures import register
 from ..host.workers import undisturbed, workers
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
-from ..model.validity import warn
+from ..model.validity import flag_attributes, flags, warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL
 from .batch import Batch, batch, check_outputs, check_some_scene, checked_impact, checked_vary, of_one_length
 from .broadcast import Layout, laid_out
 from .by_kernel import collided
+from .columns import with_impacts
 from .of_impact import of_impact
 from .results import (
     FAILED,
@@ -40,6 +41,7 @@ from .results import (
     RATES,
     RESULTS,
     REVERSALS,
+    VALIDITY,
     attributes,
     blank,
     outcome_attributes,
@@ -79,8 +81,9 @@ def collide_many(
         vary: other entries by dotted name: SI numbers, or the names of laws and other choices.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: what to keep besides outcome and restitution: any number that a `Collision` has, and terms of its ledger as
-            "energy.capillary" (the ledger is then integrated too, which takes longer).
+        of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
+            "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
+            model leaves its range, with the results that these need).
 
     Numbers, arrays of any shape, quantities with units and DataArrays are broadcast against each other as numpy does,
     DataArrays by the names of their dimensions; plain arrays beside these go with the last dimensions.
@@ -122,6 +125,8 @@ def _whole(request: Batch, results: Block) -> None:
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
     if any(name in OF_IMPACT for name in request.of):
         fill(results, np.arange(request.size), of_impact(request))
+    if VALIDITY in request.of:
+        results[VALIDITY] = validity(request, results)
 
 
 def _by_text(request: Batch, results: Block) -> str:
@@ -135,6 +140,8 @@ def _by_text(request: Batch, results: Block) -> str:
         warn(part.scene)
         found = empty(part.size, part.of)
         _whole(part, found)
+        if VALIDITY in found:
+            results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
         fill(results, where, found)
         engines[part.engine] = None
     if first is not None and not engines:
@@ -316,7 +323,7 @@ def as_dataset(
     }
     for name, values in results.items():
         if name not in variables:
-            variables[name] = along, values, attributes(name)
+            variables[name] = along, values, flag_attributes() if name == VALIDITY else attributes(name)
     said = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": engine or request.engine}
     if request.scene.package is not None:
         said["model"] = request.scene.package.text
@@ -331,3 +338,9 @@ def as_text(results: Block) -> np.ndarray:
     if not failed.any():
         return np.zeros(failed.size, "<U1")
     return np.where(failed, results["reason"], "").astype(str)
+
+
+def validity(request: Batch, results: Block) -> np.ndarray:
+    """Flags of where each collision leaves the model's range; none of one that failed."""
+    found = flags(request.scene, with_impacts(request) | results, request.size)
+    return np.where(results["outcome"] == FAILED, np.int16(0), found)

@@ -12,64 +12,75 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from ...generated.automaton import OUTCOMES
-from ..collision.text import name_of, quantity
+from ..collision.text import against, name_of, quantity
 from ..formatting import ticks
+from ..formatting.style import EDGES, FILLS, HATCHES, INK, LETTERS, NOTE, NOTHING, halo, patch, picture, plain_text
+from ..model.validity import counted
 from ..scene.scene import Scene
 from .regime_map import IMPACTS, impact_axis, scene_of
-from .results import FAILED
+from .results import FAILED, VALIDITY
 
 if TYPE_CHECKING:
     import xarray
 
-COLOURS = ("#0072B2", "#E69F00", "#F0E442")  # Okabe-Ito, from light to dark so that they differ in greyscale
-LETTERS = ("S", "SRS", "B")
-_INK = ("white", "black", "black")
-_NOTE = "#6E6E6E"
 _MOST = 9  # most panels of a map that varies more than the impact
-_PANEL, _ACROSS = 3.1, 3  # inches; panels in a row
-_WIDTH, _HEIGHT = 9.0, 4.7  # inches; map of the impact alone
-_CROSS: Any = {"linestyle": "", "marker": "X", "color": "white", "markeredgecolor": "black", "markersize": 7}
-_NOTHING = "#DDDDDD"
-_BRIGHTEST = 2.0  # upper limit of e_n in the colour scale: near grazing it grows without bound
+_PANEL, _ACROSS = 3.1, 3  # width of a panel in inches; panels in a row
+_WIDTH, _HEIGHT = 9.0, 4.7  # size of a map of the impact alone, inches
+_HANDLE = 2.1  # width of an entry of the legend, inches
+_NOTES = 0.062  # width of a character of the notes, inches
+_HIGHEST = 2.0  # most e_n that the colours tell apart: near grazing incidence it grows without bound
 _LEVELS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
+_CROSS: Any = {"linestyle": "", "marker": "x", "color": "#B00020", "markersize": 5}
+_OUTSIDE: Any = {"facecolor": "none", "edgecolor": "#303030", "hatch": "...", "linewidth": 0}
+
+Curve = tuple[np.ndarray, np.ndarray]  # angles (rad), and Stokes numbers or speeds (m/s)
+Curves = Mapping[int, Sequence[Curve]]  # of each panel: its flat index among what varies, 0 without
 
 
-def draw_map(data: xarray.Dataset) -> Figure:
-    """Draw a regime map as returned by `regime_map` or read from a file; a panel for each value of a further entry."""
+@picture
+def draw_map(data: xarray.Dataset, curves: Curves | None = None) -> Figure:
+    """Draw a regime map as returned by `regime_map` or read from a file.
+
+    Arguments:
+        curves: exact boundaries to draw over the cells, as `boundaries.on_map.map_curves` finds them.
+    """
     scene = scene_of(data)
-    varied = [name for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
+    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
     if varied:
-        figure, notes = _multiples(data, varied)
+        figure, notes = _multiples(data, varied, curves or {})
+        title = "outcomes"
     else:
-        figure, notes = _pair(data), []
-    title = name_of(scene).replace("$", r"\$")
-    variant = textwrap.fill(_variant(scene), int(11 * figure.get_figwidth()))
-    figure.suptitle(f"{title}: outcomes\n{variant}", fontsize=10)
+        figure, notes = _pair(data, curves or {}), []
+        title = "outcome and normal restitution"
     across = figure.get_figwidth()
-    notes += [_counts(data), *(line for line in scene.assumed if line.split(" ")[0] not in varied)]
-    notes = [textwrap.shorten(line, int(14 * across)).replace("$", r"\$") for line in notes]
-    figure.supxlabel("\n".join(notes), fontsize=7.5, color=_NOTE)
+    figure.suptitle(textwrap.fill(f"{plain_text(name_of(scene))}{against(scene)}: {title}", int(11 * across)))
+    notes += [_counts(data), _variant(scene), *_range(data)]
+    assumed = [line for line in scene.assumed if line.split(" ")[0] not in varied]
+    lines = [textwrap.fill(line, int(across / _NOTES)) for line in notes]
+    lines += [textwrap.shorten(line, int(across / _NOTES)) for line in assumed]
+    figure.supxlabel("\n".join(plain_text(line) for line in lines), color=NOTE)
     return figure
 
 
 def _variant(scene: Scene) -> str:
-    """The names of the laws used, as a note for the figure."""
+    """The model's variants, under their names in a scene."""
     model = scene.model
-    parts = [f"{model.arm} lever arm", f"{model.tangential} tangential force"]
-    parts += [f"{model.glass} glass criterion"] if scene.liquid.glass_transition_pressure is not None else []
-    parts.append("no capillary force" if scene.bridge is None else f"capillary force by {scene.bridge.law}")
+    parts = [f"arm {model.arm}", f"tangential {model.tangential}", f"film {model.film}"]
+    parts += [f"glass {model.glass}"] if scene.liquid.glass_transition_pressure is not None else []
+    parts.append("no bridge" if scene.bridge is None else f"bridge {scene.bridge.law}")
     if scene.pendulum is not None:
-        parts.append(f"strings of {quantity(scene.pendulum.length, 'm')}, {scene.pendulum.law}")
-    return ", ".join(parts)
+        parts.append(f"strings {quantity(scene.pendulum.length, 'm')} long, {scene.pendulum.law}")
+    return f"model: {', '.join(parts)}"
 
 
 def _counts(data: xarray.Dataset) -> str:
     outcome = data["outcome"].values
-    found = [f"{np.count_nonzero(outcome == k)} {letter}" for k, letter in enumerate(LETTERS)]
+    found = [f"{np.count_nonzero(outcome == k)} {LETTERS[name]}" for k, name in enumerate(OUTCOMES)]
     failed = np.count_nonzero(outcome == FAILED)
     if failed:
         found.append(f"{failed} failed")
@@ -77,8 +88,15 @@ def _counts(data: xarray.Dataset) -> str:
     return f"{outcome.size} collisions: {', '.join(found)}; {told}"
 
 
-def _pair(data: xarray.Dataset) -> Figure:
-    """Draw the outcomes, and the restitution beside them."""
+def _range(data: xarray.Dataset) -> list[str]:
+    """Which limits of the model are passed, and in how many cells."""
+    if VALIDITY not in data or not data[VALIDITY].values.any():
+        return []
+    return [f"outside the model's range: {', '.join(f'{w} in {n} cells' for w, n in counted(data[VALIDITY].values))}"]
+
+
+def _pair(data: xarray.Dataset, curves: Curves) -> Figure:
+    """Outcomes, and restitution to their right."""
     figure = Figure(figsize=(_WIDTH, _HEIGHT), layout="constrained")
     grid = figure.add_gridspec(2, 2, height_ratios=[0.05, 1])
     left = figure.add_subplot(grid[1, 0])
@@ -86,50 +104,66 @@ def _pair(data: xarray.Dataset) -> Figure:
     _outcomes(left, data)
     _letters(left, data)
     values = np.ma.masked_invalid(_restitution(data))
-    right.set_facecolor(_NOTHING)
+    right.set_facecolor(NOTHING)
     highest = float(values.max()) if values.count() else 1.0
-    top = min(max(highest, 1.0), _BRIGHTEST)
+    top = min(max(highest, 1.0), _HIGHEST)
     mesh = right.pcolormesh(*_edges(data), values, cmap="viridis", vmin=0, vmax=top, rasterized=True)
-    bar = figure.colorbar(mesh, ax=right, pad=0.02, extend="max" if highest > top else "neither")
-    bar.set_label("normal restitution $e_n$ (grey: stick)", fontsize=9)
-    bar.ax.tick_params(labelsize=8)
-    _contours(right, data, [1.0], "white")
-    _contours(right, data, [2.0, 3.0, 5.0])
-    _failed(right, data)
+    label_scale(figure.colorbar(mesh, ax=right, pad=0.02, extend="max" if highest > top else "neither"), top, highest)
     for axes in (left, right):
         _frame(axes, data, left_most=axes is left)
+        _exact(axes, curves.get(0, ()))
+        _failed(axes, data)
+    draw_contours(right, data, [level for level in _LEVELS if level == 1 or level > top])
     right.tick_params(labelleft=False)
-    _legend(figure.add_subplot(grid[0, :]), _handles(data))
+    _legend(figure.add_subplot(grid[0, :]), _handles(data, curves), _WIDTH)
     return figure
 
 
-def _legend(axes: Axes, handles: list[Any]) -> None:
+def label_scale(bar: Any, top: float, highest: float) -> None:
+    """Label the colours of e_n, with the limit from which on they are the same."""
+    bar.set_label("normal restitution $e_n$ (grey: stick)")
+    if highest > top:
+        places = np.linspace(0, top, 5)
+        bar.set_ticks(places, labels=[*(f"{place:g}" for place in places[:-1]), f"≥ {top:g}"])
+        bar.ax.set_title(f"up to {highest:.3g}", fontsize=8)
+
+
+def _legend(axes: Axes, handles: list[Any], width: float) -> None:
     axes.axis("off")
-    axes.legend(handles=handles, loc="center", ncols=len(handles), fontsize=8.5, frameon=False)
+    columns = max(2, min(len(handles), int(width / _HANDLE)))
+    axes.legend(handles=handles, loc="center", ncols=columns, handlelength=2.4, handleheight=1.1)
 
 
-def _multiples(data: xarray.Dataset, varied: list[str]) -> tuple[Figure, list[str]]:
-    """Draw a panel for each value of the varied entry: outcomes with lines of equal restitution."""
+def _multiples(data: xarray.Dataset, varied: list[str], curves: Curves) -> tuple[Figure, list[str]]:
+    """One panel for each value of the varied entries: outcomes with contours of restitution."""
     sizes = [data.sizes[name] for name in varied]
-    total = math.prod(sizes)
-    chosen = np.unique(np.linspace(0, total - 1, min(total, _MOST)).round().astype(int))
-    across = 2 if chosen.size == 4 else min(_ACROSS, chosen.size)
-    down = math.ceil(chosen.size / across)
-    figure = Figure(figsize=(max(6.5, 0.6 + _PANEL * across), 1.7 + 2.6 * down), layout="constrained")
+    chosen = panels(data)
+    across = 2 if len(chosen) == 4 else min(_ACROSS, len(chosen))
+    down = math.ceil(len(chosen) / across)
+    figure = Figure(figsize=(max(6.5, 0.6 + _PANEL * across), 1.9 + 2.6 * down), layout="constrained")
     grid = figure.add_gridspec(1 + down, across, height_ratios=[0.05] + [1] * down)
     for number, place in enumerate(chosen):
         axes = figure.add_subplot(grid[1 + number // across, number % across])
         index = dict(zip(varied, np.unravel_index(place, sizes), strict=True))
         part = data.isel({name: int(k) for name, k in index.items()})
         _outcomes(axes, part)
-        _contours(axes, part, _LEVELS)
-        axes.set_title(", ".join(_value(part, name) for name in varied), fontsize=9)
-        left_most, lowest = number % across == 0, number + across >= chosen.size
+        axes.set_title(", ".join(_value(part, name) for name in varied))
+        left_most, lowest = number % across == 0, number + across >= len(chosen)
         _frame(axes, part, left_most, lowest)
+        _exact(axes, curves.get(place, ()))
+        _failed(axes, part)
+        draw_contours(axes, part, _LEVELS)
         axes.tick_params(labelleft=left_most, labelbottom=lowest)
-    lines = Line2D([], [], color="black", linewidth=0.8, label="normal restitution $e_n$")
-    _legend(figure.add_subplot(grid[0, :]), [*_handles(data), lines])
-    return figure, [f"{chosen.size} of {total} panels are shown."] if total > chosen.size else []
+    lines = Line2D([], [], color=INK, linewidth=0.9, label="normal restitution $e_n$")
+    _legend(figure.add_subplot(grid[0, :]), [*_handles(data, curves), lines], figure.get_figwidth())
+    total = math.prod(sizes)
+    return figure, [f"{len(chosen)} of {total} panels are shown"] if total > len(chosen) else []
+
+
+def panels(data: xarray.Dataset) -> list[int]:
+    """Flat indices among the varied entries of the panels that are drawn; [0] where nothing but the impact varies."""
+    total = math.prod(data.sizes[name] for name in data["outcome"].dims if name not in ("angle", *IMPACTS))
+    return [int(k) for k in np.unique(np.linspace(0, total - 1, min(total, _MOST)).round())]
 
 
 def _value(part: xarray.Dataset, name: str) -> str:
@@ -153,51 +187,112 @@ def _restitution(data: xarray.Dataset) -> np.ndarray:
 
 
 def _outcomes(axes: Axes, data: xarray.Dataset) -> None:
-    outcome = np.ma.masked_less(_upright(data, "outcome"), 0)
-    axes.pcolormesh(*_edges(data), outcome, cmap=ListedColormap(COLOURS), vmin=-0.5, vmax=2.5, rasterized=True)
-    _failed(axes, data)
+    """Colour the cells by outcome, with the hatch of the outcome, and hatch those outside the model's range."""
+    outcome = _upright(data, "outcome")
+    colours = ListedColormap(list(FILLS.values()))
+    edges = _edges(data)
+    shown = np.ma.masked_less(outcome, 0)
+    axes.pcolormesh(*edges, shown, cmap=colours, vmin=-0.5, vmax=2.5, rasterized=True)
+    for k, name in enumerate(OUTCOMES):
+        if HATCHES[name]:
+            look = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
+            _hatch(axes, edges, outcome == k, f"cells of {name}", look)
+    if VALIDITY in data:
+        _hatch(axes, edges, _upright(data, VALIDITY) != 0, "cells outside the range", _OUTSIDE)
+
+
+def _hatch(axes: Axes, edges: tuple[np.ndarray, np.ndarray], cells: np.ndarray, name: str, look: Any) -> None:
+    """Hatch cells, as one patch: a rectangle for each run of a column."""
+    across, up = edges
+    rectangles = []
+    for column in range(cells.shape[1]):
+        ends = np.flatnonzero(np.diff(np.concatenate([[False], cells[:, column], [False]]).astype(int)))
+        for low, high in zip(ends[::2], ends[1::2]):
+            x, y = across[column : column + 2], (up[low], up[high])
+            rectangles.append(Path([(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1]), (x[0], y[0])], closed=True))
+    if rectangles:
+        hatched = PathPatch(Path.make_compound_path(*rectangles), zorder=1.5, **look)
+        hatched.set_gid(name)
+        axes.add_patch(hatched)
+
+
+def _exact(axes: Axes, curves: Sequence[Curve]) -> None:
+    """Draw the exact boundaries."""
+    for x, y in curves:
+        (line,) = axes.plot(np.degrees(x), y, color=INK, linewidth=1.6, zorder=3)
+        line.set_gid("boundary")
 
 
 def _failed(axes: Axes, data: xarray.Dataset) -> None:
-    rows, columns = np.nonzero(_upright(data, "outcome") == FAILED)
+    outcome = _upright(data, "outcome")
+    rows, columns = np.nonzero(outcome == FAILED)
     if rows.size:
         x, y = np.degrees(data["angle"].values)[columns], data[impact_axis(data)].values[rows]
-        axes.plot(x, y, clip_on=False, zorder=5, **_CROSS)
+        axes.plot(x, y, clip_on=False, zorder=5, **_CROSS | {"markersize": max(2.0, min(6.0, 90 / max(outcome.shape)))})
 
 
 def _letters(axes: Axes, data: xarray.Dataset) -> None:
-    """Write the name of each region where it is widest."""
+    """Draw the name of each region where it is widest."""
     outcome = _upright(data, "outcome")
     angles, values = np.degrees(data["angle"].values), data[impact_axis(data)].values
-    for k, letter in enumerate(LETTERS):
+    for k, name in enumerate(OUTCOMES):
         inside = np.pad(outcome == k, 1)
         depth = np.zeros(inside.shape)
-        while inside.any():  # erode the region; the points that remain last are farthest from its edge
+        while inside.any():  # erode the region; the cells that remain last are the deepest
             depth += inside
             inside = (
                 inside
                 & np.roll(inside, 1, 0) & np.roll(inside, -1, 0) & np.roll(inside, 1, 1) & np.roll(inside, -1, 1)
             )  # fmt: skip
-        if depth.max() < 3:  # no room for it
+        if depth.max() < 3:  # too small for a label
             continue
         row, column = np.unravel_index(np.argmax(depth[1:-1, 1:-1]), outcome.shape)
-        axes.annotate(letter, (angles[column], values[row]), ha="center", va="center", color=_INK[k], fontsize=12)
+        axes.annotate(
+            LETTERS[name], (angles[column], values[row]), ha="center", va="center", color=INK, fontsize=12, zorder=6,
+            path_effects=[halo(4)],
+        )  # fmt: skip
 
 
-def _contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float], colour: str = "black") -> None:
-    """Draw labelled lines of equal restitution, for each outcome separately because it jumps between them."""
+def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
+    """Draw labelled contours of restitution, separately for each outcome because it jumps between them."""
     outcome, restitution = _upright(data, "outcome"), _upright(data, "restitution")
     x, y = np.degrees(data["angle"].values), data[impact_axis(data)].values
+    taken: list[np.ndarray] = []
     for k in (1, 2):
         values = np.ma.masked_where(outcome != k, restitution)
         if min(values.shape) < 2 or values.count() < 4:
             continue
         wanted = [level for level in levels if values.min() < level < values.max()]
         if wanted:
-            lines = axes.contour(x, y, values, wanted, colors=colour, linewidths=0.9)
-            for label in axes.clabel(lines, fontsize=7.5, fmt=lambda level: f"{level:g}"):
-                place = (label.get_position()[0] - x[0]) / (x[-1] - x[0])
-                label.set_visible(0.03 < place < 0.97)  # a label on the edge would be cut off
+            widths = [1.4 if level == 1 else 0.9 for level in wanted]
+            lines = axes.contour(x, y, values, wanted, colors=INK, linewidths=widths, zorder=4)
+            lines.set_path_effects([halo()])
+            for level, pieces in zip(wanted, lines.allsegs, strict=True):
+                _label(axes, f"{level:g}", pieces, taken)
+
+
+_SHORTEST, _NEAREST, _MARGIN = 0.1, 0.075, 0.05  # of a line with a label; of labels; of a label and the frame
+
+
+def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.ndarray]) -> None:
+    """Write an upright label on the longest piece of a contour, clear of other labels and of the frame."""
+    best, length = None, _SHORTEST
+    for piece in pieces:
+        places = axes.transAxes.inverted().transform(axes.transData.transform(piece))
+        steps = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T))])
+        if steps[-1] > length:
+            best, length = (places, steps), steps[-1]
+    if best is None:
+        return
+    places, steps = best
+    for share in (0.5, 0.35, 0.65, 0.2, 0.8):
+        place = np.array([np.interp(share * length, steps, along) for along in places.T])
+        clear = all(np.hypot(*(place - other)) > _NEAREST for other in taken)
+        if clear and (place > _MARGIN).all() and (place < 1 - _MARGIN).all():
+            taken.append(place)
+            look: Any = {"ha": "center", "va": "center", "fontsize": 8, "color": INK, "path_effects": [halo(3)]}
+            axes.text(float(place[0]), float(place[1]), text, transform=axes.transAxes, zorder=5, **look)
+            return
 
 
 def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = True) -> None:
@@ -211,23 +306,23 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
     axes.set_ylim(up[0], up[-1])
     steps = (1, 1.5, 3, 10) if across[-1] - across[0] > 20 else (1, 2, 5, 10)
     axes.xaxis.set_major_locator(MaxNLocator(7, steps=steps))
-    axes.tick_params(labelsize=8)
     if lowest:
-        axes.set_xlabel("impact angle $\\theta_0$ (deg)", fontsize=9)
+        axes.set_xlabel("impact angle $\\theta_0$ (deg)")
     if left_most:
         labels: Mapping[str, str] = {
             "stokes": "Stokes number $St_n$",
             "speed": "normal approach speed $v_0$ (m/s)",
             "relative_speed": r"relative speed $v_0/\cos\theta_0$ (m/s)",
         }
-        axes.set_ylabel(labels[name], fontsize=9)
+        axes.set_ylabel(labels[name])
 
 
-def _handles(data: xarray.Dataset) -> list[Any]:
-    handles: list[Any] = [
-        Patch(color=colour, label=f"{letter}: {outcome}")
-        for colour, letter, outcome in zip(COLOURS, LETTERS, OUTCOMES, strict=True)
-    ]
+def _handles(data: xarray.Dataset, curves: Curves) -> list[Any]:
+    handles: list[Any] = [patch(outcome) for outcome in OUTCOMES]
+    if any(curves.values()):
+        handles.append(Line2D([], [], color=INK, linewidth=1.6, label="exact boundary"))
+    if VALIDITY in data and data[VALIDITY].values.any():
+        handles.append(Patch(label="outside the model's range", **_OUTSIDE))
     if (data["outcome"].values == FAILED).any():
         handles.append(Line2D([], [], label="failed", **_CROSS))
     return handles

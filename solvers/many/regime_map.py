@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
 from ..host.pictures import register
-from ..model.validity import warn
+from ..model.validity import flag_attributes, warn
 from ..scene.groups import si_values
 from ..scene.quantities import normal_speed
 from ..scene.ranges import MOST
@@ -28,9 +28,9 @@ from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary
-from .collide_many import Block, Slow, as_text, compute, empty, fill
+from .collide_many import Block, Slow, as_text, compute, empty, fill, validity
 from .journal import Journal
-from .results import QUANTITIES, attributes, outcome_attributes
+from .results import QUANTITIES, VALIDITY, attributes, outcome_attributes
 
 if TYPE_CHECKING:
     import xarray
@@ -96,7 +96,7 @@ def regime_map(
     vary: Mapping[str, Any] | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
-    of: Sequence[str] = tuple(QUANTITIES),
+    of: Sequence[str] = (*QUANTITIES, VALIDITY),
     progress: Progress | None = None,
     journal: str | Path | Journal | None = None,
     slow: Slow = lambda _count: None,
@@ -111,8 +111,8 @@ def regime_map(
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time and
-            smallest_gap.
+        of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
+            smallest_gap and validity.
         progress: called with (collisions done, collisions in all) after every block.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
@@ -234,6 +234,8 @@ def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
     for name, values in results.items():
         if name not in variables:
             variables[name] = (grid.dims, shaped(values), attributes(name))
+    if VALIDITY in request.of:
+        variables[VALIDITY] = grid.dims, shaped(validity(request, results)), flag_attributes()
     said = {
         "Conventions": "CF-1.11",
         "title": f"Outcomes of oblique wet collisions: {grid.scene.name or 'unnamed scene'}",

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
+from ..model.validity import counted
 from .regime_map import IMPACTS, impact_axis, scene_of
-from .results import FAILED
+from .results import FAILED, VALIDITY
 
 if TYPE_CHECKING:
     import xarray
@@ -34,7 +36,16 @@ def table(data: xarray.Dataset) -> str:
         part = data.isel(dict(zip(varied, index, strict=True)))
         lines += ["", *([", ".join(_value(part, name) for name in varied)] if varied else []), *_map(part)]
     notes = _subsampled(data, len(chosen), math.prod(sizes))
-    return "\n".join([*lines, *notes])
+    return "\n".join([*lines, *notes, *_outside(data)])
+
+
+def _outside(data: xarray.Dataset) -> list[str]:
+    """How many collisions leave the model's range, and by which limit."""
+    if VALIDITY not in data or not data[VALIDITY].values.any():
+        return []
+    said = [f"{words} in {count}" for words, count in counted(data[VALIDITY].values)]
+    lines = wrap(f"outside the model's range: {', '.join(said)}", WIDTH, subsequent_indent="  ")
+    return ["", *lines]
 
 
 def _map(data: xarray.Dataset) -> list[str]:

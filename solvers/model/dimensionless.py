@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import ComputationError, InputError
+from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas, si_values
-from .contact import GAPS
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene

@@ -14,8 +14,8 @@ from ...generated.assemble import Laws, symbols, vector
 from ..host import emitted
 from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
+from ..scene.contact import GAPS
 from ..scene.user_model import Package
-from .contact import GAPS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -167,7 +167,7 @@ class Model:
 
     @cached_property
     def contact_gap(self) -> SX:
-        """Gap at which the solids touch: the larger of elastic length and roughness."""
+        """Gap at which the solids touch: the largest at which a rebound criterion is met."""
         return reduce(fmax, (self.groups[name] for name in GAPS.values()))
 
     @cached_property

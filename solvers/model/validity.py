@@ -1,51 +1,316 @@
-"""Warnings about laws used outside their range of validity; never errors."""
+"""Where a collision leaves the model's range: each limit once, with its number, as sentences and as flags.
+
+The numbers are computed by formulas that take floats or arrays, so that one table serves a collision and a map.
+"""
 
 from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
+import numpy as np
+
+from ...generated.automaton import OUTCOMES, STICK
 from ..errors import ModelWarning
-from ..scene.groups import law_module
+from ..scene.groups import formulas, law_module, si_values
 from ..scene.scene import Scene
+
+Values = Mapping[str, Any]  # quantities under the vocabulary's names and results, SI: floats or arrays
+_ROUNDING = 1e-12  # 50 deg is inside of 50 deg
+_SRS = 1
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A number that says how far the model may be trusted, and between which values it may.
+
+    Arguments:
+        flag: its word in a Dataset.
+        number: of a scene, its quantities and results; NaN where the question does not arise.
+        says: the sentence for a number outside.
+    """
+
+    flag: str
+    number: Callable[[Scene, Values], Any]
+    says: Callable[[float], str]
+    least: float = -math.inf
+    most: float = math.inf
+
+    def passed(self, number: Any) -> Any:
+        """Where the number lies outside."""
+        above = np.greater(number, self.most + abs(self.most) * _ROUNDING if math.isfinite(self.most) else self.most)
+        below = np.less(number, self.least - abs(self.least) * _ROUNDING if math.isfinite(self.least) else self.least)
+        return above | below
+
+
+# Re: lubrication theory leaves the inertia of the liquid out, and takes none of its terms to be of order Re.
+_REYNOLDS = 1.0
+# x0/a: lubrication theory is the first term of an expansion in the gap over the radius (O'Neill & Stewartson 1967;
+# Jeffrey & Onishi 1984); what it leaves out of the film's force is of order x0/a.
+_FILM_GAP = 0.2
+# x_f/a: from x = a on the logarithm ln(2a/x) is below ln 2, less than the constant of order one that it leaves out.
+_RUPTURE_GAP = 1.0
+# A path that is bent by less is one past the other sphere.
+_BENT = math.radians(10)
+# Torque on a sphere that slides along a wall, over 8 pi mu R^2 U: ln(R/x)/10 - 0.1895 (Goldman, Cox & Brenner 1967);
+# the model has ln(h_outer/x)/10. The ratio of the two may differ from 1 by a quarter.
+_WALL_CONSTANT = 1.895
+_WALL_RATIO = 1.25
+
+
+def _reynolds(scene: Scene, values: Values) -> Any:
+    return _group(scene, values, "reynolds") if "density" in values else math.nan
+
+
+def _film_gap(_: Scene, values: Values) -> Any:
+    return values["film_thickness"] / values["reduced_radius"]
+
+
+def _rupture_gap(scene: Scene, values: Values) -> Any:
+    """x_f/a of a bridge; without one the film's x0/a says it."""
+    if scene.bridge is None:
+        return math.nan
+    return _group(scene, values, "rupture_gap") * values["film_thickness"] / values["reduced_radius"]
+
+
+def _group(scene: Scene, values: Values, name: str) -> Any:
+    formula, arguments = formulas(scene)[name]
+    return formula(*(values[argument] for argument in arguments))
+
+
+def _radii(values: Values) -> tuple[Any, Any]:
+    """R_1 and R_2 of two spheres."""
+    ratio = values["radius_ratio"]
+    return values["reduced_radius"] * (1 + ratio) / ratio, values["reduced_radius"] * (1 + ratio)
+
+
+def _liquid(scene: Scene, values: Values) -> Any:
+    """Volume of the bridge over that of a coating x0/2 on each sphere; a wall has any amount of liquid."""
+    if scene.bridge is None or scene.wall:
+        return math.nan
+    coating = values["film_thickness"] / 2
+    shells = [4 / 3 * math.pi * ((radius + coating) ** 3 - radius**3) for radius in _radii(values)]
+    return values["volume"] * (2 * values["reduced_radius"]) ** 3 / (shells[0] + shells[1])
+
+
+def _bent(scene: Scene, values: Values) -> Any:
+    """Angle by which the relative velocity has turned, of spheres that would have missed each other; else NaN."""
+    if scene.wall:
+        return math.nan
+    angle, touching = values["angle"], sum(_radii(values))
+    misses = (touching + values["film_thickness"]) * np.sin(angle) > touching
+    along = np.arctan2(values["tangential_restitution"] * np.tan(angle), values["restitution"])
+    bent = np.abs(values["rotation"] + along - (math.pi - angle))
+    return np.where(misses & (np.asarray(values["outcome"]) == _SRS), bent, math.nan)
+
+
+def _wall_coupling(scene: Scene, values: Values) -> Any:
+    """Torque of sliding along a wall by the leading logarithm over the published one, at the smallest gap."""
+    outer = {"immersed": 2 * values["reduced_radius"], "film": values["film_thickness"]}.get(scene.model.tangential)
+    if not scene.wall or outer is None:
+        return math.nan
+    gap = values["smallest_gap"]  # NaN for a stick, whose spin is not defined
+    with np.errstate(all="ignore"):
+        published = np.log(values["reduced_radius"] / gap) - _WALL_CONSTANT
+        ratio = np.where(published > 0, np.log(outer / gap) / published, np.where(np.isnan(published), np.nan, np.inf))
+    return np.where(np.asarray(values["angle"]) > 0, ratio, math.nan)
+
+
+def _unlike(scene: Scene, values: Values) -> Any:
+    """The larger radius over the smaller; infinite for a wall."""
+    if scene.wall:
+        return math.inf
+    return np.maximum(values["radius_ratio"], 1 / values["radius_ratio"])
+
+
+def _cavitating(scene: Scene, values: Values) -> Any:
+    oblique = np.asarray(values["angle"]) > 0
+    return np.where(oblique, _unlike(scene, values), math.nan) if scene.model.film == "cavitating" else math.nan
+
+
+def _own_rupture(scene: Scene, values: Values) -> Any:
+    own = scene.bridge is not None and scene.bridge.rupture == "own"
+    return _unlike(scene, values) if own else math.nan
+
+
+def _partner(ratio: float) -> str:
+    return "the partner is a wall" if math.isinf(ratio) else f"one radius is {ratio:.4g} times the other, above 1"
+
+
+LIMITS: tuple[Limit, ...] = (
+    Limit(
+        "film_reynolds",
+        _reynolds,
+        lambda n: f"the film's Reynolds number Re = {n:.3g} is above {_REYNOLDS:g}: the liquid's inertia is left out",
+        most=_REYNOLDS,
+    ),
+    Limit(
+        "film_gap",
+        _film_gap,
+        lambda n: f"x0/a = {n:.3g} is above {_FILM_GAP:g}: lubrication theory takes a film thin beside the radius",
+        most=_FILM_GAP,
+    ),
+    Limit(
+        "rupture_gap",
+        _rupture_gap,
+        lambda n: f"x_f/a = {n:.3g} is above {_RUPTURE_GAP:g}: before rupture the gap is not small beside the radius",
+        most=_RUPTURE_GAP,
+    ),
+    Limit(
+        "bridge_liquid",
+        _liquid,
+        lambda n: f"the bridge holds {n:.3g} times the liquid of a coating x0/2 on each sphere, more than 1 times",
+        most=1.0,
+    ),
+    Limit(
+        "fly_by",
+        _bent,
+        lambda n: (
+            f"the path is bent by {math.degrees(n):.2g} deg, less than {math.degrees(_BENT):.0f} deg, and straight on "
+            "the solids would have missed each other: a fly-by, counted as stick-rotate-separate"
+        ),
+        least=_BENT,
+    ),
+    Limit(
+        "wall_coupling",
+        _wall_coupling,
+        lambda n: (
+            f"beside the wall the coupling that sets the final spin is {n:.3g} times the published one at the smallest "
+            f"gap, outside {1 / _WALL_RATIO:g} to {_WALL_RATIO:g}: the leading logarithm leaves a constant out "
+            "(Goldman, Cox & Brenner 1967)"
+        ),
+        least=1 / _WALL_RATIO,
+        most=_WALL_RATIO,
+    ),
+    Limit(
+        "cavitating_film",
+        _cavitating,
+        lambda n: f"{_partner(n)}: the film cavitating ignores the pressure of rolling between unequal surfaces",
+        most=1.0,
+    ),
+    Limit(
+        "own_rupture",
+        _own_rupture,
+        lambda n: f"{_partner(n)}: the law's own rupture distance is that of equal spheres",
+        most=1.0,
+    ),
+)
+LAW_RANGE = "law_range"
+FLAGS: tuple[str, ...] = (*(limit.flag for limit in LIMITS), LAW_RANGE)
+"""Words of the flags, in the order of their bits."""
+NEEDS = ("restitution", "tangential_restitution", "rotation", "smallest_gap")
+"""Results that the limits ask for, beside the outcome."""
+
+
+def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: Mapping[str, float | None]) -> list[str]:
+    """What of a collision lies outside the model's range, a sentence each; empty where nothing does.
+
+    Arguments:
+        speed, angle: of the impact, SI.
+        results: those of `NEEDS`, SI; None where undefined.
+    """
+    known = {name: math.nan if results[name] is None or outcome == STICK else results[name] for name in NEEDS}
+    values = si_values(scene, speed, angle) | known | {"outcome": OUTCOMES.index(outcome)}
+    said = []
+    for limit in LIMITS:
+        number = float(limit.number(scene, values))
+        if limit.passed(number):
+            said.append(limit.says(number))
+    return [*said, *remarks(scene)]
+
+
+def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
+    """A bit for each of `FLAGS` that a collision has passed, for arrays of quantities and results of one size.
+
+    Arguments:
+        scene: has the partner, the bridge and the laws; its numbers are those of `values`.
+    """
+    found = np.zeros(size, dtype=np.int16)
+    with np.errstate(all="ignore"):
+        for bit, limit in enumerate(LIMITS):
+            found |= np.where(limit.passed(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
+        for limit in _law_limits(scene):
+            outside = limit.passed(limit.number(scene, values))
+            found |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
+    return found
+
+
+def flag_attributes() -> dict[str, Any]:
+    """CF attributes of a variable of flags."""
+    return {
+        "long_name": "where the collision leaves the model's range",
+        "flag_masks": np.array([1 << bit for bit in range(len(FLAGS))], dtype=np.int16),
+        "flag_meanings": " ".join(FLAGS),
+    }
+
+
+def counted(mask: np.ndarray) -> list[tuple[str, int]]:
+    """How many collisions have passed each limit, in words: those that any has."""
+    counts = [int(np.count_nonzero(mask & (1 << bit))) for bit in range(len(FLAGS))]
+    return [(_WORDS.get(flag, flag), count) for flag, count in zip(FLAGS, counts, strict=True) if count]
+
+
+_WORDS = {
+    "film_reynolds": f"Re > {_REYNOLDS:g}",
+    "film_gap": f"x0/a > {_FILM_GAP:g}",
+    "rupture_gap": f"x_f/a > {_RUPTURE_GAP:g}",
+    "bridge_liquid": "bridge larger than the coatings",
+    "fly_by": "fly-by",
+    "wall_coupling": "spin beside the wall",
+    "cavitating_film": "cavitating between unequal surfaces",
+    "own_rupture": "own rupture of unequal spheres",
+    LAW_RANGE: "range of the bridge law",
+}
+
+
+# ---- the ranges of laws, which stand with the emitted laws (`VALIDITY`) as far as their sources give them
 
 
 @lru_cache(maxsize=64)
 def remarks(scene: Scene) -> tuple[str, ...]:
-    """Return one sentence for each quantity of the scene outside the range of validity of a law.
+    """What of the scene lies outside the range its laws were made for, a sentence each."""
+    values = si_values(scene, None, None)
+    numbers = [(limit, float(limit.number(scene, values))) for limit in _law_limits(scene)]
+    return tuple(limit.says(number) for limit, number in numbers if limit.passed(number))
 
-    Ranges are emitted with the laws (`VALIDITY`) as far as their sources state them.
-    """
+
+def _law_limits(scene: Scene) -> list[Limit]:
     if scene.bridge is None:
-        return ()
-    bridge, law = scene.bridge, law_module(scene, "bridge", scene.bridge.law)
+        return []
+    law = law_module(scene, "bridge", scene.bridge.law)
     ranges: dict[str, tuple[float | None, float | None]] = getattr(law, "VALIDITY", {})
-    reach = scene.rupture_gap / (2 * scene.reduced_radius)
-    values = {"volume": bridge.volume, "contact_angle": bridge.contact_angle, "separation": reach}
-    said = []
-    for name, (least, largest) in ranges.items():
-        value = values[name]
-        if least is not None and value < least * (1 - _ROUNDING):
-            said.append(_outside(scene, name, value, "below", least, law.VALIDITY_SOURCE))
-        elif largest is not None and value > largest * (1 + _ROUNDING):
-            said.append(_outside(scene, name, value, "above", largest, law.VALIDITY_SOURCE))
-    return tuple(said)
+    made = []
+    for name, (least, most) in ranges.items():
+        low, high = -math.inf if least is None else least, math.inf if most is None else most
+
+        def says(number: float, name: str = name, low: float = low, high: float = high) -> str:
+            side, bound = ("below", low) if number < low else ("above", high)
+            given, limit = (
+                f"{math.degrees(each):.4g} deg" if name == "contact_angle" else f"{each:.4g}"
+                for each in (number, bound)
+            )
+            bridge = scene.bridge.law if scene.bridge else ""
+            where = f"outside the range of the law {bridge} ({law.VALIDITY_SOURCE})"
+            return f"{_ENTRIES[name]} = {given} is {side} {limit}, {where}"
+
+        made.append(Limit(LAW_RANGE, _LAW_NUMBERS[name], says, low, high))
+    return made
 
 
-_ROUNDING = 1e-12  # rounding: 50 deg is within a limit of 50 deg
 _ENTRIES = {"volume": "bridge.volume", "contact_angle": "bridge.contact_angle", "separation": "x_f/R"}
-
-
-def _outside(scene: Scene, name: str, value: float, side: str, bound: float, source: str) -> str:
-    law = scene.bridge.law if scene.bridge else ""
-    shown = (f"{math.degrees(each):.4g} deg" if name == "contact_angle" else f"{each:.4g}" for each in (value, bound))
-    given, limit = shown
-    return f"{_ENTRIES[name]} = {given} is {side} {limit}, outside the range of the law {law} ({source})"
+_LAW_NUMBERS: dict[str, Callable[[Scene, Values], Any]] = {
+    "volume": lambda _, values: values["volume"],
+    "contact_angle": lambda _, values: values["contact_angle"],
+    "separation": lambda scene, values: _rupture_gap(scene, values) / 2,
+}
 
 
 def warn(scene: Scene, stacklevel: int = 3) -> tuple[str, ...]:
-    """Issue every remark as a ModelWarning, and return them."""
+    """Warn of every law used outside its range (ModelWarning), and return the sentences."""
     said = remarks(scene)
     for sentence in said:
         warnings.warn(sentence, ModelWarning, stacklevel=stacklevel)

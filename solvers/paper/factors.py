@@ -6,13 +6,13 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
 from .desk import Desk, Line, outcomes
 from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, Table, degrees, number
 from .printed import PRINTED
-from .style import LETTERS
 from .tune import printed_pressure
 from .variants import BRIDGED, described, variant
 

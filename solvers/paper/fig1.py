@@ -9,10 +9,11 @@ from ..collision.collide import collide
 from ..collision.plot.frames import sampled
 from ..collision.plot.strip import draw_strip, strip_size
 from ..collision.result import Collision
+from ..formatting.style import LETTERS
 from .desk import Desk, Job, Line
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
-from .style import COLUMN, LETTERS, sheet
+from .style import COLUMN, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _BEFORE, _AFTER = 1, 4  # frames before and after initial contact

@@ -6,6 +6,7 @@ import math
 from functools import partial
 from pathlib import Path
 
+from ..formatting.style import halo
 from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shared_out, shown
@@ -113,6 +114,6 @@ def _draw(angles: list[float], lines: list[Line], file: Path) -> None:
             ha="right",
         )
         axes.text(0.45, 22, "S", fontsize=13, ha="center")
-        axes.text(1.02, 62, "SRS", fontsize=13, ha="center")
+        axes.text(1.02, 62, "SRS", fontsize=13, ha="center", path_effects=[halo()])
         axes.text(2.0, 40, "B", fontsize=13, ha="center")
         axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)

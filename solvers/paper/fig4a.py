@@ -11,13 +11,14 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import ComputationError
+from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes, tune
 from .desk import Desk, Job, Line, change_at, outcomes, shown
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED
-from .style import ANGLE, BLUE, COLUMN, GREY, INK, ORANGE, STOKES, panel, sheet
+from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, panel, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
@@ -162,17 +163,17 @@ def _critical_lines(axes: Axes, scene: Scene, ours: float, end: float) -> None:
     axes.axvline(edge.value, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
     axes.annotate(
         f"paper:\n$St_n^*$ = {edge.text}", (edge.value, 4), (-3, 0), textcoords="offset points", color=ORANGE,
-        fontsize=7.5, ha="right",
+        fontsize=7.5, ha="right", path_effects=[halo()],
     )  # fmt: skip
     place = math.radians(33)
     at = math.sqrt(paper.value / per_stokes_squared(scene, place))
     axes.annotate(
         f"paper:\n$Ce^*$ = {paper.text}", (at, math.degrees(place)), (-14, 0), textcoords="offset points", color=ORANGE,
-        fontsize=7.5, ha="right", va="center",
+        fontsize=7.5, ha="right", va="center", path_effects=[halo()],
     )  # fmt: skip
-    axes.text(0.03, 18, "S", fontsize=13, ha="center", va="center")
-    axes.text(0.075, 62, "SRS", fontsize=13, ha="center", va="center")
-    axes.text(0.17, 70, "B", fontsize=13, ha="center", va="center")
+    axes.text(0.03, 18, "S", fontsize=13, ha="center", va="center", path_effects=[halo()])
+    axes.text(0.075, 62, "SRS", fontsize=13, ha="center", va="center", path_effects=[halo()])
+    axes.text(0.17, 70, "B", fontsize=13, ha="center", va="center", path_effects=[halo()])
     axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)
 
 
@@ -186,8 +187,8 @@ def _dry(axes: Axes, angles: list[float], lines: list[Line], stokes: float) -> N
     inset.annotate(
         "S", (0.6 * stokes, 1), (0.6 * stokes, 24), ha="center", fontsize=8, arrowprops={"arrowstyle": "->", "lw": 0.8}
     )
-    inset.text(0.055, 55, "SRS", fontsize=8, ha="center")
-    inset.text(0.185, 40, "B", fontsize=8, ha="center")
+    inset.text(0.055, 55, "SRS", fontsize=8, ha="center", path_effects=[halo()])
+    inset.text(0.185, 40, "B", fontsize=8, ha="center", path_effects=[halo()])
     inset.set(xlim=(0, _REACH), ylim=(0, 90), xticks=(0.1, 0.2), yticks=(0, 30, 60, 90))
     inset.tick_params(labelsize=6, pad=1.5)
     inset.set_title("without $F_c$", fontsize=7, pad=2)

@@ -11,12 +11,13 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...generated.automaton import BOUNCE, ROTATE
+from ..formatting.style import INK
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from .desk import Desk, Line, outcomes
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import CURVES, PRINTED
-from .style import BLUE, COLUMN, GREEN, INK, ORANGE, PURPLE, SKY, STOKES, panel, sheet
+from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, panel, sheet
 from .variants import BRIDGED, described, variant
 
 _REACH = 0.25  # St at the right edge

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
+from ..formatting.style import EDGES, FILLS, HATCHES, INK
 from .desk import Line, outcomes
-from .style import FILLS, INK
 
 _RIGHT_ANGLE = 90.0
 Strip = tuple[str, float, float]  # outcome, from St, to St
@@ -37,6 +38,9 @@ def _fill(axes: Axes, low: float, high: float, here: Line, there: Line, reach: f
         corners = [(left, low), (right, low), (far_right, high), (far_left, high)]
         fill = FILLS[outcome]
         axes.add_collection(PolyCollection([corners], facecolor=fill, edgecolor=fill, linewidth=0.3, zorder=1))
+        if HATCHES[outcome]:
+            look: Any = {"facecolor": "none", "edgecolor": EDGES[outcome], "hatch": HATCHES[outcome], "linewidth": 0}
+            axes.add_collection(PolyCollection([corners], zorder=1.5, **look))
 
 
 def _strips(line: Line, reach: float) -> list[Strip]:

@@ -22,6 +22,7 @@ _HEAD = (
     "with lever arm, tangential cut-off, glass criterion; bridge or strings",
     "why, and what goes with it",
 )
+_VIEWPORT = '<meta name="viewport" content="width=device-width, initial-scale=1">'
 _PER_CM = 60  # width on the page, pixels
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #202020; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
@@ -30,7 +31,14 @@ table { border-collapse: collapse; margin: 1rem 0; font-size: 0.86rem; }
 caption { text-align: left; font-weight: 600; padding: 0.3rem 0; }
 th, td { border-bottom: 1px solid #ddd; padding: 0.3rem 0.6rem; text-align: left; vertical-align: top; }
 th { border-bottom: 2px solid #888; } figure { margin: 1.2rem 0; } figcaption { font-size: 0.86rem; color: #555; }
-code { font-size: 0.86em; } img { max-width: 100%; height: auto; } .table { overflow-x: auto; }
+code { font-size: 0.86em; overflow-wrap: anywhere; } img { max-width: 100%; height: auto; } .table { overflow-x: auto; }
+@media (max-width: 640px) { /* a row of a table becomes a card: each cell under the name of its column */
+  body { margin: 1rem auto; } h1 { font-size: 1.3rem; }
+  table, tbody, tr, td, caption { display: block; } tr.head { display: none; }
+  tr { border: 1px solid #ccc; border-radius: 4px; margin: 0.6rem 0; padding: 0.3rem 0; }
+  td { border: 0; padding: 0.15rem 0.6rem; overflow-wrap: anywhere; }
+  td[data-label]::before { content: attr(data-label) ": "; color: #555; }
+}
 """
 
 
@@ -151,12 +159,18 @@ def page(parts: Sequence[Part], how: str) -> str:
         body += ["<h2>Inputs</h2>", _html_table(inputs(parts))]
     if any(part.comparisons for part in parts):
         body += ["<h2>Sources</h2>", _html_table(sources(parts))]
-    head = f'<meta charset="utf-8"><title>{html.escape(_TITLE)}</title><style>{_STYLE}</style>'
+    head = f'<meta charset="utf-8">{_VIEWPORT}<title>{html.escape(_TITLE)}</title><style>{_STYLE}</style>'
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(body) + "\n</body></html>\n"
 
 
 def _html_table(table: Table) -> str:
-    head = "".join(f"<th>{html.escape(cell)}</th>" for cell in table.head)
-    rows = ["<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows]
+    names = [html.escape(cell) for cell in table.head]
+    head = "".join(f"<th>{name}</th>" for name in names)
+    rows = [
+        "<tr>"
+        + "".join(f'<td data-label="{name}">{html.escape(cell)}</td>' for name, cell in zip(names, row, strict=True))
+        + "</tr>"
+        for row in table.rows
+    ]
     caption = f"<caption>{html.escape(table.caption)}</caption>"
-    return f'<div class="table"><table>{caption}<tr>{head}</tr>\n' + "\n".join(rows) + "</table></div>"
+    return f'<div class="table"><table>{caption}<tr class="head">{head}</tr>\n' + "\n".join(rows) + "</table></div>"

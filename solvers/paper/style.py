@@ -7,11 +7,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...generated.automaton import OUTCOMES
+from ..formatting.style import styled
 from ..host.files import save
 
 COLUMN = 8.8  # cm
@@ -19,12 +18,10 @@ DPI = 300
 _INCH = 2.54
 
 BLUE, ORANGE, GREEN, PURPLE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9"  # Okabe-Ito
-INK, GREY = "#202020", "#6E6E6E"
-FILLS = dict(zip(OUTCOMES, ("#BFDDF0", "#FBE3A6", "#F4F4F4"), strict=True))
-LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
+GREY = "#6E6E6E"
 STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
 
-_RC: Any = {  # matplotlib's stubs type each key separately
+_COLUMN: Any = {  # matplotlib's stubs type each key separately
     "font.size": 8,
     "axes.labelsize": 8.5,
     "axes.linewidth": 0.7,
@@ -36,15 +33,13 @@ _RC: Any = {  # matplotlib's stubs type each key separately
     "ytick.right": True,
     "lines.linewidth": 1.2,
     "legend.fontsize": 7,
-    "legend.frameon": False,
-    "mathtext.fontset": "dejavusans",
 }
 
 
 @contextmanager
 def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
     """Context of a figure of the given size in cm, saved to `file` at the end."""
-    with rc_context(_RC):
+    with styled(_COLUMN):
         figure = Figure(figsize=(width / _INCH, height / _INCH), layout="constrained")
         yield figure
         save(figure, file, dpi=DPI)

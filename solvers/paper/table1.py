@@ -7,11 +7,12 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..formatting.style import INK
 from ..host import files
 from ..scene.scene import Scene
 from .desk import Desk
 from .parts import Part, Picture
-from .style import GREY, INK, sheet
+from .style import GREY, sheet
 from .variants import BRIDGED, PENDULUM, described
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, shown
 from . import user_model as custom
+from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
 from .quantities import Ways, film, partner_mass, partner_radius, quantities, sphere
 from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, FROM_COATING, ONE_OF_EACH, REQUIRED_TABLES, TABLES, unknown_entry
 from .tables import Attraction, Bridge, Liquid, Particles, Partner, Pendulum, Table
@@ -167,13 +168,15 @@ def check_together(scene: System) -> None:
     given = dict(scene.given)
     _check_partner(scene)
     _check_laws(scene)
-    particles, x0 = scene.particles, scene.liquid.film_thickness
+    x0 = scene.liquid.film_thickness
     said = _film_said(given, x0)
     ruptured = scene.rupture_gap
-    if particles.roughness >= x0:
-        problem = "is not below the film thickness"
-        accepted = f"a roughness below {said}"
-        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+    values = _without_impact(scene)
+    for word in AT_ANY_SPEED:
+        name = ENTRIES[word]
+        if name in given and gap_at_any_speed(word, values) >= 1:
+            accepted = f"{FIELDS[name].what} below {said}"
+            raise InputError(name, given[name], accepted, "is not below the film thickness")
     if scene.bridge is not None and not x0 < ruptured < math.inf:
         radius = 2 * scene.reduced_radius
         ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
@@ -192,6 +195,10 @@ def check_together(scene: System) -> None:
             accepted = f"a string length above 4a + x_f/2 = {least:.6g} m"
             raise InputError("pendulum.length", given["pendulum.length"], accepted, problem)
     _check_speed(scene)
+
+
+def _without_impact(scene: System) -> dict[str, Any]:
+    return quantities({name: value for name, value in scene.si if not name.startswith("impact.")}, scene.ways)
 
 
 def _film_said(given: Mapping[str, Any], x0: float) -> str:
@@ -253,13 +260,13 @@ def _check_laws(scene: System) -> None:
         accepted = f"common, or own with bridge.law one of {', '.join(OWN_RUPTURE)}"
         problem = f"is not known for the law {bridge.law}"
         raise InputError("bridge.rupture", bridge.rupture, accepted, problem)
-    no_contact = scene.particles.roughness == 0 and scene.particles.youngs_modulus is None
+    no_contact = never_touching(_without_impact(scene))
     if scene.attraction is not None and scene.attraction.hamaker > 0 and no_contact:
-        accepted = "a roughness above 0, or particles.youngs_modulus and poisson_ratio"
+        accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}"
         problem = "lets the gap close, where the van der Waals attraction is without bounds"
         raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
     if scene.liquid.glass_transition_pressure is None and no_contact:
-        accepted = "a roughness above 0, elastic constants, or liquid.glass_transition_pressure"
+        accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}, or liquid.glass_transition_pressure"
         problem = "lets the gap close without end: no criterion reverses the spheres"
         raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
 

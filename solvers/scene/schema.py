@@ -76,7 +76,9 @@ class Field:
     @cached_property
     def measured(self) -> Field:
         """The entry where it is given with `or_unit`."""
-        return replace(self, unit=self.or_unit, or_unit=None)
+        unit = self.or_unit or ""
+        what = f"{self.what} {self.range.text}, such as {self.example}, or {units.DIMENSIONS[unit]}"
+        return replace(self, unit=unit, or_unit=None, what=what, example=f'"1e-13 {unit}"')
 
     @cached_property
     def quantity(self) -> str:

@@ -121,6 +121,17 @@ def is_number(text: str) -> bool:
     return len(text) <= _LONGEST and re.fullmatch(_NUMBER, text.strip(), re.IGNORECASE) is not None
 
 
+def is_ratio(unit: str) -> bool:
+    """Whether a unit, as another library writes it, is that of a plain number: none, or one like percent."""
+    unit = spelling(unit)
+    if unit in ("", "1", "dimensionless"):
+        return True
+    try:
+        return unit not in COMMON and bool(_UNIT.fullmatch(unit)) and not _judged(unit)[1]
+    except _PINT_SAYS_NO:
+        return False
+
+
 def unit_of(text: str) -> str:
     """The unit of a number that carries one, as it is written; empty if it is no such number."""
     match = _QUANTITY.fullmatch(text.strip()) if len(text) <= _LONGEST else None

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..errors import InputError
-from .units import factor, is_number
+from .units import factor, is_number, is_ratio
 
 
 class Entry(Protocol):
@@ -113,7 +113,7 @@ def carries_unit(values: Any) -> bool:
     if isinstance(values, str):
         return not is_number(values)
     unit = _unit(values)[0]
-    return unit is not None and unit.strip() not in ("", "1", "dimensionless", "percent", "%")
+    return unit is not None and not is_ratio(unit)
 
 
 def _unit(value: Any) -> tuple[str | None, Any]:

@@ -21,9 +21,9 @@ from ..engines.casadi.integrators import IntegrationFailed, tolerance
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
-from ..model.contact import GAPS, contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
+from ..scene.contact import ENTRIES, GAPS, TIE, contact_gap
 from ..scene.scene import Scene
 from .result import Near
 
@@ -136,7 +136,7 @@ def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
         if step.phase.motion == CLOSING:
             yield from _criteria(model, path, step, y, groups["glass_number"], contact)
             if step.event == "contact" and smaller > 0:
-                yield Near("tie of roughness and elastic length", math.log(contact / smaller), "particles.roughness")
+                yield Near(TIE, math.log(contact / smaller), list(ENTRIES.values())[-1])
         else:
             yield from _leaving(finder, step, y)
         yield from _passing(finder, step, y)

@@ -21,10 +21,10 @@ from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, to
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
-from ..model.contact import GAPS, contact_word
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
+from ..scene.contact import GAPS, contact_word
 from ..scene.scene import Scene
 from .derivatives import adjoint, evaluate, settled
 from .directions import landed

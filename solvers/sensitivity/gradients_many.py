@@ -12,6 +12,7 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ...generated.automaton import STICK as STICKS
+from ..engines.choice import gradient_engine
 from ..engines.taylor.call import Impacts, order_for
 from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
@@ -26,7 +27,6 @@ from ..scene.schema import SPEEDS
 from ..settings import FEW, RTOL, STEPS, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
-from .choice import chosen
 from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, parameter_map, references
 from .problem import NEAR, SHARPEST
 from .result import Near
@@ -153,7 +153,7 @@ def gradients_many(
     left = np.arange(request.size)
     oblique = set((request.angle > 0).tolist())
     if by is None:
-        by = chosen(loaded, names, oblique, request.rtol, request.size)
+        by = gradient_engine(loaded, names, kernel.KNOWN, oblique, request.rtol, request.size)
     if by == "taylor" and kernel.offers(loaded, names, oblique):
         left = _by_kernel(asked)
     for k in left:

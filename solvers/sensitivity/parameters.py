@@ -16,7 +16,7 @@ from ...generated import scaling
 from ..errors import InputError, did_you_mean
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
-from ..model.contact import GAPS
+from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas
 from ..scene.quantities import Ways, film, normal_speed, quantities
 from ..scene.scene import Scene

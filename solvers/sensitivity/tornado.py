@@ -15,7 +15,7 @@ _LONG = 6  # most columns of panels
 _NAMES = {
     "impact.speed": "impact speed, Stokes",
     "impact.angle": "impact angle",
-    "bridge.volume": "bridge volume $V/R^3$",
+    "bridge.volume": "bridge volume",
     "particles.youngs_modulus": "Young's modulus",
     "particles.poisson_ratio": "Poisson's ratio",
 }
@@ -47,6 +47,12 @@ def draw(found: Elasticities) -> Any:
     Returns:
         The matplotlib Figure.
     """
+    from ..formatting.style import picture
+
+    return picture(_drawn)(found)
+
+
+def _drawn(found: Elasticities) -> Any:
     from matplotlib.figure import Figure
 
     shown = [name for name in found.value if any(found.elasticity[name].values())]
@@ -67,8 +73,8 @@ def draw(found: Elasticities) -> Any:
     notes = [f"{found.outcome}, $e_n$ = {found.value['restitution']:.4g}" if _has_value(found) else found.outcome]
     notes += [f"too little to be seen: {', '.join(_short(weak))}"] if _short(weak) else []
     notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
-    figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", fontsize=11, color=_INK)
-    figure.supxlabel(_wrapped("; ".join(notes), 34 * len(panels) + 30), fontsize=7.5, color="#555555")
+    figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", color=_INK)
+    figure.supxlabel(_wrapped("; ".join(notes), 34 * len(panels) + 30), color="#555555")
     return figure
 
 
@@ -88,7 +94,7 @@ def _ranked(found: Elasticities, names: Sequence[str]) -> list[str]:
 def _panel(axis: Any, found: Elasticities, name: str, order: Sequence[str]) -> None:
     values = [found.elasticity[name][p] or 0.0 for p in order]
     bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
-    axis.set_yticks(range(len(order)), [_label(p) for p in order], fontsize=8.5)
+    axis.set_yticks(range(len(order)), [_label(p) for p in order])
     axis.axvline(0, color=_INK, linewidth=0.8)
     reach = max((abs(v) for v in values), default=1.0) or 1.0
     axis.set_xlim(-1.45 * reach, 1.45 * reach)
@@ -101,8 +107,7 @@ def _panel(axis: Any, found: Elasticities, name: str, order: Sequence[str]) -> N
         )  # fmt: skip
     unit = QUANTITIES[name].unit
     value_ = found.value[name]
-    axis.set_title(f"{name.replace('_', ' ')}\n{value_:.4g}{'' if unit == '1' else ' ' + unit}", fontsize=9, color=_INK)
-    axis.tick_params(axis="x", labelsize=8)
+    axis.set_title(f"{name.replace('_', ' ')}\n{value_:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
     axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(axis="y", length=0)
 

@@ -16,6 +16,7 @@ from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance
 from ..engines.casadi.locate import EventSequence
+from ..engines.choice import casadi_gradient_engine
 from ..errors import ComputationError, InputError
 from ..host.pictures import register
 from ..host.thread_caches import own_cache
@@ -81,7 +82,7 @@ def trajectory_sensitivities(
     import xarray as xr
 
     register()
-    rtol, plugin = check_rtol(rtol), check_plugin(engine) or "rosenbrock"
+    rtol, plugin = check_rtol(rtol), casadi_gradient_engine(check_plugin(engine))
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     hold = hold_of(loaded, hold)
     names = check_wrt(loaded, wrt)

@@ -16,9 +16,9 @@ from casadi import DM, MX, Function, vertcat
 from ..engines.casadi.integrators import Tolerance, landing, plain
 from ..engines.casadi.locate import EventSequence
 from ..host.thread_caches import own_cache
-from ..model.contact import GAPS, contact_word
 from ..model.model import Model, ModelKey, load
 from ..model.phases import Flow, Phase, WatchedEvents
+from ..scene.contact import GAPS, contact_word
 from .results import QUANTITIES
 
 # further arguments of the guards: direction of motion, and the certificate's level, which is not used here

@@ -235,6 +235,12 @@ def draw(found: xarray.Dataset) -> Any:
     Returns:
         The matplotlib Figure.
     """
+    from ..formatting.style import picture
+
+    return picture(_drawn)(found)
+
+
+def _drawn(found: xarray.Dataset) -> Any:
     from matplotlib.figure import Figure
 
     over = str(next(iter(found.dims)))
@@ -257,8 +263,9 @@ def draw(found: xarray.Dataset) -> Any:
     axis.plot(x, found.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
     unit = found[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
-    axis.set_xlabel({"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "St"))
-    axis.set_title(found.attrs["uncertainty"], fontsize=9)
+    labels = {"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}
+    axis.set_xlabel(labels.get(over, "Stokes number $St_n$"))
+    axis.set_title(f"{of.replace('_', ' ')} with {found.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
-    axis.legend(frameon=False, fontsize=8)
+    axis.legend()
     return figure

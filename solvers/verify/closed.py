@@ -14,10 +14,10 @@ import numpy as np
 from ..collision.collide import collide
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance
 from ..errors import ComputationError
-from ..model.contact import contact_gap
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
 from ..model.phases import Flow, Region
+from ..scene.contact import contact_gap
 from ..scene.scene import Scene
 from .report import Finding, bounded
 from .sample import PLUGINS, RTOL, Collide, own_stokes, place

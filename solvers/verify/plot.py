@@ -14,9 +14,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from ..boundaries.on_map import map_curves
 from ..collision.text import name_of
+from ..engines.taylor.build import supported
 from ..formatting import ticks
+from ..formatting.style import INK, NOTHING, picture, plain_text
 from ..host.files import save
+from ..many.plot_map import draw_contours, label_scale
+from ..many.regime_map import regime_map
 from ..scene.scene import Scene
 from .budget import LOSSES
 
@@ -29,11 +34,12 @@ COLOURS = {
     "dry_contact": "#E69F00",
     "strings": "#8C6D31",
 }
-_NOTHING, _INK, _NOTE = "#DDDDDD", "black", "#6E6E6E"
-_BRIGHTEST = 2.0  # upper limit of e_n in the colour scale
+_HIGHEST = 2.0  # most e_n that the colours tell apart
+_FINE = 160  # rows and columns of the map of e_n, where the kernel computes it
 _STEEP = math.radians(75)  # angle of the upper panel, degrees; the lower one is less oblique
 
 
+@picture
 def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
     """Draw a budget over angle and Stokes number, as returned by `restitution_budget`.
 
@@ -49,14 +55,12 @@ def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
     for panel, row, letter in zip(panels, shown, "bc"):
         _terms(panel, data, row, letter)
     panels[0].tick_params(labelbottom=len(panels) == 1)
-    panels[-1].set_xlabel("Stokes number St", fontsize=9)
+    panels[-1].set_xlabel("Stokes number St")
     _legend(figure, data)
-    title = name_of(scene).replace("$", r"\$")
-    figure.suptitle(
-        f"{title}: energy of rotation released against losses, and the restitution that they leave", fontsize=11
-    )
+    title = plain_text(name_of(scene))
+    figure.suptitle(f"{title}: energy of rotation released against losses, and the restitution that they leave")
     if path is not None:
-        save(figure, path, dpi=130)
+        save(figure, path, dpi=150)
     return figure
 
 
@@ -70,36 +74,46 @@ def _rows(data: xarray.Dataset, scene: Scene) -> list[int]:
 
 
 def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> None:
-    """Draw the map of e_n, white where e_n = 1."""
-    e_n = np.ma.masked_where(data["outcome"].values <= 0, data["restitution"].values)
-    angles, stokes = np.degrees(data["angle"].values), data["stokes"].values
-    norm = TwoSlopeNorm(1.0, 0.0, _BRIGHTEST)
-    axes.set_facecolor(_NOTHING)
-    above = bool(np.ma.count(e_n)) and float(e_n.max()) > _BRIGHTEST
+    """Draw the map of e_n, white where e_n = 1, and the exact boundaries between outcomes."""
+    fine = _fine(data)
+    e_n = np.ma.masked_where(fine["outcome"].values <= 0, fine["restitution"].values)
+    angles, stokes = np.degrees(fine["angle"].values), fine["stokes"].values
+    axes.set_facecolor(NOTHING)
+    norm = TwoSlopeNorm(1.0, 0.0, _HIGHEST)
     mesh = axes.pcolormesh(angles, stokes, e_n.T, cmap="RdBu_r", norm=norm, shading="nearest", rasterized=True)
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02, extend="max" if above else "neither", ticks=np.arange(0, 2.1, 0.25))
-    bar.set_label("normal restitution $e_n$ (grey: stick)", fontsize=9)
-    bar.ax.tick_params(labelsize=8)
-    if np.ma.count(e_n) and float(e_n.max()) > 1 > float(e_n.min()):
-        # a stick has e_n = 0, so the contour passes between it and its neighbours
-        filled = np.where(np.isfinite(data["restitution"].values), data["restitution"].values, 0.0)
-        contour = axes.contour(angles, stokes, filled.T, levels=[1.0], colors=_INK, linewidths=1.2)
-        axes.clabel(contour, fmt={1.0: "$e_n = 1$"}, fontsize=8)
-    else:
+    highest = float(e_n.max()) if e_n.count() else 0.0
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, extend="max" if highest > _HIGHEST else "neither")
+    label_scale(bar, _HIGHEST, max(highest, _HIGHEST))
+    axes.set_yscale("log")
+    axes.set_xlim(angles[0], angles[-1])
+    axes.set_ylim(stokes[0], stokes[-1])
+    for x, y in map_curves(fine).get(0, []):
+        axes.plot(np.degrees(x), y, color=INK, linewidth=0.9, zorder=3)[0].set_gid("boundary")
+    draw_contours(axes, fine, [1.0])
+    if highest < 1:
         axes.text(0.03, 0.03, "$e_n < 1$ everywhere", transform=axes.transAxes, fontsize=9, ha="left")
+    angles = np.degrees(data["angle"].values)
     for row, letter in zip(shown, "bc"):
-        axes.axvline(angles[row], color=_INK, linewidth=0.8, linestyle=":")
+        axes.axvline(angles[row], color=INK, linewidth=0.8, linestyle=":")
         axes.annotate(
             letter, (angles[row], 1), (0, 2), xycoords=axes.get_xaxis_transform(), textcoords="offset points",
             ha="center", fontsize=8,
         )  # fmt: skip
-    axes.set_yscale("log")
     ticks.plain(axes.yaxis, (1, 3))
     axes.xaxis.set_major_locator(MaxNLocator(9, steps=[1, 2, 3, 5, 10]))
-    axes.set_xlabel("impact angle (deg)", fontsize=9)
-    axes.set_ylabel("Stokes number St", fontsize=9)
-    axes.tick_params(labelsize=8)
+    axes.set_xlabel("impact angle (deg)")
+    axes.set_ylabel("Stokes number St")
     axes.set_title("(a)", loc="left", fontsize=10, fontweight="bold")
+
+
+def _fine(data: xarray.Dataset) -> xarray.Dataset:
+    """Restitution in the window of a budget, on a finer grid where the kernel computes it; else the budget's own."""
+    scene = Scene.from_toml(data.attrs["scene"])
+    angle, stokes = data["angle"].values, data["stokes"].values
+    if not supported(scene) or min(angle.size, stokes.size) < 2:
+        return data
+    across, up = np.linspace(angle[0], angle[-1], _FINE), np.geomspace(stokes[0], stokes[-1], _FINE)
+    return regime_map(scene, stokes=up, angle=across, of=("restitution",))
 
 
 def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
@@ -117,19 +131,18 @@ def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
             axes.fill_between(stokes, stack, stack + side, where=parted, color=colour, linewidth=0)
             stack += side
     excess = data["excess"].values[row]
-    axes.plot(stokes, excess, color=_INK, linewidth=1.8)
-    axes.plot(stokes, np.where(excess > 0, excess, np.nan), "o", color=_INK, markersize=3.5, markerfacecolor="white")
-    axes.axhline(0, color=_INK, linewidth=0.6)
+    axes.plot(stokes, excess, color=INK, linewidth=1.8)
+    axes.plot(stokes, np.where(excess > 0, excess, np.nan), "o", color=INK, markersize=3.5, markerfacecolor="white")
+    axes.axhline(0, color=INK, linewidth=0.6)
     for first, last in _runs(~parted):
-        axes.axvspan(_between(stokes, first - 1, first), _between(stokes, last, last + 1), color=_NOTHING, linewidth=0)
+        axes.axvspan(_between(stokes, first - 1, first), _between(stokes, last, last + 1), color=NOTHING, linewidth=0)
     axes.set_xlim(stokes[0], stokes[-1])
     ticks.plain(axes.xaxis, (1, 3))
     angle = math.degrees(float(data["angle"][row]))
     axes.set_title(f"({letter})", loc="left", fontsize=10, fontweight="bold")
-    axes.set_title(f"{angle:.0f}°: terms of $e_n^2 - 1$", fontsize=9)
-    axes.set_ylabel("energy / $\\frac{1}{2} m v_0^2$", fontsize=9)
+    axes.set_title(f"{angle:.0f}°: terms of $e_n^2 - 1$")
+    axes.set_ylabel("energy / $\\frac{1}{2} m v_0^2$")
     axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
-    axes.tick_params(labelsize=8)
     axes.spines[["top", "right"]].set_visible(False)
 
 
@@ -149,6 +162,6 @@ def _legend(figure: Figure, data: xarray.Dataset) -> None:
     there = [name for name in LOSSES if np.nanmax(np.abs(data[name].values), initial=0.0) > 0]
     handles: list[Patch | Line2D] = [Patch(color=RELEASED, label="rotation released")]
     handles += [Patch(color=COLOURS[name], label=LOSSES[name]) for name in there]
-    handles += [Line2D([], [], color=_INK, linewidth=1.8, marker="o", markersize=3.5, markerfacecolor="white",
-                       label="$e_n^2 - 1$ (circles: > 0)"), Patch(color=_NOTHING, label="stick")]  # fmt: skip
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8, frameon=False)
+    handles += [Line2D([], [], color=INK, linewidth=1.8, marker="o", markersize=3.5, markerfacecolor="white",
+                       label="$e_n^2 - 1$ (circles: > 0)"), Patch(color=NOTHING, label="stick")]  # fmt: skip
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))

@@ -12,6 +12,7 @@ from matplotlib.ticker import LogLocator, NullLocator
 from ..collision.text import name_of
 from ..formatting import ticks
 from ..formatting.markdown import table
+from ..formatting.style import NOTE, picture, plain_text
 from ..host.environment import environment
 from ..host.files import save
 from .work_precision import Row, WorkPrecision, shown
@@ -21,7 +22,6 @@ _STYLES = {  # Okabe-Ito colours and a marker for each engine
     "rosenbrock": ("#D55E00", "s"),
     "taylor": ("#E69F00", "*"),
 }
-_NOTE = "#555555"
 
 
 def to_dict(found: WorkPrecision, error: float) -> dict[str, Any]:
@@ -107,6 +107,7 @@ def _cells(row: Row) -> list[str]:
     return [row.engine, f"{row.rtol:.0e}", *errors, *costs, str(row.wrong), str(row.failed)]
 
 
+@picture
 def draw(found: WorkPrecision, error: float, path: str | Path | None = None) -> Figure:
     """Draw CPU time against achieved error, alone and in a batch, one curve per engine; recommended points are ringed.
 
@@ -141,10 +142,10 @@ def draw(found: WorkPrecision, error: float, path: str | Path | None = None) -> 
     _limits(left, right, found, error)
     left.set_ylabel("CPU time a collision (ms)")
     handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=5, frameon=False, fontsize=9)
+    figure.legend(handles, labels, loc="outside upper center", ncols=5)
     signs = "ringed: recommended for the error wanted; hollow: outcomes wrong or missing"
     note = f"{name_of(found.scene)}: {found.sample}\n{signs}"
-    figure.supxlabel(note.replace("$", r"\$"), fontsize=8, color=_NOTE)
+    figure.supxlabel(plain_text(note), color=NOTE)
     if path is not None:
         save(figure, path, dpi=150)
     return figure
@@ -155,8 +156,8 @@ def _columns(points: list[tuple[float, float, Row]]) -> tuple[list[float], list[
 
 
 def _frame(axes: Axes, title: str) -> None:
-    axes.set_title(title, fontsize=10)
-    axes.set_xlabel("largest absolute error of $e_n$", fontsize=9)
+    axes.set_title(title)
+    axes.set_xlabel("largest absolute error of $e_n$")
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     axes.xaxis.set_major_locator(LogLocator(base=100, numticks=20))
     axes.xaxis.set_minor_locator(NullLocator())
@@ -174,6 +175,6 @@ def _limits(left: Axes, right: Axes, found: WorkPrecision, error: float) -> None
         if not found.separate:
             style: Any = {"ha": "center", "transform": axes.transAxes, "bbox": {"color": "white"}}
             axes.text(0.5, 0.5, "all collisions stick:\nno error to draw", **style)
-        axes.axvline(error, color=_NOTE, linestyle="--", linewidth=1, label="error wanted")
+        axes.axvline(error, color=NOTE, linestyle="--", linewidth=1, label="error wanted")
         if own:
             axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the references' difference")

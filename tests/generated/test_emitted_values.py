@@ -119,7 +119,7 @@ def compare(label: str, exact: Exact, found: list[float], arguments: list[float]
 
 
 def draw(generator: random.Random, names: list[str]) -> list[float]:
-    return [generator.uniform(*RANGES[name]) for name in names]
+    return [generator.uniform(*RANGES.get(name, (0.1, 1.0))) for name in names]
 
 
 # Laws and groups
@@ -245,7 +245,7 @@ def test_module_lists_what_the_model_has(structure: Structure):
     assert tuple(f.name for f in model.functions) == module.FUNCTIONS
     assert tuple(f.name for f in model.functions if f.regional) == module.REGIONAL
     laws = Laws(**{slot: emitted(f"laws.{_law(structure, 0, slot).module}") for slot in module.SLOTS})
-    point = {name: sum(RANGES[name]) / 2 for name in (*module.STATES, *module.GROUPS)}
+    point = {name: sum(RANGES.get(name, (0.1, 1.0))) / 2 for name in (*module.STATES, *module.GROUPS)}
     for function in model.functions:
         outputs = getattr(module, function.name)(point, point, laws)
         assert tuple(outputs) == tuple(name for name, _ in function.outputs)

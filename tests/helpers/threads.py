@@ -105,7 +105,7 @@ def _refused() -> str:
 
 def _remarked() -> str:
     with_remark = Scene.load(GRANULATION).with_entries({"bridge.law": "willett", "bridge.volume": 0.5})
-    return " ".join(collide(with_remark, **IMPACT).warnings)
+    return " ".join(collide(with_remark, **IMPACT).validity)
 
 
 def _varied() -> Scene:

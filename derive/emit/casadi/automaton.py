@@ -11,6 +11,7 @@ from .modules import _PROVENANCE, digest
 _DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
 _CRITERION_FIELDS = {
     "limit": "str",
+    "name": "str",
     "contact": "bool",
     "symbol": "str",
     "removed_by": "tuple[str, float] | None",
@@ -80,7 +81,7 @@ def automaton_module() -> str:
 
 
 def _criteria() -> list[str]:
-    doc = "A rebound criterion: the group at which it is met, whether that is a gap, what removes it, and its sentence."
+    doc = "A rebound criterion: the group at which it is met, its name and symbol, and what removes it."
     lines = ["", "", *_named_tuple("Criterion", doc, _CRITERION_FIELDS), "", ""]
     lines += ["CRITERIA = {  # by word, in the order in which they apply on entry"]
     for each in automaton.CRITERIA:

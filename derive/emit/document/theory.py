@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
@@ -31,6 +32,7 @@ from ...physics.mechanics import (
 )
 from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions
 from ...vocabulary.quantities import (
+    VOCABULARY,
     a,
     beta,
     capillary,
@@ -47,7 +49,6 @@ from ...vocabulary.quantities import (
     v0,
     x,
     x0,
-    x_b,
     xi,
 )
 from .latex import latex
@@ -64,6 +65,7 @@ DEFAULTS: Mapping[str, str] = {
 
 _SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # d of the strings, theta_e of the spheres
 _RIM = sp.Symbol("rim", positive=True)  # H of a film of constant volume, in SI
+_ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 _TWO_FIFTHS = sp.Rational(2, 5)
 
 
@@ -207,10 +209,12 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     yield Equation(group, f"{latex(x)}(0)", start[x], "initial contact")
     yield Equation(group, f"{latex(u)}(0)", start[u], "no spin, no angle turned yet")
     yield Equation(group, latex(omega0), initial_rate())
-    yield Equation(group, latex(p_gt), pressure, "(i) glass transition", r"\leq")
-    yield Equation(group, latex(x), sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False), "(ii) elastic length", r"\leq")
-    yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
-    yield Equation(group, latex(x), x_b, "(iii) roughness", r"\leq")
+    printed = {"glass": pressure, "elastic": sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False)}  # as in the paper
+    for number, each in zip(_ROMAN, CRITERIA, strict=False):
+        limit = printed.get(each.word, x0 * group_definitions()[VOCABULARY[each.limit].symbol])
+        yield Equation(group, latex(x if each.contact else p_gt), limit, f"({number}) {each.name}", r"\leq")
+        if limit.has(_COMPLIANCE):
+            yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
     yield Equation(
         group,
         latex(u),

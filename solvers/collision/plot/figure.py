@@ -8,8 +8,10 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
+from ....generated.automaton import STICK
+from ...formatting.style import picture, plain_text
 from ..outcome import Outcome
-from ..text import is_followed_on, name_of, prefix, reason, stopped
+from ..text import against, is_followed_on, name_of, prefix, reason, stopped
 from .frames import Frame, frames
 from .strip import draw_strip, strip_size
 from .time_panels import GREY, letter, micro, time_panels
@@ -19,6 +21,7 @@ _ROW = 1.35  # height of a row of panels, inches
 _STRIP = WIDTH - 0.5
 
 
+@picture
 def draw(collision: Outcome) -> Figure:
     """Draw a collision.
 
@@ -33,14 +36,14 @@ def draw(collision: Outcome) -> Figure:
     strip = min(_STRIP * high / across, 2.0) + 0.45
     figure = Figure(figsize=(WIDTH, 1.0 + strip + rows * _ROW + 0.75 * bool(rows)), layout="constrained")
     grid = figure.add_gridspec(1 + bool(rows), 1, height_ratios=[rows * _ROW + 0.75, strip] if rows else [strip])
-    figure.suptitle(_title(collision), fontsize=11)
+    figure.suptitle(_title(collision))
     if rows:
         time_panels(figure, grid[0], collision, rows, pictures)
     axes = figure.add_subplot(grid[-1])
     latest = duration or pictures[-1].time
-    draw_strip(axes, collision, pictures, [_caption(frame, collision, latest) for frame in pictures])
-    letter(axes, "c" if rows == 4 else "b" if rows else "", 0)
-    figure.supxlabel(_note(collision, pictures), fontsize=7.5, color=GREY)
+    draw_strip(axes, collision, pictures, [_caption(frame, collision, latest, pictures[-1]) for frame in pictures])
+    letter(axes, "c" if rows == 4 else "b" if rows else "")
+    figure.supxlabel(_note(collision, pictures), color=GREY)
     return figure
 
 
@@ -49,7 +52,7 @@ def _short(value: float) -> str:
 
 
 def _title(collision: Outcome) -> str:
-    name = name_of(collision.scene).replace("$", r"\$")
+    name = plain_text(name_of(collision.scene)) + against(collision.scene)
     numbers = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°, $e_n$ = {collision.restitution:.4g}"
     parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
     why = re.sub(r"(?<=\d )us\b", "µs", "; ".join(part for part in parts if part))
@@ -57,7 +60,7 @@ def _title(collision: Outcome) -> str:
 
 
 def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
-    text = "Seen from above, to scale, film and liquid bridge in blue; arrows: velocities"
+    text = "Seen from above, to scale (thin films thicker, to be seen); liquid in blue; arrows: velocities"
     text += "; lines: marks that met at initial contact."
     if collision.scene.wall and collision.angle:
         text += "\nBeside a wall no line of centres turns (ω = 0): the sphere slides and rolls along it."
@@ -71,7 +74,7 @@ def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     return text
 
 
-def _caption(frame: Frame, collision: Outcome, latest: float) -> str:
+def _caption(frame: Frame, collision: Outcome, latest: float, last: Frame) -> str:
     factor, unit = prefix(latest)
     time = "initial contact" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
     moved = ""
@@ -80,4 +83,5 @@ def _caption(frame: Frame, collision: Outcome, latest: float) -> str:
         moved = f"\nslid {_short(frame.slid / size)} {micro(name + 'm')}" if frame.slid else "\nslid 0"
     elif collision.angle:
         moved = f"\nβ = {_short(math.degrees(frame.angle))}°"
-    return f"{time}{moved}" + ("\napart" if frame.free else "")
+    ending = "\napart" if frame.free else "\nsticks" if collision.outcome == STICK and frame is last else ""
+    return f"{time}{moved}{ending}"

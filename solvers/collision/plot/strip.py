@@ -14,6 +14,7 @@ from ..outcome import Outcome
 from .frames import Frame, Vector
 
 LIQUID, VELOCITY, FIRST, SECOND, INK = "#56B4E9", "#D55E00", "#E8E8E8", "#BDBDBD", "#202020"
+_COAT = 3.0  # points, half of them outside: width of the line around a film, which is seen however thin
 _BETWEEN = 0.7  # space between frames, in units of R
 _ARROW = 1.15  # length of the longest velocity arrow, in units of R; centred on the sphere
 
@@ -67,7 +68,9 @@ def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: f
         _draw_wall(axes, centres[1], film, frame.slid / radius)
     for centre, size in zip(centres, radii):
         if math.isfinite(size):
-            axes.add_patch(Circle(centre, size + film, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
+            coat = Circle(centre, size + film, facecolor=LIQUID, edgecolor=LIQUID, linewidth=_COAT, zorder=1)
+            coat.set_gid("film")
+            axes.add_patch(coat)
     half = wetted_radius(scene, frame.gap) / radius
     if half > 0 and not frame.free:
         axes.add_patch(Polygon(_neck(frame, place, half), closed=True, facecolor=LIQUID, edgecolor="none", zorder=2))
@@ -75,7 +78,7 @@ def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: f
     for centre, size, turned, shade, start in zip(centres, radii, turns, (FIRST, SECOND), (0.0, math.pi), strict=True):
         if not math.isfinite(size):
             continue
-        ball = Circle(centre, size, facecolor=shade, edgecolor=INK, linewidth=0.8, zorder=3)
+        ball = Circle(centre, size, facecolor=shade, edgecolor=INK, linewidth=0.6, zorder=3)
         ball.set_gid("sphere")
         axes.add_patch(ball)
         rim = (centre[0] + size * math.cos(start + turned), centre[1] + size * math.sin(start + turned))
@@ -99,7 +102,9 @@ def _draw_wall(axes: Axes, nearest: Vector, film: float, slid: float) -> None:
     """Draw the wall at the right, its film, and a mark at the point of initial contact."""
     high = 1.6  # in units of R; the same as in the frame's half_height
     left = nearest[0]
-    axes.add_patch(Rectangle((left - film, -high), film, 2 * high, facecolor=LIQUID, alpha=0.55, linewidth=0, zorder=1))
+    coat = Rectangle((left - film, -high), film, 2 * high, facecolor=LIQUID, edgecolor=LIQUID, zorder=1)
+    coat.set(linewidth=_COAT, gid="film")
+    axes.add_patch(coat)
     solid = Rectangle((left, -high), 0.35, 2 * high, facecolor=SECOND, edgecolor=INK, linewidth=0.8, zorder=3)
     solid.set_gid("wall")
     axes.add_patch(solid)

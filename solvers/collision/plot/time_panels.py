@@ -14,10 +14,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.transforms import blended_transform_factory
 
 from ....generated.automaton import CRITERIA
 from ...formatting import ticks
-from ...model.contact import GAPS
+from ...scene.contact import GAPS
 from ...scene.groups import scaled
 from ..outcome import Outcome
 from ..text import prefix, quantity
@@ -69,7 +70,9 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
     _match(columns, time, np.asarray(data["normal_velocity"]))
     for row, text in ((0, "a"), (2, "b")):
         if row < rows:
-            letter(panels[0][row], text, -46)
+            letter(panels[0][row], text)
+    for column_of_panels in panels:
+        figure.align_ylabels(column_of_panels)
     if rows == 4 and not collision.scene.wall:
         shown = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
         whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
@@ -234,12 +237,16 @@ def _match(columns: Sequence[Column], time: np.ndarray, velocity: np.ndarray) ->
     whole.panels[1].set_ylim(low - room, high + room)
 
 
-def letter(axes: Axes, text: str, offset: float) -> None:
-    """Draw the panel's letter at its upper left."""
-    axes.annotate(
-        f"({text})" if text else "", (0, 1), (offset, 2), xycoords="axes fraction", textcoords="offset points",
-        fontweight="bold", fontsize=10, ha="left", va="bottom",
+def letter(axes: Axes, text: str) -> None:
+    """Draw a panel's letter at the left edge of the figure, above the panel: all letters are in one column."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    place = blended_transform_factory(figure.transFigure, axes.transAxes)
+    drawn = axes.annotate(
+        f"({text})" if text else "", (0.006, 1), (0, 2), xycoords=place, textcoords="offset points",
+        fontweight="bold", fontsize=10, ha="left", va="bottom", annotation_clip=False,
     )  # fmt: skip
+    drawn.set_in_layout(False)
 
 
 def micro(unit: str) -> str:

@@ -28,9 +28,9 @@ from ....generated.automaton import (
 )
 from ...certificates import Certainty, Certificate, NoCertificate, OrbitalMomentumCertificate, at_maximum, proof_for
 from ...errors import CheckFailed, ComputationError
-from ...model.contact import contact_gap, contact_word
 from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
+from ...scene.contact import contact_gap, contact_word
 from ...settings import CALL, STEPS
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...model.contact import NEVER_MET
 from ...model.model import ModelKey, select_model
+from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS

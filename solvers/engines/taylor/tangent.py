@@ -11,6 +11,7 @@ import numpy as np
 from ....generated.automaton import LOOSEST
 from ...host.compiler import compiler
 from ...model.model import select_model
+from ...scene.contact import ENTRIES, TIE
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, kernel
@@ -21,7 +22,7 @@ from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # the boundary of a trajectory that rested on the solids
 DISTANCES = {  # boundaries whose measure is the distance that `sensitivities` names
-    6: ("tie of roughness and elastic length", "particles.roughness"),
+    6: (TIE, list(ENTRIES.values())[-1]),
     7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
 }

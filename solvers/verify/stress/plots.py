@@ -7,19 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from ....generated.automaton import OUTCOMES
 from ...boundaries.changes import GRAZE
+from ...formatting.style import picture
 from ...formatting.ticks import plain
 from ...host.files import save
 from .run import Stress
 from .verdict import FAST
 
-_RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8}
 _COLOURS = {"taylor": "#E69F00", "rosenbrock": "#D55E00", "cvodes": "#0072B2", "LSODA": "#CC79A7"}
 _MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 
@@ -27,17 +26,19 @@ _MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 def draw(found: Stress, folder: Path) -> list[Path]:
     """Draw stress-map.png and stress-near.png; returns their paths."""
     files = []
-    with rc_context(_RC):
-        for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
-            files.append(folder / name)
-            save(make(found), files[-1], dpi=160)
+    for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
+        files.append(folder / name)
+        save(make(found), files[-1], dpi=160)
     return files
 
 
+@picture
 def over_impacts(found: Stress) -> Figure:
     """Draw the difference of e_n between engines and the cost of the fast one, a point for each sampled scene."""
     figure = Figure(figsize=(10.4, 5.0), layout="constrained")
     left, right = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
+    left.set_title("(a) do the engines agree?", loc="left")
+    right.set_title("(b) what does a collision cost?", loc="left")
     sampled = [one for one in found.verdicts if one.case.kind == "sampled"]
     error = [max(one.error or 0.0, 1e-16) for one in sampled]
     cost = [1e3 * one.found[FAST].cpu if FAST in one.found else np.nan for one in sampled]
@@ -62,11 +63,9 @@ def over_impacts(found: Stress) -> Figure:
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
         axes.set_yticks(range(0, 91, 15))
     left.set_ylabel("impact angle (deg)")
-    left.set_title("agreement between engines")
-    right.set_title("cost of one collision")
-    figure.suptitle(f"{len(sampled)} randomly sampled scenes, computed by every engine", fontsize=11)
+    figure.suptitle(f"Engines against each other in {len(sampled)} random scenes")
     handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False)
+    figure.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure
 
 
@@ -101,6 +100,7 @@ def _marked(axes: Axes, found: Stress) -> None:
             axes.scatter(stokes, angles, c=colour, marker=marker, s=34, linewidths=1.1, label=label)
 
 
+@picture
 def near(found: Stress) -> Figure:
     """Draw CPU time of every engine against the relative distance from an escape: medians, and all points faintly."""
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
@@ -119,9 +119,9 @@ def near(found: Stress) -> Figure:
         xlabel="relative distance from where a doublet begins to escape, in St",
         ylabel="CPU time (ms)",
     )
-    figure.suptitle("CPU time of a collision beside a boundary of escape", fontsize=11)
+    figure.suptitle("Cost of a collision beside the boundary of escape")
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     if beside:
         axes.invert_xaxis()
-        axes.legend(frameon=False, ncols=2, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
+        axes.legend(ncols=2, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
     return figure

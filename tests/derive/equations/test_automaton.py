@@ -10,7 +10,7 @@ import pytest
 from wetdoublet.derive.emit.write import GENERATED
 from wetdoublet.derive.equations.automaton import ACTIONS, COMPONENTS, EVENTS, OUTCOMES, RULES, STATUSES, WORDS
 
-# as the interface has them
+# as the interface has them; further criteria add theirs
 KINDS = {
     "glass", "elastic", "rough", "turned", "fell back", "film edge", "tangential edge", "rests", "released", "rupture",
     "rotation reverses", "half turn",
@@ -40,9 +40,9 @@ def test_every_guard_is_an_event_function_of_some_structure():
 
 
 def test_the_words_are_those_of_the_interface():
-    """Outcomes in the order of their numbers, and kinds of events."""
+    """Outcomes in the order of their numbers, and kinds of events: none is missing."""
     assert [each.word for each in OUTCOMES] == ["stick", "stick-rotate-separate", "bounce"]
-    assert {each.word for each in WORDS} == KINDS
+    assert {each.word for each in WORDS} >= KINDS
 
 
 def test_every_word_is_reported_by_an_event_or_a_rule():

@@ -242,3 +242,32 @@ def test_short_times_have_a_prefix():
     figure = draw(collide("granulation", stokes=1e5, trajectory=True))
     assert "time (ps)" in [panel.get_xlabel() for panel in figure.axes]
     assert not any("e-1" in word for word in words(figure))
+
+
+@pytest.mark.parametrize("name", IMPACTS)
+def test_films_are_seen(figures, name):
+    """Around each sphere lies its film, at least a point wide whatever its thickness."""
+    axes = figures[name].axes[-1]
+    films = [patch for patch in axes.patches if patch.get_gid() == "film"]
+    spheres = [patch for patch in axes.patches if patch.get_gid() == "sphere"]
+    assert len(films) == len(spheres) > 0
+    for film, sphere in zip(films, spheres, strict=True):
+        assert film.get_center() == sphere.get_center()
+        assert film.get_radius() > sphere.get_radius()
+        assert film.get_linewidth() / 2 >= 1
+
+
+def test_a_stick_says_that_it_sticks(figures):
+    """The last frame of a stick is captioned so, and no frame of another outcome."""
+    for name, figure in figures.items():
+        said = [text for text in words(figure) if text.endswith("sticks")]
+        assert len(said) == (name in ("sticks at touch", "sticks later", "half turn")), name
+
+
+def test_letters_stand_in_one_column(figures):
+    """The letters of the panels begin at one place."""
+    figure = figures["escapes"]
+    figure.draw_without_rendering()
+    letters = [text for axes in figure.axes for text in axes.texts if text.get_text() in ("(a)", "(b)", "(c)")]
+    assert len(letters) == 3
+    assert np.ptp([letter.get_window_extent().x0 for letter in letters]) < 1

@@ -15,7 +15,7 @@ from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
 from wetdoublet.solvers.paper.desk import Desk, Detail, Job, outcomes
-from wetdoublet.solvers.paper.parts import Comparison, number
+from wetdoublet.solvers.paper.parts import Comparison, Part, Table, number
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
 from wetdoublet.solvers.paper.variants import BRIDGED, variant
 
@@ -183,6 +183,14 @@ def test_page_is_whole(made):
         assert (made[0] / image["src"]).is_file()
         assert image["alt"]
     assert "http" not in text
+
+
+def test_page_is_made_for_a_phone():
+    """Under the viewport's width each cell of a table carries the name of its column, which then stands before it."""
+    text = report.page([Part("A part", tables=[Table("numbers", ("what", "how & why"), [("St", "1.4")])])], "")
+    assert 'name="viewport"' in text
+    assert "max-width: 640px" in text
+    assert '<td data-label="what">St</td><td data-label="how &amp; why">1.4</td>' in text
 
 
 def test_assumed_values_are_named(made):

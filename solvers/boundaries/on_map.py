@@ -1,0 +1,60 @@
+"""The exact boundaries in the window of a regime map, for its picture."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..engines.taylor.build import supported
+from ..errors import ComputationError, InputError
+from ..many.plot_map import Curve, panels
+from ..many.regime_map import impact_axis, scene_of
+from ..scene.scene import Scene
+from .atlas_curves import curves_of
+from .plane import ANGLE, check_plane
+
+if TYPE_CHECKING:
+    import xarray
+
+_LINES = 5  # seed lines of constant angle; the lattice of the atlas finds the curves between them
+
+
+def map_curves(data: xarray.Dataset) -> dict[int, list[Curve]]:
+    """The boundaries of each panel of a map: angles (rad) of every curve, and Stokes numbers or speeds (m/s).
+
+    Nothing for a panel of one angle or one Stokes number, of a scene that the kernel does not support (one by one the
+    thousands of collisions would take minutes), or that cannot be.
+    """
+    angles = data["angle"].values
+    impact = impact_axis(data)
+    values = data[impact].values
+    if min(angles.size, values.size) < 2 or values.min() <= 0:
+        return {}
+    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", impact)]
+    sizes = [data.sizes[name] for name in varied]
+    found = {}
+    for place in panels(data):
+        index = np.unravel_index(place, sizes) if varied else ()
+        entries = {name: float(data[name].values[k]) for name, k in zip(varied, index, strict=True)}
+        try:
+            scene = scene_of(data).with_entries(entries)
+            found[place] = _curves(scene, angles, values, impact, data.attrs["rtol"])
+        except (InputError, ComputationError):  # its cells are marked as failed
+            found[place] = []
+    return found
+
+
+def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, rtol: float) -> list[Curve]:
+    if not supported(scene):
+        return []
+    unit = np.array(1.0 if impact == "stokes" else scene.stokes_per_speed)
+
+    def normal(angle: np.ndarray) -> np.ndarray:
+        """The Stokes number of an impact of 1 on the map's axis."""
+        return unit * np.cos(angle) if impact == "relative_speed" else unit
+
+    span = (float(angles.min()), float(angles.max()))
+    window = (float(values.min() * normal(np.array(span[1]))), float(values.max() * normal(np.array(span[0]))))
+    atlas = curves_of(check_plane(scene, ANGLE, span, window, rtol), _LINES, lambda *_: None)
+    return [(np.array(one.x), np.array(one.stokes) / normal(np.array(one.x))) for one in atlas.curves]

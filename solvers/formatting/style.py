@@ -1,0 +1,73 @@
+"""One style for all figures: the style file, and the colours, hatches and letters of the outcomes."""
+
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, ParamSpec
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+
+from ...generated.automaton import OUTCOMES
+
+# Of rising lightness, so that they differ in grey as well; black and the contours' labels are legible on each.
+FILLS = dict(zip(OUTCOMES, ("#75A9D8", "#F5BE6A", "#FCF6D5"), strict=True))
+EDGES = dict(zip(OUTCOMES, ("#75A9D8", "#C9861B", "#FCF6D5"), strict=True))
+"""Colours of the hatches."""
+HATCHES: dict[str, str | None] = dict(zip(OUTCOMES, (None, "///", None), strict=True))
+LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
+INK, NOTE, NOTHING = "#202020", "#6E6E6E", "#DDDDDD"
+
+_LOCK = threading.RLock()  # matplotlib's settings belong to the process
+Given = ParamSpec("Given")
+
+
+@contextmanager
+def styled(changes: Any = None) -> Iterator[None]:
+    """Matplotlib's settings are the style file's, and `changes` (a mapping), until the end of the block."""
+    with _LOCK, mpl.rc_context():
+        mpl.rcParams.update(_settings())
+        mpl.rcParams.update(changes or {})
+        yield
+
+
+@functools.cache
+def _settings() -> Any:
+    return mpl.rc_params_from_file(Path(__file__).with_name("wetdoublet.mplstyle"), use_default_template=False)
+
+
+def picture(draw: Callable[Given, Figure]) -> Callable[Given, Figure]:
+    """A function that draws a figure in this style; ticks, which matplotlib makes later, included."""
+
+    @functools.wraps(draw)
+    def drawn(*given: Given.args, **named: Given.kwargs) -> Figure:
+        with styled():
+            figure = draw(*given, **named)
+            for axes in figure.axes:
+                axes.tick_params(axis="x", labelsize=mpl.rcParams["xtick.labelsize"])
+                axes.tick_params(axis="y", labelsize=mpl.rcParams["ytick.labelsize"])
+        return figure
+
+    return drawn
+
+
+def patch(outcome: str, label: str = "") -> Patch:
+    """What stands for an outcome in a legend: its colour and hatch."""
+    text = label or f"{LETTERS[outcome]}: {outcome}"
+    return Patch(facecolor=FILLS[outcome], edgecolor=EDGES[outcome], hatch=HATCHES[outcome], linewidth=0, label=text)
+
+
+def halo(width: float = 2.4) -> withStroke:
+    """White around a line or a label, so that it is legible on any colour; its width in points."""
+    return withStroke(linewidth=width, foreground="white", alpha=0.85)
+
+
+def plain_text(text: str) -> str:
+    """Somebody's text without meaning for mathtext."""
+    return text.replace("$", r"\$")

@@ -1,0 +1,31 @@
+"""Quantities of many collisions as columns of one length, from the scene and what varies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...generated import scaling
+from ..scene.groups import si_values
+from ..scene.quantities import quantities
+from .batch import Batch
+
+
+def varied_columns(request: Batch) -> dict[str, np.ndarray]:
+    """Quantities under the vocabulary's names, SI, of every collision where entries vary; without the impact."""
+    scene = request.scene
+    entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
+    found = quantities(entries | dict(request.vary), scene.ways)
+    return {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
+
+
+def with_impacts(request: Batch) -> dict[str, Any]:
+    """Quantities and impacts, SI: arrays, and numbers where all collisions share them."""
+    values: dict[str, Any] = varied_columns(request) if request.vary else dict(si_values(request.scene, None, None))
+    with np.errstate(all="ignore"):
+        speed = request.speed
+        if speed is None:
+            unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+            speed = np.asarray(request.stokes) / unit
+    return values | {"speed": speed, "angle": request.angle}
