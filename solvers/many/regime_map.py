@@ -112,7 +112,7 @@ def regime_map(
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
-            smallest_gap and validity.
+            smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.

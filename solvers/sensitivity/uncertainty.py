@@ -263,8 +263,9 @@ def _drawn(found: xarray.Dataset) -> Any:
     axis.plot(x, found.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
     unit = found[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
-    labels = {"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}
-    axis.set_xlabel(labels.get(over, "Stokes number $St_n$"))
+    axis.set_xlabel(
+        {"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "Stokes number $St_n$")
+    )
     axis.set_title(f"{of.replace('_', ' ')} with {found.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
     axis.legend()
