@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d
+# Automaton sha256 e133df14a0b0711d0bc0ec37c43b1130793527e341e48fdf7463d2b089cb91e8
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("glass",),
         where=(("resting", 0), ("motion", -1)),
         words=("glass",),
-        actions=("reverse",),
+        actions=("rebound",),
         follows="",
         dips=True,
         within_reach=False,
@@ -170,7 +170,7 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("elastic", "rough"),
         where=(("resting", 0), ("motion", -1)),
         words=("elastic", "rough"),
-        actions=("gap = contact", "reverse"),
+        actions=("gap = contact", "rebound"),
         follows="",
         dips=False,
         within_reach=False,

@@ -126,7 +126,7 @@ ACTIONS = (
     Action("gap = tangential edge", "put the gap on the reach of the tangential force"),
     Action("gap = rupture", "put the gap on the rupture gap"),
     Action("velocity = 0", "the normal velocity is zero"),
-    Action("reverse", "the solids reverse the motion; the rules of a rebound decide what follows"),
+    Action("rebound", "the solids reverse the motion; the rules of a rebound decide what follows"),
     Action("turn", "closing becomes opening, and opening closing"),
     Action("cross film edge", "inside becomes beyond; the tangential edge with it where both are one"),
     Action("cross tangential edge", "inside becomes beyond, and beyond inside"),
@@ -170,8 +170,8 @@ class Event:
 
     @property
     def rebounds(self) -> bool:
-        """Whether the solids reverse the motion."""
-        return self.actions[-1] == "reverse"
+        """Whether the doublet rebounds at it."""
+        return self.actions[-1] == "rebound"
 
 
 ENDS = ("separate", "cut off")
@@ -182,9 +182,9 @@ _CLOSING, _OPENING = ("motion", CLOSING), ("motion", OPENING)
 EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
           follows="motion", dips=True, chosen_by="motion"),
-    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("reverse",), dips=True, scale="glass_number"),
+    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",), dips=True, scale="glass_number"),
     Event("contact", tuple(each.word for each in CONTACTS), (_MOVING, _CLOSING),
-          tuple(each.word for each in CONTACTS), ("gap = contact", "reverse"), chosen_by="larger gap"),
+          tuple(each.word for each in CONTACTS), ("gap = contact", "rebound"), chosen_by="larger gap"),
     Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = rupture", "separate")),
     Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = film edge", "cross film edge"),
           follows="film"),

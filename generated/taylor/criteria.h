@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d
+ * Automaton sha256 e133df14a0b0711d0bc0ec37c43b1130793527e341e48fdf7463d2b089cb91e8
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 13248a51e459fffb941772a8fc0a19fc6169a07912e7c3c96940f0f1cc6d005d
+ * Automaton sha256 e133df14a0b0711d0bc0ec37c43b1130793527e341e48fdf7463d2b089cb91e8
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */
@@ -14,11 +14,11 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         l->closing[lane] = ~l->closing[lane];
         break;
     case AT_GLASS:
-        reverse(q, l, f, lane, KIND_GLASS);
+        rebounds(q, l, f, lane, KIND_GLASS);
         break;
     case AT_CONTACT:
         l->y[GAP][lane] = f->contact[lane];
-        reverse(q, l, f, lane, contact_kind(&f->c, lane));
+        rebounds(q, l, f, lane, contact_kind(&f->c, lane));
         break;
     case AT_RUPTURE:
         l->y[GAP][lane] = f->end[lane];

@@ -10,7 +10,7 @@ from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
-# An action as the kernel does it; "reverse" is a function of the word. The functions are in `engines/taylor/runtime/`.
+# An action as the kernel does it; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
 _STATEMENTS = {
     "gap = contact": ("l->y[GAP][lane] = f->contact[lane];",),
     "gap = film edge": ("l->y[GAP][lane] = 1.0;",),
@@ -139,8 +139,8 @@ def _effect(event: Event) -> list[str]:
     """Statements: the word is noted first, except where a rule of the action notes its own."""
     *landing, last = event.actions
     word = _chosen(event)
-    if last == "reverse":
-        return [*_done(landing), f"reverse(q, l, f, lane, {word});"]
+    if last == "rebound":
+        return [*_done(landing), f"rebounds(q, l, f, lane, {word});"]
     if last == "separate":  # notes its word
         return [*_done(landing), *_done([last])]
     noted = f"note(q, l->index[lane], {word}, l->time[lane]);"
