@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd
+# Automaton sha256 1fa1628e4fb4cd5d41f78f198265092b7ccf46e0e13e3260a384eb76b61e1362
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("glass",),
         where=(("resting", 0), ("motion", -1)),
         words=("glass",),
-        actions=("reverse",),
+        actions=("rebound",),
         follows="",
         dips=True,
         within_reach=False,
@@ -170,7 +170,7 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("elastic", "rough"),
         where=(("resting", 0), ("motion", -1)),
         words=("elastic", "rough"),
-        actions=("gap = contact", "reverse"),
+        actions=("gap = contact", "rebound"),
         follows="",
         dips=False,
         within_reach=False,

@@ -8,7 +8,7 @@ import sympy as sp
 
 from ..physics.forces import FILM, SHEAR, force_laws
 from ..physics.laws import LAWS, film, shear, strings
-from ..physics.laws.rebound import elastic_compliance, elastic_length
+from ..physics.laws.elastic_length import elastic_compliance, elastic_length
 from ..physics.laws.rupture import rupture_distance
 from ..physics.laws.start import start_values
 from ..physics.mechanics import (

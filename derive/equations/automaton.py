@@ -126,7 +126,7 @@ ACTIONS = (
     Action("gap = tangential edge", "put the gap on the reach of the tangential force"),
     Action("gap = rupture", "put the gap on the rupture gap"),
     Action("velocity = 0", "the normal velocity is zero"),
-    Action("reverse", "the solids rebound; the rules of a rebound decide the next phase"),
+    Action("rebound", "the solids rebound; the rules of a rebound decide the next phase"),
     Action("turn", "closing becomes opening, and opening becomes closing"),
     Action("cross film edge", "inside the film becomes beyond; the tangential edge is crossed as well if it coincides"),
     Action("cross tangential edge", "inside the tangential edge becomes beyond, and beyond becomes inside"),
@@ -171,7 +171,7 @@ class Event:
     @property
     def rebounds(self) -> bool:
         """True if the event is a rebound."""
-        return self.actions[-1] == "reverse"
+        return self.actions[-1] == "rebound"
 
 
 ENDS = ("separate", "cut off")
@@ -182,9 +182,9 @@ _CLOSING, _OPENING = ("motion", CLOSING), ("motion", OPENING)
 EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
           follows="motion", dips=True, chosen_by="motion"),
-    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("reverse",), dips=True, scale="glass_number"),
+    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",), dips=True, scale="glass_number"),
     Event("contact", tuple(each.word for each in CONTACTS), (_MOVING, _CLOSING),
-          tuple(each.word for each in CONTACTS), ("gap = contact", "reverse"), chosen_by="larger gap"),
+          tuple(each.word for each in CONTACTS), ("gap = contact", "rebound"), chosen_by="larger gap"),
     Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = rupture", "separate")),
     Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = film edge", "cross film edge"),
           follows="film"),

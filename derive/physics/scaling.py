@@ -60,7 +60,7 @@ from ..vocabulary.quantities import (
     xi,
 )
 from .laws.attraction import van_der_waals_force
-from .laws.rebound import elastic_length
+from .laws.elastic_length import elastic_length
 from .laws.rupture import rupture_distance
 from .laws.start import initial_rate
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd
+ * Automaton sha256 1fa1628e4fb4cd5d41f78f198265092b7ccf46e0e13e3260a384eb76b61e1362
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

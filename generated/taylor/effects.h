@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 a460718138e12e7933225110cc01a7217237957f9c2650ef13c25ce1af983cbd
+ * Automaton sha256 1fa1628e4fb4cd5d41f78f198265092b7ccf46e0e13e3260a384eb76b61e1362
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */
@@ -14,11 +14,11 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         l->closing[lane] = ~l->closing[lane];
         break;
     case AT_GLASS:
-        reverse(q, l, f, lane, KIND_GLASS);
+        rebounds(q, l, f, lane, KIND_GLASS);
         break;
     case AT_CONTACT:
         l->y[GAP][lane] = f->contact[lane];
-        reverse(q, l, f, lane, contact_kind(&f->c, lane));
+        rebounds(q, l, f, lane, contact_kind(&f->c, lane));
         break;
     case AT_RUPTURE:
         l->y[GAP][lane] = f->end[lane];

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...physics.laws import LAWS
-from ...physics.laws.rebound import ELASTIC
+from ...physics.laws.elastic_length import ELASTIC
 from ...physics.laws.references import PAPER, Reference
 from ...physics.laws.rupture import COMMON
 from ...physics.partners import PUBLISHED

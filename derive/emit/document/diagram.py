@@ -91,7 +91,7 @@ def _target(event: Event, source: Mode | str) -> Mode | str:
     state = dict(source)
     change = {
         "turn": {"motion": -state["motion"]},
-        "reverse": {"motion": OPENING},
+        "rebound": {"motion": OPENING},
         "cross film edge": {"film": 1 - state["film"]},
         "open": {"motion": OPENING, "resting": 0},
     }.get(last, {})

@@ -13,7 +13,7 @@ from ...equations.events import rebound
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
 from ...physics.laws.base import is_slot_call
-from ...physics.laws.rebound import elastic_compliance, elastic_length
+from ...physics.laws.elastic_length import elastic_compliance, elastic_length
 from ...physics.laws.rupture import rupture_distance
 from ...physics.laws.start import initial_rate, start_values
 from ...physics.laws.strings import r as string_distance

@@ -10,7 +10,7 @@ from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
-# C statement of each action; "reverse" is a function of the word. The functions are in `engines/taylor/runtime/`.
+# C statement of each action; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
 _STATEMENTS = {
     "gap = contact": ("l->y[GAP][lane] = f->contact[lane];",),
     "gap = film edge": ("l->y[GAP][lane] = 1.0;",),
@@ -139,8 +139,8 @@ def _effect(event: Event) -> list[str]:
     """C statements of an effect; the word is logged first unless a rule of the action logs its own."""
     *landing, last = event.actions
     word = _chosen(event)
-    if last == "reverse":
-        return [*_done(landing), f"reverse(q, l, f, lane, {word});"]
+    if last == "rebound":
+        return [*_done(landing), f"rebounds(q, l, f, lane, {word});"]
     if last == "separate":  # logs its own word
         return [*_done(landing), *_done([last])]
     noted = f"note(q, l->index[lane], {word}, l->time[lane]);"

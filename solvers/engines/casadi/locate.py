@@ -327,7 +327,7 @@ class EventLocator:
         before, phase = self.phase, self.phase
         word = self._word(event)
         for action in event.actions:
-            if action == "reverse":
+            if action == "rebound":
                 self._rebound(word, elapsed, event.name)
                 return False
             phase = self._done(action, phase)

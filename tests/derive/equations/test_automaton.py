@@ -54,7 +54,7 @@ def test_every_word_is_reported_by_an_event_or_a_rule():
 def test_effects_are_made_of_the_actions_listed():
     """Each is used, and the actions that end something come last."""
     assert {action for event in EVENTS for action in event.actions} == {action.name for action in ACTIONS}
-    ends = {"reverse", "separate", "cut off"}
+    ends = {"rebound", "separate", "cut off"}
     assert not [event for event in EVENTS if ends & set(event.actions[:-1])]
 
 

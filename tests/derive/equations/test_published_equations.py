@@ -8,7 +8,7 @@ from wetdoublet.derive.equations.model import Model
 from wetdoublet.derive.physics import scaling
 from wetdoublet.derive.physics.forces import FILM, SHEAR, force_laws
 from wetdoublet.derive.physics.laws import LAWS, fill, film, glass, shear, strings
-from wetdoublet.derive.physics.laws.rebound import elastic_compliance, elastic_length
+from wetdoublet.derive.physics.laws.elastic_length import elastic_compliance, elastic_length
 from wetdoublet.derive.physics.laws.rupture import rupture_distance
 from wetdoublet.derive.physics.laws.start import start_values
 from wetdoublet.derive.physics.mechanics import (

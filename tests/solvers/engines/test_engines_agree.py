@@ -61,7 +61,7 @@ def test_the_reference_knows_every_action() -> None:
     scene = GRANULATION.with_impact(stokes=0.03, angle=1.0)
     groups = nondimensionalise(scene, *scene.need_impact()).groups
     finder = EventLocator(load(select_model(scene, True)), groups, 1e-9)
-    known = [finder._done(action, finder.phase) for event in EVENTS for action in event.actions if action != "reverse"]
+    known = [finder._done(action, finder.phase) for event in EVENTS for action in event.actions if action != "rebound"]
     assert len(known) > 8
     assert all(isinstance(phase, Phase) for phase in known)
     with pytest.raises(CheckFailed, match="unknown action"):
@@ -84,10 +84,13 @@ def test_both_engines_meet_the_same_events(name):
 
 @pytest.mark.parametrize("scene", [GRANULATION, PENDULUM], ids=["granulation", "pendulum"])
 def test_both_engines_decide_alike_on_spheres_that_meet_outside_the_film(scene):
-    """Events, outcome and restitution of soft spheres with a bridge, whose elastic length is up to three films."""
+    """Events, outcome and restitution of soft spheres with a bridge, whose elastic length is up to three films.
+
+    A stick is proved at the next look for a proof, which one of the engines may take an event later.
+    """
     rng, modulus, rebounds = np.random.default_rng(31), 1e5, []
-    for _ in range(12):
-        stokes, angle = float(np.exp(rng.uniform(np.log(0.005), np.log(3)))), float(rng.uniform(0.05, 1.4))
+    for _ in range(30):
+        stokes, angle = float(np.exp(rng.uniform(np.log(0.0005), np.log(3)))), float(rng.uniform(0.05, 1.4))
         soft = scene.with_entries(
             SOLID
             | {
@@ -106,12 +109,14 @@ def test_both_engines_decide_alike_on_spheres_that_meet_outside_the_film(scene):
         groups = nondimensionalise(soft, stokes / soft.stokes_per_speed, angle).groups
         path = locate(load(select_model(soft, True, fold=False)), groups, 1e-9)
         (answer,) = told.answers
-        assert (OUTCOMES[answer["outcome"]], events(told, 0)) == (path.outcome, path.kinds), (stokes, angle, stiffness)
+        same = len(path.kinds) if path.separated else min(len(path.kinds), answer["events"])
+        assert OUTCOMES[answer["outcome"]] == path.outcome, (stokes, angle, stiffness)
+        assert events(told, 0)[:same] == path.kinds[:same], (stokes, angle, stiffness)
         if path.separated:
             restitution = path.model.values("outputs", path.y, path.p)["restitution"]
             assert answer["shown"][0] == pytest.approx(restitution, rel=1e-6)
         rebounds.append(path.kinds.count("elastic"))
-    assert max(rebounds) > 1, "some fall back, and meet again outside the film"
+    assert len(set(rebounds)) > 1
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.6])

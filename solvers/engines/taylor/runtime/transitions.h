@@ -34,7 +34,7 @@ static void new_phase(lanes *l, int lane)
 }
 
 /* A rebound; one too weak to open the gap becomes resting contact, one at the rupture gap separates the doublet. */
-static void reverse(queue *q, lanes *l, fixed *f, int lane, int kind)
+static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
     vec after[STATES];
 #if WITH_LEDGER
@@ -97,7 +97,7 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
 #endif
     EACH_LANE(lane)
         if (any >> lane & 1)
-            reverse(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
+            rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
 }
 
 /* Criteria on entry into a closing phase.
