@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .collision.collide import collide
     from .collision.result import Collision
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
+    from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
     from .scene.scene import Scene
@@ -43,6 +44,7 @@ _HOMES = {
     "collide": "collision.collide",
     "collide_many": "many.collide_many",
     "gradients_many": "sensitivity.gradients_many",
+    "plot": "host.pictures",
     "regime_map": "many.regime_map",
     "sensitivities": "sensitivity.sensitivities",
     "sobol_indices": "sensitivity.variance",
@@ -68,6 +70,7 @@ __all__ = [
     "collide",
     "collide_many",
     "gradients_many",
+    "plot",
     "regime_map",
     "sensitivities",
     "sobol_indices",

@@ -5,7 +5,8 @@ from __future__ import annotations
 from .errors import InputError, did_you_mean
 from .scene.schema import Field, Range
 
-ENGINES = ("cvodes", "rosenbrock", "taylor")
+CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
+ENGINES = (*CASADI_ENGINES, "taylor")
 RTOL = 1e-9  # default
 # Most steps of one collision in one attempt, for every engine; beyond it a ComputationError names the phase and state.
 STEPS = 100_000
@@ -32,6 +33,6 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
 def check_plugin(engine: object, label: str = "engine") -> str | None:
     """Return the engine as `check_engine` does, only for engines that CasADi can differentiate."""
     found = check_engine(engine, label)
-    if found == "taylor":
-        raise InputError(label, found, ", ".join(ENGINES[:2]), "has no derivatives of this kind")
+    if found is not None and found not in CASADI_ENGINES:
+        raise InputError(label, found, ", ".join(CASADI_ENGINES), "has no derivatives of this kind")
     return found

@@ -49,9 +49,12 @@ def test_every_key_of_a_result_is_described():
 
 
 def test_links_of_the_front_page_lead_somewhere():
-    """Every link to a file of the repository has its file; links of the site are held by its build."""
-    for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", PAGES[0].read_text(encoding="utf-8")):
-        assert (ROOT / target).is_file(), target
+    """What README and CONTRIBUTING link to in the repository is there; links of the site are held by its build."""
+    front = "".join((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "CONTRIBUTING.md"))
+    targets = re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", front)
+    assert len(targets) > 5
+    for target in targets:
+        assert (ROOT / target).exists(), target
 
 
 def commands():

@@ -139,6 +139,14 @@ def test_the_engines_do_not_know_of_each_other() -> None:
         ]
 
 
+def test_one_place_chooses_the_engine() -> None:
+    """Only the engines look at whether the kernel can answer; every question asks `engines.choice`."""
+    asking = re.compile(r"\b(supported|is_compiled)\(")
+    above = {name: path for name, path in modules().items() if _rank(room(name)) > _rank("solvers.engines")}
+    assert len(above) > 100
+    assert not [name for name, path in above.items() if asking.search(path.read_text())]
+
+
 def test_every_room_says_what_it_is_for() -> None:
     """The `__init__.py` of each folder begins with a docstring."""
     folders = {path.parent for path in modules().values()}

@@ -48,7 +48,7 @@ CRITERION = [  # a row of the automaton
     (
         AUTOMATON,
         '    Criterion("rough"',
-        '    Criterion("wavy", "wavy_gap", "waviness", "the gap is down to w", "rebound by w", "w", ("waviness", 0.0)),\n{}',
+        '    Criterion("wavy", "wavy_gap", "waviness", "the gap is down to w", "w", "w", ("waviness", 0.0)),\n{}',
     )
 ]
 LAW = [  # an entry of BRIDGES, and its name among the scene's

@@ -1,8 +1,10 @@
 """A collision as a hybrid automaton: modes, events with their guards and effects, rules, ends and report words.
 
-The tables are plain data. `derive/emit/` writes them for the CasADi engine, the kernel and the documentation; these
-read the rules from there only. An event is a guard (functions of the emitted structures, with the modes in which they
-are watched), a word and a list of actions, so a further event is a further row.
+The tables are plain data, which `derive/emit/` writes for the CasADi engine, the kernel and the documentation. An
+event is a guard (functions of the emitted structures, with the modes in which they are watched), a word and a list of
+actions. The CasADi engine interprets all of it. For the kernel, numbers, words and effects are emitted; its guards are
+written by hand in `events.h` and its rules in `transitions.h`. Tests compare them with these tables: the modes in
+which each event is watched, the precedence of coincident events, and the decisions of both engines.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from functools import cache
 
 import sympy as sp
 
+from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS
 from ..physics.laws.base import Definition
 from ..physics.partners import rotation
@@ -89,7 +90,11 @@ class Model:
 
 @cache
 def derive(structure: Structure) -> Model:
-    """The nondimensional model of `structure`."""
+    """The nondimensional model of `structure`.
+
+    Raises:
+        ValueError: an equation uses a group that is not among GROUPS.
+    """
     states = _states(structure)
     functions = _functions(structure, states)
     definitions = intermediates(structure, _conserved(structure) if structure.reduced else None)
@@ -100,6 +105,10 @@ def derive(structure: Structure) -> Model:
     if orbital_certificate.admits(structure):
         definitions += orbital_certificate.definitions(structure)
     used = _closure(functions, definitions)
+    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *(symbol for symbol, _ in definitions)}
+    if unlisted:
+        names = ", ".join(sorted(map(str, unlisted)))
+        raise ValueError(f"{structure.name} uses {names}: neither a state nor an intermediate, nor among GROUPS")
     return Model(
         structure,
         states,
@@ -115,6 +124,7 @@ def _pendulum(structure: Structure) -> bool:
     return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
 
 
+# In the order in which modules list those that they use.
 GROUPS = (
     stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
     radius_ratio, mass_ratio, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,

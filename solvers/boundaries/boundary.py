@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.taylor.build import supported
+from ..engines.choice import boundary_engine
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
@@ -23,6 +23,7 @@ from .plane import ANGLE, check_plane
 from .trace import Traced, traces
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray
 
 _LARGEST = 1e30  # largest Stokes number; its inverse is the smallest
@@ -47,11 +48,30 @@ class Boundaries(Lines):
 
         return dataset(self)
 
-    def plot(self, file: str | FilePath) -> None:
-        """Draw a figure (.png, .pdf or .svg): the regions of each outcome, the curves and their meeting points."""
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each change of outcome: angle (rad), stokes, centrifugal, before, after and kind."""
+        from ..formatting.frames import frame
+
+        pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
+        names = ("stokes", "centrifugal", "before", "after", "kind")
+        columns = {name: [getattr(one, name) for _, one in pairs] for name in names}
+        return frame({"angle": [angle for angle, _ in pairs], **columns})
+
+    def _repr_html_(self) -> str:
+        from .notebook import html
+
+        return html(self)
+
+    def plot(self, path: str | FilePath | None = None) -> Any:
+        """Draw the regions of each outcome, the curves and where they meet; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        from ..host.pictures import saved
         from .plot import plot
 
-        plot(self, file)
+        return saved(lambda: plot(self), path)
 
 
 @dataclass(frozen=True)
@@ -64,6 +84,22 @@ class Atlas(Curves, Boundaries):
         >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
         array([0, 2], dtype=int8)
     """
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each point of each curve: curve (a number), before, after, kind, x (rad or SI) and stokes."""
+        from ..formatting.frames import frame
+
+        rows = [(k, one, x, stokes) for k, one in enumerate(self.curves) for x, stokes in zip(one.x, one.stokes)]
+        return frame(
+            {
+                "curve": [k for k, *_ in rows],
+                "before": [one.before for _, one, *_ in rows],
+                "after": [one.after for _, one, *_ in rows],
+                "kind": [one.kind for _, one, *_ in rows],
+                "x": [x for *_, x, _ in rows],
+                "stokes": [stokes for *_, stokes in rows],
+            }
+        )
 
 
 def boundary(
@@ -102,7 +138,7 @@ def boundary(
     rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
-    worth = _WORTH_BY_KERNEL if supported(loaded) else _WORTH
+    worth = _WORTH_BY_KERNEL if boundary_engine(loaded) == "taylor" else _WORTH
     cores = min(usable_cores(), max(1, angles.size // worth))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)

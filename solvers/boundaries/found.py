@@ -60,11 +60,12 @@ class Lines:
         return {"rtol": self.rtol, "units": {**units, "stokes": "1", "centrifugal": "1"}} | known
 
     def __str__(self) -> str:
-        lines = ["angle (deg)   St              Ce          change"]
+        lines = [f"angle (deg)   St              Ce          {self._speed_heading:<15} change"]
         for angle, changes in zip(self.angles, self.changes, strict=True):
             for one in changes:
                 ce = "-" if one.centrifugal is None else f"{one.centrifugal:.6g}"
-                lines.append(f"{math.degrees(angle):<13.6g} {one.stokes:<15.10g} {ce:<11} {one.before} -> {one.after}")
+                change = f"{self._speed(one.stokes, angle):<15} {one.before} -> {one.after}"
+                lines.append(f"{math.degrees(angle):<13.6g} {one.stokes:<15.10g} {ce:<11} {change}")
             if not changes:
                 failure = next((reason for at, reason in self.failed if at == angle), "no change")
                 lines.append(f"{math.degrees(angle):<13.6g} {failure}")
@@ -73,6 +74,22 @@ class Lines:
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
         looked = f"; strips narrower than {self.resolution:.1%} of St are seen where a margin shows them"
         return "\n".join([*lines, f"{points} changes from {self.collisions} collisions{looked}"])
+
+    @property
+    def _relative(self) -> bool:
+        """Whether the scene speaks of the magnitude of the relative velocity, not of its normal component."""
+        return self.scene is not None and self.scene.impact.relative_speed is not None
+
+    @property
+    def _speed_heading(self) -> str:
+        return "rel. speed, m/s" if self._relative else "speed, m/s"
+
+    def _speed(self, stokes: float, angle: float) -> str:
+        """The speed of a Stokes number, as the scene gives its own."""
+        if self.scene is None:
+            return "-"
+        speed = self.scene.speed_of(stokes)
+        return f"{speed / math.cos(angle) if self._relative else speed:.6g}"
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,8 @@ from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..certificates import Barrier, energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, locator, tolerance_for
 from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocator, EventSequence
-from ..engines.taylor.build import compile_all, supported
+from ..engines.choice import boundary_engine
+from ..engines.taylor.build import compile_all
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
@@ -45,7 +46,7 @@ _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # parts o
 
 def ready(scenes: Iterable[Scene]) -> None:
     """Compile the kernels for boundaries of these scenes, on all cores."""
-    known = (scene for scene in scenes if supported(scene))
+    known = (scene for scene in scenes if boundary_engine(scene) == "taylor")
     wanted = (variant(scene, select_model(scene, True), RTOL, True, trajectory=True) for scene in known)
     compile_all(set(wanted))
 
@@ -76,7 +77,7 @@ class Line:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
-        self.kernel = supported(self.scene) if self.kernel is None else self.kernel
+        self.kernel = boundary_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
 
     def numbers(self, stokes: float) -> DimensionlessGroups:
         """Dimensionless groups at a Stokes number."""

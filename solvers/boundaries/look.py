@@ -9,7 +9,7 @@ import numpy as np
 
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
 from ..engines.casadi.locate import EventLocator
-from ..engines.taylor.build import supported
+from ..engines.choice import boundary_engine
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
@@ -43,7 +43,7 @@ class Look:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
-        self.kernel = supported(self.scene) if self.kernel is None else self.kernel
+        self.kernel = boundary_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
 
     @property
     def per_decade(self) -> int:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engines.taylor.build import supported
+from ..engines.choice import boundary_engine
 from ..errors import ComputationError, InputError
 from ..many.plot_map import Curve, panels
 from ..many.regime_map import impact_axis, scene_of
@@ -46,7 +46,7 @@ def map_curves(data: xarray.Dataset) -> dict[int, list[Curve]]:
 
 
 def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, rtol: float) -> list[Curve]:
-    if not supported(scene):
+    if boundary_engine(scene) != "taylor":
         return []
     unit = np.array(1.0 if impact == "stokes" else scene.stokes_per_speed)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, Purpose
-from ..engines.taylor.build import supported
+from ..engines.choice import boundary_engine
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import InputError
@@ -55,7 +55,7 @@ class Plane:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene; start where collisions are oblique."""
-        self.kernel = supported(self.scene)
+        self.kernel = boundary_engine(self.scene) == "taylor"
         self.edge = self.span[0]
         if self.over == ANGLE:
             self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +17,6 @@ from ..collision.text import against, degrees, name_of, prefix
 from ..errors import InputError
 from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, patch, picture, plain_text
-from ..host.files import save
-from ..host.outputs import PICTURES, check_file
 from ..settings import RTOL
 from .atlas_curves import LINES, curves_of
 from .found import Curve, Curves, Lines, Point
@@ -30,7 +27,6 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
-_DPI = 150
 _MARKS = {
     "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "corner": "D", "criterion change": "D",
     "graze meets escape": "s", "saddle meets rim": "v",
@@ -38,16 +34,11 @@ _MARKS = {
 _MOST_DOTS = 60  # most lines whose changes are marked
 
 
-def plot(found: Lines, file: str | Path) -> None:
-    """Write the figure of boundaries: .png, .pdf or .svg.
-
-    Raises:
-        InputError: another kind of file, or boundaries without their scene.
-    """
-    check_file(file, "file", PICTURES)
+def plot(found: Lines) -> Figure:
+    """The picture of boundaries; InputError if they do not say whose they are."""
     if found.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
-    save(draw(found.scene, found), file, dpi=_DPI)
+    return draw(found.scene, found)
 
 
 @picture

@@ -64,7 +64,7 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
         contact_time=time if separated else None,
         smallest_gap=found.smallest_gap * n.length if separated else None,
         final_spin=rate("final_spin"),
-        final_spin_partner=_partner_spin(scene, rate("final_spin"), found.outputs, n),
+        final_spin_partner=partner_spin(scene, rate("final_spin"), found.outputs, n),
         final_rotation_rate=rate("final_rotation_rate"),
         stokes=n.stokes,
         centrifugal=n.centrifugal,
@@ -88,9 +88,7 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
     )
 
 
-def _partner_spin(
-    scene: Scene, own: float | None, outputs: Mapping[str, float], n: DimensionlessGroups
-) -> float | None:
+def partner_spin(scene: Scene, own: float | None, outputs: Mapping[str, float], n: DimensionlessGroups) -> float | None:
     """Spin of the partner, rad/s: its own output, that of an equal sphere, or 0 for a wall."""
     if scene.partner is None or own is None:
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
+from ..engines.choice import single_engine
 from ..host.arguments import check_flag
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
@@ -59,7 +60,7 @@ def collide(
         >>> collide("granulation", stokes=0.02, angle="75 deg").restitution > 1
         True
     """
-    rtol, plugin = check_rtol(rtol), check_engine(engine) or "cvodes"
+    rtol, plugin = check_rtol(rtol), single_engine(check_engine(engine))
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)

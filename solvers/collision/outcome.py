@@ -24,6 +24,11 @@ UNITS = {
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
 
+def open_beyond(rtol: float) -> float:
+    """Residual of a ledger over its largest term beyond which the trajectory must be wrong."""
+    return max(_OPEN * rtol, _OPEN_AT_LEAST)
+
+
 @dataclass(frozen=True)
 class Energy:
     """The energy ledger (budget) of a collision, J.
@@ -48,7 +53,7 @@ class Energy:
 
     def is_open(self, rtol: float) -> bool:
         """True if the residual exceeds what the tolerance explains, so that the trajectory must be wrong."""
-        return abs(self.residual) > max(_OPEN * rtol, _OPEN_AT_LEAST) * self.largest
+        return abs(self.residual) > open_beyond(rtol) * self.largest
 
     @property
     def largest(self) -> float:

@@ -25,6 +25,11 @@ class Collision(Outcome):
 
         return table(self)
 
+    def _repr_html_(self) -> str:
+        from .notebook import html
+
+        return html(self)
+
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw gap and velocity, the rotation, and the doublet at a few instants; returns the matplotlib Figure.
 
@@ -34,12 +39,7 @@ class Collision(Outcome):
         Raises:
             ValueError: the collision was computed without `trajectory=True`.
         """
-        from ..host.files import save
-        from ..host.outputs import PICTURES, check_file
+        from ..host.pictures import saved
         from .plot.figure import draw
 
-        file = None if path is None else check_file(path, "path", PICTURES)
-        figure = draw(self)
-        if file is not None:
-            save(figure, file, dpi=150)
-        return figure
+        return saved(lambda: draw(self), path)

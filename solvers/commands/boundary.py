@@ -95,10 +95,7 @@ def command(
             )
     options.put(json.dumps(shown.to_dict(), indent=2, allow_nan=False) if as_json else str(shown), file)
     if picture is not None:
-        from ..boundaries.plot import draw
-        from ..host.files import save
-
-        save(draw(scene, found), picture, dpi=150)
+        found.plot(picture)
     if found.failed:
         at, reason = found.failed[0]
         raise CheckFailed(

@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 @options.model
 @options.rtol
 @options.engine
-@click.option("-o", "output", metavar="FILE.nc", help="Write NetCDF; an interrupted run is continued.")
+@click.option(
+    "-o", "output", metavar="FILE", help="Write NetCDF (.nc) or a table (.csv); an interrupted run is continued."
+)
 @options.plot
 @options.debug
 def command(
@@ -57,7 +59,8 @@ def command(
 ) -> None:
     """Outcomes and restitution of SCENE over impact angle, Stokes number and further varied entries.
 
-    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end.
+    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end. The
+    picture has the exact boundaries over the cells, and hatches those where the model leaves its range.
 
     \b
     Example:
@@ -66,7 +69,7 @@ def command(
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     picture = options.check_file(plot, "--plot", options.PICTURES)
-    file = options.check_file(output, "-o", (".nc",), replaced=True)
+    file = options.check_file(output, "-o", (".nc", ".csv"), replaced=True)
     check_cells(
         {"--stokes": stokes, "--speed": speed, "--relative-speed": relative_speed, "--angle": angle}
         | {f"--vary {each.partition('=')[0]}": each for each in vary}
@@ -135,6 +138,7 @@ def _computed(
     file: Path | None,
 ) -> xarray.Dataset:
     """Compute the map and write it; after an interrupt finished collisions stay in the journal."""
+    from ..many.csv_map import write_csv
     from ..many.journal import Journal
     from ..many.regime_map import regime_map, write
     from .bar import bar
@@ -164,7 +168,7 @@ def _computed(
                 journal=journal,
             )
             if file is not None and journal is not None:
-                write(data, file)
+                (write_csv if file.suffix.lower() == ".csv" else write)(data, file)
                 journal.remove()
     except (KeyboardInterrupt, OSError) as error:
         count = 0 if journal is None else journal.count()

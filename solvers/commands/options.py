@@ -172,6 +172,10 @@ def entry_ends(entry: Field, label: str) -> Ends:
 
     def read(low: str, high: str) -> tuple[float, float]:
         bare = [units.is_number(end) for end in (low, high)]
+        if all(bare) and entry.unit and entry.unit != "rad":
+            unit = units.unit_of(entry.example.strip('"'))
+            text = low.strip() if low == high else f"{low.strip()}:{high.strip()}"
+            raise InputError(label, text, f'a number with its unit, as "{text} {unit}"', "has no unit")
         if bare[0] != bare[1]:
             unit = units.unit_of(high if bare[0] else low)
             low, high = (f"{end.strip()} {unit}" if units.is_number(end) else end for end in (low, high))

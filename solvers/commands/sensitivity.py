@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,6 +13,11 @@ from ..errors import InputError
 from ..scene.schema import FIELDS
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..scene.scene import Scene
 
 
 @click.command("sensitivity", short_help="Exact derivatives of a collision's results, through its events.")
@@ -28,6 +35,12 @@ from . import options
     multiple=True,
     help='A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.',
 )
+@click.option(
+    "--over",
+    metavar="NAME=RANGE",
+    help="With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or angle=20:80:25.",
+)
+@click.option("--over-time", is_flag=True, help="Derivatives of the whole trajectory; --plot draws them.")
 @click.option("--hessian", is_flag=True, help="Second derivatives as well.")
 @options.impact
 @options.changes
@@ -45,6 +58,8 @@ def command(
     method: str | None,
     hold: str | None,
     uncertain: Sequence[str],
+    over: str | None,
+    over_time: bool,
     hessian: bool,
     stokes: str | None,
     speed: str | None,
@@ -61,8 +76,10 @@ def command(
     """Differentiate the results of a collision of SCENE, through its events: gradients and elasticities.
 
     \b
-    Example:
+    Examples:
       wetdoublet sensitivity granulation --of restitution,contact_time --plot tornado.png
+      wetdoublet sensitivity granulation --uncertainty liquid.viscosity="5 %" --over angle=40:80:17 --plot band.png
+      wetdoublet sensitivity granulation --wrt liquid.viscosity,impact.speed --over-time --plot trajectory.png
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..sensitivity.parameters import check_hold, check_wrt
     from ..sensitivity.results import check_quantities
@@ -82,6 +99,21 @@ def command(
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
     scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    if over is not None or over_time:
+        given = {"--hessian": "given" * hessian, "--method": method or "", "--hold": "" if over_time else hold or ""}
+        given |= {"--over": over or "", "--of": of or "", "--uncertainty": " ".join(uncertain)} if over_time else {}
+        given |= {} if over_time else {"--wrt": wrt or "", "--engine": engine or ""}
+        for name, value in given.items():
+            if value:
+                accepted = f"no {name} with {'--over-time' if over_time else '--over'}"
+                raise InputError(name, value, accepted, "is not for this")
+        data, text = _trajectory(scene, wrt, tolerance, engine, held) if over_time else _band(
+            scene, over or "", uncertain, asked, None if rtol is None else tolerance
+        )  # fmt: skip
+        options.put(json.dumps(_plain(data.to_dict()), indent=2, allow_nan=False) if as_json else text, file)
+        if picture is not None:
+            data.wetdoublet.plot(picture)
+        return
     names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
     scene.need_impact()
     deviation = deviations(scene, _assigned(uncertain), "--uncertainty") if uncertain else {}
@@ -98,6 +130,63 @@ def command(
     options.put(text, file)
     if picture is not None:
         found.plot(picture)
+
+
+def _trajectory(
+    scene: Scene, wrt: str | None, rtol: float, engine: str | None, hold: str | None
+) -> tuple[xarray.Dataset, str]:
+    """Sensitivities over time, and a table of how the events move."""
+    from ..sensitivity.parameters import check_wrt
+    from ..sensitivity.trajectory import trajectory_sensitivities
+
+    names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
+    found = trajectory_sensitivities(scene, names, rtol=rtol, engine=engine, hold=hold)
+    parameters = [str(name) for name in found.parameter.values]
+    width = max(map(len, parameters))
+    lines = [f"{found.attrs['outcome']}: how the time of each event moves, p dt/dp in s"]
+    for k, event in enumerate(found.event.values):
+        lines += ["", f"{event} at {float(found.event_time[k]):.6g} s"]
+        moved = found.d_event_time.values[k] * found.reference.values
+        lines += [f"  {name:<{width}}  {move:>12.5g}" for name, move in zip(parameters, moved, strict=True)]
+    return found, "\n".join(lines)
+
+
+def _band(
+    scene: Scene, over: str, uncertain: Sequence[str], of: Sequence[str], rtol: float | None
+) -> tuple[xarray.Dataset, str]:
+    """The band of one result, and its table."""
+    from ..sensitivity.uncertainty import band
+
+    name, equals, text = over.partition("=")
+    name = name.strip().removeprefix("impact.")
+    units = {"stokes": "", "speed": " (m/s)", "relative_speed": " (m/s)", "angle": " (deg)"}
+    if not equals or name not in units:
+        raise InputError("--over", over, ", ".join(f"{each}=RANGE" for each in units))
+    if not uncertain:
+        raise InputError("--uncertainty", None, 'NAME=VALUE, such as liquid.viscosity="5 %", with --over')
+    if len(of) != 1:
+        raise InputError("--of", ",".join(of), "one result with --over")
+    entry = FIELDS[f"impact.{name}"]
+    values = options.entry_range(entry, text, "--over")
+    more: Any = {} if rtol is None else {"rtol": rtol}
+    found = band(scene, _assigned(uncertain), entry.name, values, of=of[0], **more)
+    label = f"{name.replace('_', ' ')}{units[name]}"
+    lines = [f"{label:<20} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"]
+    columns = (found[of[0]], found.first_order, found.low, found.high)
+    for k, value in enumerate(values):
+        cells = [f"{float(column[k]):.6g}" for column in columns]
+        shown = math.degrees(value) if name == "angle" else value
+        lines.append(f"{shown:<20.6g} {cells[0]:>16} {cells[1]:>16} {cells[2]:>12} {cells[3]:>12}")
+    return found, "\n".join(lines)
+
+
+def _plain(value: Any) -> Any:
+    """What JSON can hold: null for what is not a number."""
+    if isinstance(value, dict):
+        return {str(name): _plain(each) for name, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _names(text: str) -> list[str]:

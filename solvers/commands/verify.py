@@ -26,6 +26,7 @@ from .stress import SCENES, Counted, check_alone, count_of, stress_test
     help=f"Instead: compare all engines on N scenes, drawn and beside boundaries [{SCENES}].",
 )
 @click.option("--out", metavar="DIR", help="Folder for records, tables and plots of --stress [stress].")
+@click.option("--recompute", is_flag=True, help="Make the symbolic verdicts again, though they are kept.")
 @options.debug
 def command(
     source: str | None,
@@ -39,15 +40,21 @@ def command(
     plot: str | None,
     stress: str | None,
     out: str | None,
+    recompute: bool,
 ) -> None:
     """Check the laws on SCENE, or on all presets; the report goes to standard output.
+
+    Its first line says that all hold, or what failed and why. The symbolic verdicts are kept in the cache for as long
+    as the equations, and what they depend on otherwise, are the same.
 
     With --stress, engines of this package and scipy's LSODA compute the same scenes: each difference between them is
     explained by a boundary within their error, or makes the exit status 1.
     """
     count = None if stress is None else count_of(stress)
     others = {"SCENE": source, "--stokes": stokes, "--speed": speed, "--angle": angle, "--set": "; ".join(changes)}
-    check_alone(stress, out, others | {"--model": model, "-o": output, "--plot": plot})
+    check_alone(
+        stress, out, others | {"--model": model, "-o": output, "--plot": plot, "--recompute": "given" * recompute}
+    )
     if count is not None:
         folder = options.check_folder(out or "stress")
         assert folder is not None  # it has a name
@@ -72,7 +79,7 @@ def command(
                 findings.append(finding)
                 tell(len(findings), None)
 
-            report = verify(scene, progress)
+            report = verify(scene, progress, recompute)
     except KeyboardInterrupt:
         if findings:
             click.echo(str(Report(tuple(findings))))

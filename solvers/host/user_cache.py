@@ -75,6 +75,11 @@ def kept(name: str, made: Callable[[], bytes]) -> bytes:
         return content
 
 
+def found(name: str) -> bytes | None:
+    """The content of the entry of that name; None if it is not there or not whole."""
+    return _found(name)
+
+
 def has(prefix: str) -> bool:
     """True if an entry's name begins with `stem`; the entry is not read."""
     listed = (name for shelf in _shelves() for name in _names(shelf))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -21,21 +21,15 @@ from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
-
-QUANTITIES: dict[str, tuple[str, str]] = {
-    "restitution": ("1", "normal restitution e_n"),
-    "tangential_restitution": ("1", "tangential restitution r_f omega_f/(r_0 omega_0)"),
-    "rotation": ("rad", "angle turned by the line of centres until separation"),
-    "contact_time": ("s", "time from initial contact to separation"),
-    "smallest_gap": ("m", "smallest gap until separation"),
-}
-VALIDITY = "validity"
-"""Name of the variable that says where the model leaves its range."""
+from .results import MAPPED, VALIDITY
 
 
 @dataclass(frozen=True)
 class Batch:
-    """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length."""
+    """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length.
+
+    `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`).
+    """
 
     scene: Scene
     stokes: np.ndarray | None
@@ -45,6 +39,7 @@ class Batch:
     rtol: float
     engine: str
     of: tuple[str, ...]
+    texts: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -72,7 +67,24 @@ class Batch:
             speed=None if self.speed is None else self.speed[which],
             angle=self.angle[which],
             vary={name: values[which] for name, values in self.vary.items()},
+            texts={name: values[which] for name, values in self.texts.items()},
         )
+
+    def by_text(self) -> Iterator[tuple[np.ndarray, Batch | InputError]]:
+        """Which collisions have the same choices, and the batch of them; an InputError where no scene has these."""
+        columns = np.array(list(self.texts.values())).T
+        for row in dict.fromkeys(map(tuple, columns.tolist())):
+            which = np.flatnonzero((columns == np.array(row)).all(axis=1))
+            try:
+                scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
+                part = replace(
+                    self.part(which), scene=scene, texts={}, engine=bulk_engine(self.engine, self.size, scene)
+                )
+                check_some_scene(part)
+            except InputError as error:
+                yield which, error
+            else:
+                yield which, part
 
 
 @lru_cache(maxsize=64)
@@ -88,7 +100,7 @@ def validated_batch(
     engine: str | None,
     of: Sequence[str],
 ) -> Batch:
-    """A validated `Batch`, its arrays broadcast to one length.
+    """A validated `Batch`, its 1-D arrays broadcast to one length.
 
     Arguments:
         impact: `stokes`, `speed`, `relative_speed` and `angle` as they were given; None for the scene's.
@@ -96,39 +108,49 @@ def validated_batch(
     loaded = Scene.load(scene)
     kept = check_outputs(of)
     loaded, varied = checked_vary(loaded, vary)
-    arrays = checked_impact(loaded, impact) | varied
+    columns = checked_impact(loaded, impact) | varied
+    request = batch(loaded, of_one_length(columns), rtol, engine, kept)
+    check_some_scene(request)
+    return request
+
+
+def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str | None, of: tuple[str, ...]) -> Batch:
+    """A Batch of checked columns of one length, by dotted name."""
+    angle, relative = columns.pop("impact.angle"), columns.pop("impact.relative_speed", None)
+    speed = columns.pop("impact.speed", None)
+    return Batch(
+        scene=scene,
+        stokes=columns.pop("impact.stokes", None),
+        speed=speed if relative is None else normal_speed(relative, angle),
+        angle=angle,
+        vary={name: column for name, column in columns.items() if column.dtype.kind == "f"},
+        rtol=check_rtol(rtol),
+        engine=bulk_engine(check_engine(engine), angle.size, scene),
+        of=of,
+        texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
+    )
+
+
+def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """1-D columns, single values repeated; InputError if lengths differ."""
     lengths = {name: array.size for name, array in arrays.items() if array.ndim and array.size != 1}
     size = next(iter(lengths.values()), 1)
     for name, length in lengths.items():
         if length != size:
             raise InputError(name, f"{length} values", f"{size} values, or one", "differs in length from the others")
-    full = {
+    return {
         name: array.reshape(-1).copy() if array.size == size else np.full(size, array.item())
         for name, array in arrays.items()
     }
-    angle, relative = full.pop("impact.angle"), full.pop("impact.relative_speed", None)
-    speed = full.pop("impact.speed", None)
-    request = Batch(
-        scene=loaded,
-        stokes=full.pop("impact.stokes", None),
-        speed=speed if relative is None else normal_speed(relative, angle),
-        angle=angle,
-        vary=full,
-        rtol=check_rtol(rtol),
-        engine=bulk_engine(check_engine(engine), size, loaded),
-        of=kept,
-    )
-    check_some_scene(request)
-    return request
 
 
-def check_outputs(of: Sequence[str]) -> tuple[str, ...]:
+def check_outputs(of: Sequence[str], known: Sequence[str] = MAPPED) -> tuple[str, ...]:
     """The quantities to keep, with those that the limits of the model need; InputError for an unknown one."""
-    kept = check_names(of, (*QUANTITIES, "outcome", "certified", "reason", VALIDITY), "of")
+    kept = check_names(of, known, "of")
     return tuple(dict.fromkeys((*kept, *NEEDS))) if VALIDITY in kept else kept
 
 
-def checked_impact(scene: Scene, impact: Mapping[str, Any]) -> dict[str, np.ndarray]:
+def checked_impact(scene: Scene, impact: Mapping[str, Any], most: int | None = 1) -> dict[str, np.ndarray]:
     """Impacts by dotted name, SI; defaults are the scene's. InputError if the scene has none."""
     asked = {name: values for name, values in impact.items() if name != "angle" and values is not None}
     names = [name.partition(".")[2] for name in SPEEDS]
@@ -144,39 +166,50 @@ def checked_impact(scene: Scene, impact: Mapping[str, Any]) -> dict[str, np.ndar
     if angle is None:
         raise InputError("angle", None, "angles in rad, or an [impact] in the scene")
     given = {f"impact.{name}": values for name, values in asked.items()} | {"impact.angle": angle}
-    return {name: checked_numbers(name, values) for name, values in given.items()}
+    return {name: checked_numbers(name, values, most=most) for name, values in given.items()}
 
 
-def checked_vary(scene: Scene, vary: Mapping[str, Any], label: str = "vary") -> tuple[Scene, dict[str, np.ndarray]]:
+def checked_vary(
+    scene: Scene, vary: Mapping[str, Any], label: str = "vary", most: int | None = 1, texts: bool = False
+) -> tuple[Scene, dict[str, np.ndarray]]:
     """Other entries that vary, SI, and the scene with `bridge.volume` in the same unit; InputError for a wrong entry.
 
     Values of `bridge.volume` with a unit are volumes in m^3 and plain numbers are V/R^3, whatever the scene gives.
+
+    Arguments:
+        most: dimensions; None for any number.
+        texts: choices may vary as well.
     """
     vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
     found = {}
     for name, values in vary.items():
-        check_varies(name, values, label, scene.package)
+        check_varies(name, values, label, scene.package, texts)
         if "." in name and name.partition(".")[0] not in {given.partition(".")[0] for given, _ in scene.given}:
             accepted = ", ".join(given for given, _ in scene.given if not given.startswith("impact."))
             raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
     for name, values in vary.items():
         entry = fields(scene.package)[name]
+        if entry.choices:
+            found[name] = checked_texts(name, values, entry)
+            continue
         measured = bool(entry.or_unit) and carries_unit(values)
-        found[name] = checked_numbers(name, values, entry.measured if measured else entry)
+        found[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
         if entry.or_unit and found[name].size:
             first = float(found[name].flat[0])
             scene = scene.with_entries({name: f"{first!r} {entry.or_unit}" if measured else first})
     return scene, found
 
 
-def check_varies(name: str, values: object, label: str = "vary", package: Package | None = None) -> None:
-    """Raise InputError unless the entry is a number outside [impact]."""
+def check_varies(
+    name: str, values: object, label: str = "vary", package: Package | None = None, texts: bool = False
+) -> None:
+    """Raise InputError unless the entry is a number outside [impact], or with `texts` a choice."""
     known = fields(package)
     if name not in known:
         raise unknown(name, values, package) or unknown_entry(name, values)
     if name.startswith("impact."):
         raise InputError(label, name, "entries that are not of the impact", "has an argument of its own")
-    if known[name].choices:
+    if known[name].flag or (known[name].choices and not texts):
         raise InputError(label, name, "entries that are numbers", "is a choice")
 
 
@@ -194,15 +227,31 @@ def check_some_scene(request: Batch) -> None:
         raise first
 
 
-def checked_numbers(name: str, values: Any, entry: Field | None = None) -> np.ndarray:
-    """A 0-D or 1-D array of SI numbers within the field's range; text carries its unit.
+def checked_texts(name: str, values: Any, entry: Field) -> np.ndarray:
+    """An array of choices, in any number of dimensions; InputError for one that there is not."""
+    try:
+        found = np.asarray(values, dtype=object)
+    except Exception:  # noqa: BLE001 # whatever another library's conversion raises
+        raise InputError(name, values, entry.accepts, "is not a list of names") from None
+    read: set[str] = set()
+    for value in found.ravel().tolist():
+        if not isinstance(value, str) or value not in read:
+            read.add(str(entry.read(value)))
+    return found.astype(str)
+
+
+def checked_numbers(name: str, values: Any, entry: Field | None = None, most: int | None = 1) -> np.ndarray:
+    """An array of SI numbers within the field's range; text carries its unit.
+
+    Arguments:
+        most: dimensions that it may have; None for any number.
 
     Raises:
         InputError: as `values.array`, and numbers outside the field's range.
     """
     entry = FIELDS[name] if entry is None else entry
     found = array(values, entry, name)
-    if found.ndim > 1:
+    if most is not None and found.ndim > most:
         raise InputError(name, f"{found.ndim} dimensions", "one dimension, or a single number", "is not accepted")
     # every range is an interval: if it holds the smallest and the largest value, it holds all
     ends = (float(found.min()), float(found.max())) if found.size else ()  # NaN if any value is

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from ...generated import scaling
-from ...generated.automaton import LAST_ANSWER
+from ...generated.automaton import KINDS, LAST_ANSWER
+from ..collision.outcome import open_beyond
 from ..engines.taylor.call import Impacts, run_kernel
+from ..engines.taylor.layout import ANSWER, LEDGER
+from ..engines.taylor.record import run_recorded
+from ..model.model import load, select_model
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, si_values
@@ -17,11 +22,26 @@ from ..scene.scene import Scene
 from ..settings import FEW
 from .batch import Batch
 from .columns import varied_columns
+from .results import LEDGER as OF_LEDGER
+from .results import NONE, RATES, REVERSALS
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
 _NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to disable a rebound criterion
+_CHUNK = 4096  # collisions a thread takes at a time
+_TERMS = {
+    "initial": "initial",
+    "final": "final",
+    "normal_lubrication": "normal",
+    "tangential_lubrication": "tangential",
+    "capillary": "capillary",
+    "attraction": "attraction",
+    "dry_contact": "dry",
+    "strings": "lifted",
+}  # of the ledger, and the kernel's name for each
+_CODES = np.full(len(KINDS) + 1, NONE, dtype=np.int8)  # of reversals, by the number of the event; the last for none
+_CODES[[KINDS.index(word) for word in REVERSALS]] = range(len(REVERSALS))
 _NEAR = 1e-9  # relative distance to a limit of valid input below which the scene itself is validated
 
 
@@ -34,20 +54,28 @@ def collide_by_kernel(
         finished: called with the indices and results of every finished block.
     """
     left = [which[:0]]
+    ledger = any(name in OF_LEDGER for name in request.of)
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
         impacts, sound = impacts_of(request if whole else request.part(part))
-        found = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
+        books = None
+        if ledger:
+            both = _with_books(impacts, request.rtol, threads)
+            found, books = both if both is not None else (None, None)
+        else:
+            found = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
         if found is None:
             return which
         kept = found["status"] <= LAST_ANSWER
+        if books is not None:  # where the ledger is open the trajectory is wrong
+            kept &= _closed(found, books, request.rtol)
         if part.size == kept.size and kept.all():  # the usual case; avoids copies
-            finished(part, _block(request, found, impacts))
+            finished(part, _block(request, found, impacts, books))
             continue
         done = sound.copy()
         done[sound] = kept
-        finished(part[done], _block(request, found[kept], impacts.part(kept)))
+        finished(part[done], _block(request, found[kept], impacts.part(kept), None if books is None else books[kept]))
         left.append(part[~done])
     return np.concatenate(left)
 
@@ -102,7 +130,7 @@ def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def _block(request: Batch, found: np.ndarray, impacts: Impacts) -> Block:
+def _block(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = found["outcome"] > 0
 
@@ -117,10 +145,82 @@ def _block(request: Batch, found: np.ndarray, impacts: Impacts) -> Block:
         "contact_time": lambda: where(separated, found["time"] * thickness() / impacts.speed),
         "smallest_gap": lambda: where(separated, found["smallest_gap"] * thickness()),
         "rotation": lambda: where(separated, found["turned"]),
+        "until": lambda: where(~separated, found["time"] * thickness() / impacts.speed),
+        "reversal": lambda: _CODES[found["reversal"]],
+        "steps": lambda: found["steps"].astype(float),
     }
     block: Block = {
         "outcome": found["outcome"].astype(np.int8),
         "certified": found["certified"] != 0,
         "restitution": np.where(separated, found["shown"][:, 0], 0.0),
     }
+    if any(name in RATES for name in request.of):
+        rates = _rates(request.scene, found, impacts)
+        columns |= {name: lambda name=name: where(separated, rates[name]) for name in rates}  # type: ignore[misc]
+    if books is not None:
+        block |= {name: column for name, column in _ledger(request, books, impacts).items() if name in request.of}
     return block | {name: column() for name, column in columns.items() if name in request.of}
+
+
+def _rates(scene: Scene, found: np.ndarray, impacts: Impacts) -> dict[str, np.ndarray]:
+    """Spins and rotation rate at separation, rad/s; 0 head-on."""
+    formula, arguments = formulas(scene)["initial_rate"]
+    given = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    unit = np.asarray(formula(*(given[name] for name in arguments))).reshape(-1)  # of arrays it is CasADi's matrix
+    names = load(select_model(scene, True, fold=not impacts.others)).names("outputs")
+    shown = {name: found["shown"][:, k] * unit for k, name in enumerate(names) if name in RATES}
+    none = np.full(unit.size, np.nan)
+    partner = none if scene.partner is None else np.zeros(unit.size) if scene.wall else shown["final_spin"]
+    return {"final_spin_partner": partner, "final_rotation_rate": none, **shown}
+
+
+def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
+    """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
+    scene, others = request.scene, impacts.others
+    unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
+    absent = {"attraction": scene.attraction is None, "lifted": scene.pendulum is None}
+    terms = {
+        name: np.full(books.size, np.nan if name == "attraction" else 0.0) if absent.get(own) else books[own] * unit
+        for name, own in _TERMS.items()
+    }
+    spent = [np.nan_to_num(terms[name]) for name in list(_TERMS)[2:]]
+    block = {f"energy.{name}": values for name, values in terms.items()}
+    block["energy.residual"] = terms["initial"] - terms["final"] - sum(spent)
+    kept = scene.pendulum is None and not scene.wall
+    drift = np.abs(books["momentum"] - 1.0) if kept else np.nan
+    block["angular_momentum_drift"] = np.where(impacts.angle > 0, drift, 0.0 if scene.pendulum is None else np.nan)
+    return block
+
+
+def _closed(found: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
+    """Where the ledger is as closed as a tolerance leaves it, or the outcome is a stick."""
+    terms = np.array([books[name] for name in _TERMS.values()])
+    residual = np.abs(terms[0] - terms[1:].sum(axis=0))
+    largest = np.maximum(np.abs(terms).max(axis=0), residual)
+    closed: np.ndarray = (found["outcome"] == 0) | (residual <= open_beyond(rtol) * largest)
+    return closed
+
+
+def _with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndarray, np.ndarray] | None:
+    """Answers and ledgers of impacts; None if there is no kernel here."""
+    found, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
+
+    def run(oblique: bool, which: np.ndarray) -> bool:
+        fold = not impacts.others
+        told = run_recorded(impacts.part(which), oblique, rtol, ledger=True, events=False, fold=fold)
+        if told is None or told.ledger is None:
+            return False
+        found[which], books[which] = told.answers, told.ledger
+        return True
+
+    turns = impacts.angle > 0
+    parts = [
+        (oblique, which[first : first + _CHUNK])
+        for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns)))
+        for first in range(0, which.size, _CHUNK)
+    ]
+    if threads == 1 or len(parts) < 2:
+        return (found, books) if all(run(*part) for part in parts) else None
+    with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
+        done = list(pool.map(lambda part: run(*part), parts))
+    return (found, books) if all(done) else None

@@ -14,25 +14,42 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
+from ..collision.assemble import partner_spin
 from ..engines.casadi.locate import EventSequence, locate
-from ..errors import ComputationError, WetDoubletError
+from ..errors import ComputationError, InputError, WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
+from ..host.pictures import register
 from ..host.workers import undisturbed, workers
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model
 from ..model.validity import flag_attributes, flags, warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL
-from .batch import QUANTITIES, VALIDITY, Batch, validated_batch
+from .batch import Batch, batch, check_outputs, check_some_scene, checked_impact, checked_vary, of_one_length
+from .broadcast import Layout, laid_out
 from .by_kernel import collide_by_kernel
 from .columns import with_impacts
+from .of_impact import of_impact
+from .results import (
+    FAILED,
+    INTEGRATED,
+    LEDGER,
+    NONE,
+    OF_IMPACT,
+    RATES,
+    RESULTS,
+    REVERSALS,
+    VALIDITY,
+    attributes,
+    blank,
+    outcome_attributes,
+)
 
 if TYPE_CHECKING:
     import xarray
 
-FAILED = -1
 _BLOCK = 50  # collisions in a block for a worker
 _ALONE = FEW  # fewer collisions are not worth starting workers for
 _SLOW_ALONE = 20  # the same for collisions that the kernel did not complete; they take up to seconds each
@@ -59,32 +76,73 @@ def collide_many(
     Arguments:
         scene: a Scene, a path or a preset's name.
         stokes, speed, relative_speed: Stokes numbers, normal speeds in m/s, or magnitudes of the relative velocity in
-            m/s: 1-D or a single number; default the scene's.
-        angle: impact angles in rad, 1-D or a single number; default the scene's.
-        vary: other entries by dotted name (SI numbers), 1-D of the same length.
+            m/s; default the scene's.
+        angle: impact angles in rad; default the scene's.
+        vary: other entries by dotted name: SI numbers, or the names of laws and other choices.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: quantities to keep besides restitution: tangential_restitution, rotation, contact_time, smallest_gap;
-            validity (flags of where the model leaves its range, with the results that these need).
+        of: what to keep besides outcome and restitution: any number that a `Collision` has, and terms of its ledger as
+            "energy.capillary" (the ledger is then integrated too, which takes longer); validity: flags of
+            where the model leaves its range, with the results that these need.
+
+    Numbers, arrays of any shape, quantities with units and DataArrays are broadcast against each other as numpy does,
+    DataArrays by the names of their dimensions; plain arrays beside these go with the last dimensions.
 
     Returns:
-        Dataset over `collision`: outcome (int8: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 failed), restitution,
-        certified, reason (of a failure, else ""), and what `of` names; NaN where a stick leaves a quantity undefined.
+        Dataset: outcome (int8: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 failed), restitution, certified, reason
+        (of a failure, else ""), and what `of` names; NaN where a stick leaves a quantity undefined. Over `collision` if
+        what is given has one dimension or none; over dim_0, dim_1, ... if it has more; over the dimensions of
+        DataArrays, with their coordinates, where there are any.
 
     Raises:
-        InputError: an invalid name, length or value. A collision that fails raises nothing; it is marked.
+        InputError: an invalid name, shape or value. A collision that fails raises nothing; it is marked.
 
     Example:
         >>> from wetdoublet.solvers import collide_many
         >>> collide_many("granulation", stokes=[0.01, 0.02], angle=1.3).outcome.values
         array([0, 1], dtype=int8)
+        >>> laws = collide_many("granulation", stokes=0.02, angle=1.3, vary={"bridge.law": ["mikami", "willett"]})
+        >>> laws.restitution.shape
+        (2,)
     """
+    loaded, kept = Scene.load(scene), check_outputs(of, RESULTS)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    request = validated_batch(scene, impact, {} if vary is None else vary, rtol, engine, of)
-    warn(request.scene)
+    vary = {} if vary is None else vary
+    loaded, varied = checked_vary(loaded, vary, most=None, texts=True)
+    arrays = checked_impact(loaded, impact, None) | varied
+    layout = laid_out(arrays, {**{f"impact.{name}": values for name, values in impact.items()}, **vary})
+    request = batch(loaded, of_one_length(arrays) if layout is None else layout.columns, rtol, engine, kept)
     results = empty(request.size, request.of)
+    if request.texts:
+        return as_dataset(request, results, layout, _by_text(request, results))
+    check_some_scene(request)
+    warn(loaded)
+    _whole(request, results)
+    return as_dataset(request, results, layout)
+
+
+def _whole(request: Batch, results: Block) -> None:
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
-    return as_dataset(request, results)
+    if any(name in OF_IMPACT for name in request.of):
+        fill(results, np.arange(request.size), of_impact(request))
+
+
+def _by_text(request: Batch, results: Block) -> str:
+    """Fill the results batch by batch, one for each set of choices; returns the engines."""
+    engines, first = dict[str, None](), None
+    for where, part in request.by_text():
+        if isinstance(part, InputError):
+            first = first or part
+            results["outcome"][where], results["reason"][where] = FAILED, str(part)
+            continue
+        warn(part.scene)
+        found = empty(part.size, part.of)
+        _whole(part, found)
+        fill(results, where, found)
+        engines[part.engine] = None
+    if first is not None and not engines:
+        raise first
+    return ", ".join(engines) or request.engine
 
 
 def empty(size: int, of: Sequence[str]) -> Block:
@@ -93,8 +151,8 @@ def empty(size: int, of: Sequence[str]) -> Block:
     columns["certified"] = np.zeros(size, dtype=bool)
     columns["reason"] = np.empty(size, dtype=object)  # None: has not failed
     for name in dict.fromkeys(("restitution", *of)):
-        if name in QUANTITIES:
-            columns[name] = np.full(size, np.nan)
+        if name in INTEGRATED or name in OF_IMPACT:
+            columns[name] = blank(name, size)
     return columns
 
 
@@ -172,8 +230,9 @@ def run(request: Batch, machine_code: bool) -> Block:
 def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
     try:
         scene, speed, angle = request.impact(k)
-        if request.engine == "cvodes":
-            return _chained(request, scene, speed, angle)
+        if request.engine == "cvodes" or any(name in LEDGER or name == "steps" for name in request.of):
+            plugin = "cvodes" if request.engine == "cvodes" else "rosenbrock"
+            return _chained(request, scene, speed, angle, plugin)
         n = nondimensionalise(scene, speed, angle)
         model = load(select_model(scene, n.oblique, fold=True))
         turns = model.has("turning_rate") and not model.strings
@@ -182,17 +241,19 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
             path = locate(model, n.groups, request.rtol, quadrature, machine_code)
         except ComputationError as error:
             raise n.in_si(error) from None
-        return _kept(request.of, path, n)
+        return _kept(scene, request.of, path, n)
     except WetDoubletError as error:
         return {"outcome": FAILED, "reason": str(error)}
     except Exception as error:  # noqa: BLE001 # a defect of ours spoils one collision, not the others
         return {"outcome": FAILED, "reason": " ".join(f"internal error: {type(error).__name__}: {error}".split())}
 
 
-def _kept(of: Sequence[str], path: EventSequence, n: DimensionlessGroups) -> dict[str, Any]:
+def _kept(scene: Scene, of: Sequence[str], path: EventSequence, n: DimensionlessGroups) -> dict[str, Any]:
     found: dict[str, Any] = {"outcome": OUTCOMES.index(path.outcome), "certified": path.certified, "restitution": 0.0}
+    if "reversal" in of:
+        found["reversal"] = _code(path.reversal)
     if not path.separated:
-        return found
+        return found | ({"until": path.time * n.time} if "until" in of else {})
     outputs = path.model.values("outputs", path.y, path.p)
     found["restitution"] = outputs["restitution"]
     values = {
@@ -204,25 +265,42 @@ def _kept(of: Sequence[str], path: EventSequence, n: DimensionlessGroups) -> dic
     names = (*path.model.state, *path.extras)
     if "rotation" in names:
         values["rotation"] = float(path.y[names.index("rotation")])
+    if any(name in RATES for name in of):
+        rates = {name: outputs[name] * n.rate if n.oblique else 0.0 for name in ("final_spin", "final_rotation_rate")}
+        partner = partner_spin(scene, rates["final_spin"], outputs, n)
+        values |= rates | {"final_spin_partner": math.nan if partner is None else partner}
     return found | {name: value for name, value in values.items() if name in of}
 
 
-def _chained(request: Batch, scene: Scene, speed: float, angle: float) -> dict[str, Any]:
-    """One collision by CVODES, as a row of result columns."""
+def _code(reversal: str | None) -> int:
+    return NONE if reversal is None else REVERSALS.index(reversal)
+
+
+def _chained(request: Batch, scene: Scene, speed: float, angle: float, plugin: str) -> dict[str, Any]:
+    """One collision as `collide` computes it."""
     from ..collision.by_casadi import by_casadi
 
     n = nondimensionalise(scene, speed, angle)
-    one = by_casadi(scene, n, request.rtol, "cvodes", ledger=False, trajectory=False).to_dict()
-    found = {name: math.nan if one[name] is None else one[name] for name in QUANTITIES if name in request.of}
-    return found | {
-        "outcome": OUTCOMES.index(one["outcome"]),
-        "certified": one["certified"],
-        "restitution": one["restitution"],
-    }
+    ledger = any(name in LEDGER for name in request.of)
+    one = by_casadi(scene, n, request.rtol, plugin, ledger=ledger, trajectory=False)
+    found: dict[str, Any] = {"outcome": OUTCOMES.index(one.outcome), "certified": one.certified}
+    for name in ("restitution", *(name for name in request.of if name in INTEGRATED)):
+        table, _, term = name.rpartition(".")
+        value = getattr(getattr(one, table) if table else one, term)
+        found[name] = _code(value) if name == "reversal" else math.nan if value is None else value
+    return found
 
 
-def as_dataset(request: Batch, results: Block) -> xarray.Dataset:
-    """Results as a labelled Dataset over `collision`, its impacts and varied entries as coordinates."""
+def as_dataset(
+    request: Batch, results: Block, layout: Layout | None = None, engine: str | None = None
+) -> xarray.Dataset:
+    """Results as a labelled Dataset, its impacts and varied entries as coordinates.
+
+    Arguments:
+        layout: how they are laid out; None: over `collision`.
+        engine: which answered, if it is not the request's.
+    """
+    register()
     along = ("collision",)
     coordinates: dict[str, Column] = {}
     if request.stokes is not None:
@@ -232,20 +310,24 @@ def as_dataset(request: Batch, results: Block) -> xarray.Dataset:
     coordinates["angle"] = along, request.angle, {"units": "rad", "long_name": "impact angle"}
     for name, values in request.vary.items():
         coordinates[name] = along, values, {"units": request.scene.fields[name].unit or "1"}
+    for name, values in request.texts.items():
+        coordinates[name] = along, values, {"long_name": request.scene.fields[name].what}
     variables: dict[str, Column] = {
         "outcome": (along, results["outcome"], outcome_attributes()),
         "certified": (along, results["certified"], {"long_name": "the stick is proved"}),
         "reason": (along, as_text(results), {"long_name": "why it failed"}),
     }
-    for name, (unit, meaning) in QUANTITIES.items():
-        if name in results:
-            variables[name] = along, results[name], {"units": unit, "long_name": meaning}
+    for name, values in results.items():
+        if name not in variables:
+            variables[name] = along, values, attributes(name)
     if VALIDITY in request.of:
         variables[VALIDITY] = along, validity(request, results), flag_attributes()
-    attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": request.engine}
+    said = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": engine or request.engine}
     if request.scene.package is not None:
-        attributes["model"] = request.scene.package.text
-    return labelled(variables, coordinates, attributes)
+        said["model"] = request.scene.package.text
+    if layout is not None:
+        return layout.dataset(variables, coordinates, said)
+    return labelled(variables, coordinates, said)
 
 
 def as_text(results: Block) -> np.ndarray:
@@ -260,12 +342,3 @@ def validity(request: Batch, results: Block) -> np.ndarray:
     """Flags of where each collision leaves the model's range; none of one that failed."""
     found = flags(request.scene, with_impacts(request) | results, request.size)
     return np.where(results["outcome"] == FAILED, np.int16(0), found)
-
-
-def outcome_attributes() -> dict[str, Any]:
-    """CF flag attributes of an outcome variable."""
-    return {
-        "long_name": "outcome",
-        "flag_values": np.array([FAILED, 0, 1, 2], dtype=np.int8),
-        "flag_meanings": "failed " + " ".join(name.replace("-", "_") for name in OUTCOMES),
-    }

@@ -22,9 +22,8 @@ from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, LETTERS, NOTE, NOTHING, halo, patch, picture, plain_text
 from ..model.validity import counted
 from ..scene.scene import Scene
-from .batch import VALIDITY
-from .collide_many import FAILED
 from .regime_map import IMPACTS, impact_axis, scene_of
+from .results import FAILED, VALIDITY
 
 if TYPE_CHECKING:
     import xarray

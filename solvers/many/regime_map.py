@@ -18,6 +18,7 @@ from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
+from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
 from ..scene.groups import si_values
 from ..scene.quantities import normal_speed
@@ -26,9 +27,10 @@ from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import QUANTITIES, VALIDITY, Batch, check_outputs, check_some_scene, checked_impact, checked_vary
-from .collide_many import Block, Slow, as_text, compute, empty, fill, outcome_attributes, validity
+from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary
+from .collide_many import Block, Slow, as_text, compute, empty, fill, validity
 from .journal import Journal
+from .results import QUANTITIES, VALIDITY, attributes, outcome_attributes
 
 if TYPE_CHECKING:
     import xarray
@@ -109,8 +111,8 @@ def regime_map(
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: restitution, tangential_restitution, rotation, contact_time, smallest_gap, and validity (flags of where
-            the model leaves its range); by default all.
+        of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
+            smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
@@ -219,6 +221,8 @@ def _version() -> str:
 def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
     import xarray as xr
 
+    register()
+
     def shaped(values: np.ndarray) -> np.ndarray:
         return values.reshape(grid.shape)
 
@@ -227,12 +231,12 @@ def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
         "certified": (grid.dims, shaped(results["certified"]), {"long_name": "the stick is proved"}),
         "reason": (grid.dims, shaped(as_text(results)), {"long_name": "why it failed"}),
     }
-    for name, (unit, meaning) in QUANTITIES.items():
-        if name in results:
-            variables[name] = (grid.dims, shaped(results[name]), {"units": unit, "long_name": meaning})
+    for name, values in results.items():
+        if name not in variables:
+            variables[name] = (grid.dims, shaped(values), attributes(name))
     if VALIDITY in request.of:
         variables[VALIDITY] = grid.dims, shaped(validity(request, results)), flag_attributes()
-    attributes = {
+    said = {
         "Conventions": "CF-1.11",
         "title": f"Outcomes of oblique wet collisions: {grid.scene.name or 'unnamed scene'}",
         "source": f"wetdoublet {_version()}",
@@ -242,8 +246,8 @@ def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
         "version": _version(),
     }
     if grid.scene.package is not None:
-        attributes["model"] = grid.scene.package.text
-    return xr.Dataset(variables, _coordinates(grid), attributes)
+        said["model"] = grid.scene.package.text
+    return xr.Dataset(variables, _coordinates(grid), said)
 
 
 def _coordinates(grid: Grid) -> dict[str, Any]:
@@ -319,6 +323,6 @@ def write(data: xarray.Dataset, path: str | Path) -> None:
 
     made = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
     with File(made, "w") as file:
-        encoding = {name: {"zlib": True} for name in QUANTITIES if name in data}
+        encoding = {name: {"zlib": True} for name in data.data_vars if data[name].dtype.kind == "f"}
         data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
     files.write(path, made.getbuffer())

@@ -12,9 +12,8 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
 from ..model.validity import counted
-from .batch import VALIDITY
-from .collide_many import FAILED
 from .regime_map import IMPACTS, impact_axis, scene_of
+from .results import FAILED, VALIDITY
 
 if TYPE_CHECKING:
     import xarray
@@ -93,7 +92,7 @@ def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
             parts.append(f"{count} of {size} {what}")
     if not parts:
         return []
-    return ["", f"shown: {', '.join(parts)}", "-o FILE.nc keeps all, --plot FILE.png draws them"]
+    return ["", f"shown: {', '.join(parts)}", "-o FILE.nc or .csv keeps all, --plot FILE.png draws them"]
 
 
 def failures(data: xarray.Dataset) -> str | None:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import collide as collide
     from wetdoublet.solvers import collide_many as collide_many
     from wetdoublet.solvers import gradients_many as gradients_many
+    from wetdoublet.solvers import plot as plot
     from wetdoublet.solvers import regime_map as regime_map
     from wetdoublet.solvers import sensitivities as sensitivities
     from wetdoublet.solvers import sobol_indices as sobol_indices

@@ -157,6 +157,17 @@ class Scene:
             tables.setdefault(table, {})[key] = scenefile.written(entry, value)
         return tables
 
+    def __str__(self) -> str:
+        """The scene as a table: entries with their units, defaults and assumptions, and what follows from them."""
+        from .shown import text
+
+        return text(self)
+
+    def _repr_html_(self) -> str:
+        from .shown import html
+
+        return html(self)
+
     @property
     def fields(self) -> Mapping[str, Field]:
         """The entries that this scene may have: dotted name -> `Field`, with the unit of the value in `si`."""

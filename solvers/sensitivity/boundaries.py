@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,7 +19,11 @@ from ..scene.schema import SPEEDS
 from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
-from .result import Row
+from .results import Row
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray
 
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
@@ -72,6 +76,69 @@ class BoundarySensitivities:
         units = {name: scene.fields[name].unit or "1" for name in self.parameters} if scene else {}
         return {"angles": list(self.angles), "changes": changes} | self.boundaries.origin(angles="rad", **units)
 
+    def to_dataset(self) -> xarray.Dataset:
+        """Gradients and elasticities over (change, parameter); `change` has angle (rad), stokes, before and after.
+
+        NaN where there is no derivative, for the `reason` given.
+        """
+        import numpy as np
+        import xarray as xr
+
+        pairs, over = self._pairs, ("change", "parameter")
+        data: dict[str, Any] = {"reason": ("change", np.array([one.reason for _, one in pairs], dtype=str))}
+        for of in ("stokes", "centrifugal"):
+            for kind in ("gradient", "elasticity"):
+                rows = [getattr(one, kind).get(of, {}) for _, one in pairs]
+                values = [[np.nan if row.get(name) is None else row[name] for name in self.parameters] for row in rows]
+                data[f"{of}_{kind}"] = over, np.array(values, dtype=float).reshape(len(pairs), len(self.parameters))
+        own = {name: ("change", np.array([getattr(one.change, name) for _, one in pairs]))
+               for name in ("stokes", "before", "after")}  # fmt: skip
+        angles = np.array([angle for angle, _ in pairs], dtype=float)
+        coordinates: dict[str, Any] = {
+            "angle": ("change", angles, {"units": "rad"}), **own, "parameter": list(self.parameters)
+        }  # fmt: skip
+        return xr.Dataset(data, coordinates)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each change and parameter: angle (rad), stokes, before, after, gradients and elasticities."""
+        from ..formatting.frames import frame
+
+        rows = [(angle, one, name) for angle, one in self._pairs for name in self.parameters]
+        columns: dict[str, list[Any]] = {
+            "angle": [angle for angle, *_ in rows],
+            "stokes": [one.change.stokes for _, one, _ in rows],
+            "before": [one.change.before for _, one, _ in rows],
+            "after": [one.change.after for _, one, _ in rows],
+            "parameter": [name for *_, name in rows],
+        }
+        for of in ("stokes", "centrifugal"):
+            for kind in ("gradient", "elasticity"):
+                columns[f"{of}_{kind}"] = [getattr(one, kind).get(of, {}).get(name) for _, one, name in rows]
+        return frame(columns)
+
+    def plot(self, path: str | FilePath | None = None) -> Any:
+        """Draw the elasticities of every change of outcome as bars; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        from ..host.pictures import saved
+        from .boundaries_plot import draw
+
+        return saved(lambda: draw(self.angles, self.changes, self.parameters), path)
+
+    def _repr_html_(self) -> str:
+        from ..formatting.notebook import view
+
+        head = ["parameter", *(f"{np.degrees(angle):.6g}°, {one.change.before} → {one.change.after}"
+                               for angle, one in self._pairs)]  # fmt: skip
+        rows = [[name, *(_elasticity(one, name) for _, one in self._pairs)] for name in self.parameters]
+        return view("boundaries: d ln Ce*/d ln p, of St* without a bridge", rows, head)
+
+    @property
+    def _pairs(self) -> list[tuple[float, Moving]]:
+        return [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
+
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])
 
@@ -93,6 +160,12 @@ class BoundarySensitivities:
                     rows.append(f"  {name.ljust(width)}  {shown:>10}")
                 tables.append("\n".join([f"{title}: d ln {symbol}/d ln p (* d{symbol}/dp where p is zero)", *rows]))
         return tables
+
+
+def _elasticity(one: Moving, name: str) -> str:
+    row = one.elasticity.get("centrifugal", one.elasticity.get("stokes", {}))
+    value = row.get(name)
+    return "-" if value is None else f"{value:.5g}"
 
 
 def boundary_sensitivities(

@@ -12,20 +12,21 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ...generated.automaton import STICK as STICKS
+from ..engines.choice import gradient_engine
 from ..engines.taylor.call import Impacts, order_for
 from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
+from ..host.pictures import register
 from ..many.batch import validated_batch
-from ..many.collide_many import FAILED, outcome_attributes
+from ..many.results import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import FEW, RTOL, STEPS, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
-from .choice import chosen
 from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, parameter_map, references
 from .problem import NEAR, SHARPEST
 from .result import Near
@@ -152,7 +153,7 @@ def gradients_many(
     left = np.arange(request.size)
     oblique = set((request.angle > 0).tolist())
     if by is None:
-        by = chosen(loaded, names, oblique, request.rtol, request.size)
+        by = gradient_engine(loaded, names, kernel.KNOWN, oblique, request.rtol, request.size)
     if by == "taylor" and kernel.offers(loaded, names, oblique):
         left = _by_kernel(asked)
     for k in left:
@@ -290,6 +291,7 @@ def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
 
 
 def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
+    register()
     reference = asked.reference()
     with np.errstate(divide="ignore", invalid="ignore"):
         elasticity = asked.gradient * reference / asked.value[:, :, None]

@@ -7,15 +7,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...generated.automaton import STICK
 from ..scene.origin import origin
-from .results import QUANTITIES
+from ..scene.schema import SPEEDS
+from .results import QUANTITIES, Row
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray
 
     from ..scene.scene import Scene
+    from .boundaries import BoundarySensitivities
 
-Row = Mapping[str, float | None]
+_OF_A_STICK = (
+    "a stick: its restitution is 0, and nothing else of it is defined, up to the boundary of sticking;",
+    "that boundary and its sensitivities: `wetdoublet boundary SCENE --wrt NAMES`, or .boundary() in Python",
+)
 _SHOWN = 5  # most quantities side by side
 _ROUNDING = 1e-13  # relative to the largest elasticity; smaller ones are rounding errors of cancelling contributions
 
@@ -98,6 +105,28 @@ class Sensitivities:
             **origin(self.scene),
         }
 
+    def boundary(self) -> BoundarySensitivities:
+        """The boundaries at this impact angle, and how they move with the same parameters.
+
+        A stick has no derivatives of its own: its restitution is 0 up to the boundary where it ceases to stick.
+
+        Returns:
+            BoundarySensitivities: the changes of outcome in ascending order of the Stokes number.
+
+        Raises:
+            ComputationError: a boundary could not be traced.
+
+        Example:
+            >>> from wetdoublet.solvers import sensitivities
+            >>> stick = sensitivities("granulation", wrt="liquid.viscosity", stokes=0.01, angle="60 deg")
+            >>> stick.outcome, stick.boundary().changes[0][0].change.before
+            ('stick', 'stick')
+        """
+        from .boundaries import boundary_sensitivities
+
+        names = [name for name in self.parameters if name not in SPEEDS]
+        return boundary_sensitivities(self.scene, angle=self.scene.angle, wrt=names or None)
+
     def to_dataset(self) -> xarray.Dataset:
         """Dataset of value, gradient and elasticity over `quantity` and `parameter`; NaN for None. Imports xarray."""
         import numpy as np
@@ -126,6 +155,22 @@ class Sensitivities:
         attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
         return xr.Dataset(variables, coordinates, attributes)
 
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each result and parameter: value, gradient, elasticity and the parameter's own value."""
+        from ..formatting.frames import frame
+
+        pairs = [(name, p) for name in self.value for p in self.parameters]
+        return frame(
+            {
+                "quantity": [name for name, _ in pairs],
+                "parameter": [p for _, p in pairs],
+                "value": [self.value[name] for name, _ in pairs],
+                "gradient": [self.gradient[name][p] for name, p in pairs],
+                "elasticity": [self.elasticity[name][p] for name, p in pairs],
+                "reference": [self.reference[p] for _, p in pairs],
+            }
+        )
+
     def __str__(self) -> str:
         names = list(self.value)
         blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
@@ -141,6 +186,7 @@ class Sensitivities:
         if any(self._rounded(y, p) for y in names for p in self.parameters):
             notes.append("~0: what rounding leaves of contributions that cancel")
         notes += [f"nearest: {self.near}"] if self.near else []
+        notes += [*_OF_A_STICK] if self.outcome == STICK else []
         return "\n\n".join([*blocks, *self._bent(), "\n".join(notes)])
 
     def _block(self, names: list[str]) -> str:
@@ -181,21 +227,27 @@ class Sensitivities:
         largest = max((abs(value or 0.0) for value in self.elasticity[y].values()), default=0.0)
         return 0 < abs(self.elasticity[y][p] or 0.0) < _ROUNDING * largest
 
+    def _repr_html_(self) -> str:
+        from ..collision.text import name_of
+        from ..formatting.notebook import view
+
+        head = ["parameter", *(f"{name} = {_number(self.value[name], QUANTITIES[name].unit)}" for name in self.value)]
+        rows = [[p, *(self._cell(y, p) for y in self.value)] for p in self.parameters]
+        title = f"{name_of(self.scene)}, {self.outcome}: elasticities d ln y/d ln p"
+        near = [f"nearest: {self.near}"] if self.near else []
+        stick = [" ".join(_OF_A_STICK)] if self.outcome == STICK else []
+        return view(title, rows, head, ["* dy/dp where y or p is zero", *near, *stick])
+
     def plot(self, path: str | Path | None = None) -> Any:
         """A tornado chart of the elasticities; returns the matplotlib Figure.
 
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
-        from ..host.files import save
-        from ..host.outputs import PICTURES, check_file
+        from ..host.pictures import saved
         from .tornado import draw
 
-        file = None if path is None else check_file(path, "path", PICTURES)
-        figure = draw(self)
-        if file is not None:
-            save(figure, file, dpi=150)
-        return figure
+        return saved(lambda: draw(self), path)
 
 
 def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:

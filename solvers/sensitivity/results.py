@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ..errors import InputError
@@ -45,6 +45,8 @@ _ALL = (
     Quantity("energy.strings", "J", "energy"),
     Quantity("energy.residual", "J", "energy"),
 )
+Row = Mapping[str, float | None]
+"""A number for each parameter; None where it is not defined."""
 QUANTITIES = {quantity.name: quantity for quantity in _ALL}
 LEDGER = tuple(name for name in QUANTITIES if name.startswith("energy."))
 SPENT = (*LEDGER[2:-1],)

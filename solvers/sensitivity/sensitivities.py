@@ -7,13 +7,13 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
+from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host.arguments import check_mapping
 from ..scene.scene import Scene
 from ..scene.schema import Field, Range
 from ..settings import check_engine, check_rtol
 from . import by_kernel as kernel
-from .choice import chosen
 from .parameters import check_wrt, hold_of
 from .problem import Along, Problem, Slopes
 from .result import Sensitivities
@@ -21,7 +21,6 @@ from .results import SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
 _PART = Field("hessian", "a number (SI)", "1.0", Range("of either sign", lambda _: True))
-_BEST = "rosenbrock"  # its derivatives are about a hundred times more accurate than those of CVODES at one tolerance
 
 
 def check_method(method: object, label: str = "method") -> str:
@@ -87,15 +86,15 @@ def sensitivities(
     names = check_wrt(loaded, wrt)
     along = _along(hessian, names)
     v0, angle_ = loaded.need_impact()
-    plugin = asked or _BEST
+    plugin = casadi_gradient_engine(asked)
     if asked is None and method == "forward" and hessian is False:
-        plugin = chosen(loaded, of, (angle_ > 0,), rtol)
+        plugin = gradient_engine(loaded, of, kernel.KNOWN, (angle_ > 0,), rtol)
     problem = Problem.of(loaded, v0, angle_, names, held)
     path, near = problem.located(of, rtol)
     todo = tuple(name for name in computed(of) if problem.defined(name, path))
     slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
     if slopes is None and todo:
-        beside, plugin = plugin == "taylor", _BEST if plugin == "taylor" else plugin
+        beside, plugin = plugin == "taylor", casadi_gradient_engine() if plugin == "taylor" else plugin
         try:
             slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
         except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not

@@ -16,7 +16,9 @@ from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance_for
 from ..engines.casadi.locate import EventSequence
+from ..engines.choice import casadi_gradient_engine
 from ..errors import ComputationError, InputError
+from ..host.pictures import register
 from ..host.thread_caches import own_cache
 from ..model.model import select_model
 from ..model.phases import Flow, expressions
@@ -79,7 +81,8 @@ def trajectory_sensitivities(
     """
     import xarray as xr
 
-    rtol, plugin = check_rtol(rtol), check_plugin(engine) or "rosenbrock"
+    register()
+    rtol, plugin = check_rtol(rtol), casadi_gradient_engine(check_plugin(engine))
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     hold = hold_of(loaded, hold)
     names = check_wrt(loaded, wrt)
@@ -106,6 +109,7 @@ def trajectory_sensitivities(
         "time": ("time", np.concatenate([piece[0] for piece in pieces]), {"units": "s"}),
         "phase": ("time", np.concatenate([np.full(piece[0].size, piece[3]) for piece in pieces])),
         "parameter": list(names),
+        "reference": ("parameter", [problem.value_of(name) for name in names], {"long_name": "its own value, SI"}),
         "event": [name for name, *_ in events],
     }
     return xr.Dataset(data, coordinates, {"outcome": path.outcome, "engine": plugin, "hold": hold, "rtol": rtol})

@@ -12,9 +12,10 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
-from ..many.batch import QUANTITIES as MANY
+from ..host.pictures import register
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
+from ..many.results import QUANTITIES as MANY
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, SPEEDS, Field
@@ -120,6 +121,7 @@ def band(
     """
     import xarray as xr
 
+    register()
     over, of = check_name(over, _OVER, "over"), check_name(of, tuple(MANY), "of")
     loaded = Scene.load(scene)
     check_mapping(uncertainty, "uncertainty", "standard deviations by dotted name")
@@ -261,8 +263,10 @@ def _drawn(found: xarray.Dataset) -> Any:
     axis.plot(x, found.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
     unit = found[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
-    axis.set_xlabel({"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "St"))
-    axis.set_title(found.attrs["uncertainty"])
+    axis.set_xlabel(
+        {"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "Stokes number $St_n$")
+    )
+    axis.set_title(f"{of.replace('_', ' ')} with {found.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
     axis.legend()
     return figure

@@ -10,8 +10,10 @@ import numpy as np
 
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
-from ..many.batch import QUANTITIES as MANY
-from ..many.collide_many import FAILED, collide_many
+from ..host.pictures import register
+from ..many.collide_many import collide_many
+from ..many.results import FAILED
+from ..many.results import QUANTITIES as MANY
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import check_rtol
@@ -56,6 +58,7 @@ def sobol_indices(
     """
     import xarray as xr
 
+    register()
     loaded = Scene.load(scene)
     names = check_wrt(loaded, tuple(check_mapping(ranges, "ranges", "(low, high) by dotted name")), "ranges")
     rtol, of, samples, seed = (

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray
 
 WIDTH = 100
+_COLUMNS = ("group", "name", "statement", "figure", "bound", "ok", "where")
 _MARKS = {True: "ok", False: "FAIL", None: "note"}
 _MARK = 6  # width of the mark on the left, characters
+_LONGEST = 200  # characters of the failure in the first line
 _ABOUT = 4  # the same for details of a finding
 _BESIDE = 26  # width of value and bound, so that places are aligned
 
@@ -24,6 +30,7 @@ class Finding:
         ok: None for a value that is reported without a bound.
         where: the place of the worst case (Stokes number, angle, engine, event).
         about: further lines (a table, intervals), shown verbatim.
+        kept: True if it was computed by an earlier run, from the same equations.
     """
 
     group: str
@@ -34,6 +41,7 @@ class Finding:
     ok: bool | None
     where: str = ""
     about: tuple[str, ...] = ()
+    kept: bool = False
 
     @property
     def line(self) -> str:
@@ -61,6 +69,49 @@ class Report:
     findings: tuple[Finding, ...]
     budget: xarray.Dataset | None = field(default=None, repr=False, compare=False)
 
+    def _repr_html_(self) -> str:
+        """The first line, the failures, and how each group fares."""
+        from ..formatting.notebook import view
+
+        rows = [("FAIL", f"{one.group}: {one.name}", one.statement, one.figure, one.where) for one in self.failed]
+        for group, members in self._groups().items():
+            held = [one.ok for one in members if one.ok is not None]
+            rows.append((_MARKS[all(held)], group, f"{sum(map(bool, held))} of {len(held)} checks hold", "", ""))
+        return view(self.headline, rows)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Whether all checks hold, and every finding by its attributes."""
+        return {"ok": self.ok, "summary": self.headline, "findings": [asdict(one) for one in self.findings]}
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each finding: group, name, statement, figure, bound, ok, where."""
+        from ..formatting.frames import frame
+
+        return frame({name: [getattr(one, name) for one in self.findings] for name in _COLUMNS})
+
+    def to_dataset(self) -> xarray.Dataset:
+        """The findings over `check`; `ok` is 1, 0, or -1 for a note."""
+        import xarray as xr
+
+        texts = {name: ("check", [getattr(one, name) for one in self.findings]) for name in _COLUMNS if name != "ok"}
+        held = [-1 if one.ok is None else int(one.ok) for one in self.findings]
+        return xr.Dataset({**texts, "ok": ("check", held)})
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw what e_n^2 - 1 is made of; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+
+        Raises:
+            InputError: the report is of all presets, and of no one scene.
+        """
+        from ..host.pictures import plot
+
+        if self.budget is None:
+            raise InputError("scene", None, "the report on one scene", "is missing: there is no one budget to draw")
+        return plot(self.budget, path)
+
     @property
     def ok(self) -> bool:
         return not self.failed
@@ -70,7 +121,7 @@ class Report:
         return tuple(finding for finding in self.findings if finding.ok is False)
 
     def __str__(self) -> str:
-        lines: list[str] = []
+        lines: list[str] = [self.headline, ""]
         if self.failed:
             lines += _section("Failed", list(self.failed), told=True)
         for group, members in self._groups().items():
@@ -79,7 +130,7 @@ class Report:
 
     def to_markdown(self) -> str:
         """The report as a Markdown page, failures first."""
-        lines = ["# wetdoublet verify", "", self.summary, ""]
+        lines = ["# wetdoublet verify", "", self.headline, ""]
         sections = {"Failed": list(self.failed)} if self.failed else {}
         for group, members in (sections | self._groups()).items():
             lines += [
@@ -100,15 +151,28 @@ class Report:
         return "\n".join(lines).rstrip("\n")
 
     @property
+    def headline(self) -> str:
+        """The first line: that all checks hold, or what failed and why."""
+        if self.ok:
+            return self._counted
+        line = self.failed[0].line
+        more = f"; and {len(self.failed) - 1} more" if len(self.failed) > 1 else ""
+        return f"{self._counted}: {line if len(line) <= _LONGEST else line[:_LONGEST] + ' ...'}{more}"
+
+    @property
     def summary(self) -> str:
-        """The last line: number of passed checks, and names of failed ones."""
+        """The last line: number of passed checks, names of failed ones, and how many are from an earlier run."""
+        names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
+        kept = sum(finding.kept for finding in self.findings)
+        earlier = f" ({kept} verdicts kept from an earlier run on the same equations)" if kept else ""
+        return f"{self._counted}{': ' if names else ''}{names}{earlier}"
+
+    @property
+    def _counted(self) -> str:
         held = sum(finding.ok is not None for finding in self.findings)
         notes = len(self.findings) - held
         told = f", {notes} note{'s' * (notes != 1)}" if notes else ""
-        if self.ok:
-            return f"{held} checks hold{told}"
-        names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
-        return f"{len(self.failed)} of {held} checks FAIL{told}: {names}"
+        return f"{held} checks hold{told}" if self.ok else f"{len(self.failed)} of {held} checks FAIL{told}"
 
     def _groups(self) -> dict[str, list[Finding]]:
         groups: dict[str, list[Finding]] = {}

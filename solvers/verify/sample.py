@@ -10,12 +10,12 @@ from ..collision.collide import collide
 from ..collision.result import Collision
 from ..errors import InputError, WetDoubletError
 from ..scene.scene import Scene
-from ..settings import ENGINES
+from ..settings import CASADI_ENGINES, ENGINES
 
 RTOL = 1e-10
 ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))
 FACTORS = (0.3, 1.0, 4.0)  # relative to the scene's Stokes number
-PLUGINS = ("cvodes", "rosenbrock")  # engines that can integrate arbitrary phases, not only whole collisions
+PLUGINS = CASADI_ENGINES  # engines that can integrate arbitrary phases, not only whole collisions
 REFERENCE = "rosenbrock"  # the engine that also locates events
 Collide = Callable[..., Collision]
 

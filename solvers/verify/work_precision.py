@@ -11,12 +11,12 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..collision.collide import collide
-from ..engines.taylor.build import supported
+from ..engines.choice import available_engines
 from ..errors import ComputationError
 from ..host.environment import one_core
-from ..many.collide_many import FAILED, collide_many
+from ..many.collide_many import collide_many
+from ..many.results import FAILED
 from ..scene.scene import Scene
-from ..settings import ENGINES
 from .stress.answers import Impact
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))
@@ -177,7 +177,7 @@ def work_precision(
     Raises:
         ComputationError: no reference could be computed.
     """
-    engines = [name for name in ENGINES if name != "taylor" or supported(scene)]
+    engines = list(available_engines(scene))
     total = len(engines) * len(tolerances) + 1
     impacts, sample = _drawn(scene, batch)
     progress(0, total)

@@ -65,7 +65,7 @@ def over_impacts(found: Stress) -> Figure:
     left.set_ylabel("impact angle (deg)")
     figure.suptitle(f"Engines against each other in {len(sampled)} random scenes")
     handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=5)
+    figure.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure
 
 

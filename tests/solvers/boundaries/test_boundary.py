@@ -140,6 +140,15 @@ def test_resolution_is_stated() -> None:
     assert f"{found.resolution:.1%}" in str(found)
 
 
+def test_the_table_gives_speeds_as_the_scene_does() -> None:
+    """Beside St stands the normal speed, or the relative one where the scene gives that, of the changes."""
+    plain = Scene.load("granulation")
+    for scene, share in ((plain, 1.0), (plain.with_impact(relative_speed="1 m/s"), math.cos(1.0))):
+        found = boundary(scene, angle=1.0, stokes=(0.02, 1.0))
+        row = str(found).splitlines()[1].split()
+        assert float(row[3]) == pytest.approx(scene.speed_of(float(row[1])) / share, rel=1e-5)
+
+
 def test_rosenbrock_traces_the_same_boundaries() -> None:
     """Without a kernel the same logic runs on fewer samples: the changes agree, and the resolution says so."""
     scene, angle = Scene.load("granulation"), np.array([math.radians(55.0)])

@@ -263,7 +263,9 @@ def test_generate_and_verify(module, tmp_path):
         def to_markdown(self):
             return "# L"
 
-    module("wetdoublet.solvers.verify", verify=lambda scene, progress: Report(), Finding=object, Report=Report)
+    module(
+        "wetdoublet.solvers.verify", verify=lambda scene, progress, recompute: Report(), Finding=object, Report=Report
+    )
     result = run("verify", "-o", str(tmp_path / "report.md"))
     assert (result.exit_code, result.stdout) == (1, "L is not conserved\n") and len(result.stderr.splitlines()) == 1
     assert "angular momentum (granulation): 1e-3, bound 1e-9, at St 1" in result.stderr

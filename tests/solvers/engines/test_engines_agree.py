@@ -82,6 +82,38 @@ def test_both_engines_meet_the_same_events(name):
         assert (OUTCOMES[told.answers["outcome"][k]], events(told, k)) == (path.outcome, path.kinds), (k, stokes[k])
 
 
+@pytest.mark.parametrize("scene", [GRANULATION, PENDULUM], ids=["granulation", "pendulum"])
+def test_both_engines_decide_alike_on_spheres_that_meet_outside_the_film(scene):
+    """Events, outcome and restitution of soft spheres with a bridge, whose elastic length is up to three films."""
+    rng, modulus, rebounds = np.random.default_rng(31), 1e5, []
+    for _ in range(12):
+        stokes, angle = float(np.exp(rng.uniform(np.log(0.005), np.log(3)))), float(rng.uniform(0.05, 1.4))
+        soft = scene.with_entries(
+            SOLID
+            | {
+                "bridge.surface_tension": float(rng.uniform(0.01, 0.08)),
+                "bridge.volume": float(rng.uniform(0.01, 0.1)),
+                "bridge.contact_angle": 0.0,
+                "particles.dry_restitution": float(rng.uniform(0.1, 1)),
+                "particles.youngs_modulus": modulus,
+                "particles.poisson_ratio": 0.3,
+            }
+        )
+        length = nondimensionalise(soft, stokes / soft.stokes_per_speed, angle).groups["elastic_gap"]
+        stiffness = modulus * (length / float(rng.uniform(1, 3))) ** 2.5  # the elastic length goes with its power -2/5
+        soft = soft.with_entries({"particles.youngs_modulus": stiffness})
+        told = by_kernel(soft, np.array([stokes]), np.array([angle]))
+        groups = nondimensionalise(soft, stokes / soft.stokes_per_speed, angle).groups
+        path = locate(load(select_model(soft, True, fold=False)), groups, 1e-9)
+        (answer,) = told.answers
+        assert (OUTCOMES[answer["outcome"]], events(told, 0)) == (path.outcome, path.kinds), (stokes, angle, stiffness)
+        if path.separated:
+            restitution = path.model.values("outputs", path.y, path.p)["restitution"]
+            assert answer["shown"][0] == pytest.approx(restitution, rel=1e-6)
+        rebounds.append(path.kinds.count("elastic"))
+    assert max(rebounds) > 1, "some fall back, and meet again outside the film"
+
+
 @pytest.mark.parametrize("angle", [0.0, 0.6])
 def test_a_criterion_that_holds_at_initial_contact_parts_the_films(angle):
     """Without a bridge a rebound there is at the rupture gap, and over at once."""

@@ -1,5 +1,7 @@
 """The style that all figures share."""
 
+from itertools import pairwise
+
 import matplotlib as mpl
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -15,7 +17,7 @@ def lightness(colour):
 def test_outcomes_differ_without_colour():
     """In grey the fills are at least a tenth apart, black is legible on each, and stick-rotate-separate is hatched."""
     shades = [lightness(colour) for colour in FILLS.values()]
-    assert min(later - earlier for earlier, later in zip(shades, shades[1:])) > 0.1
+    assert min(later - earlier for earlier, later in pairwise(shades)) > 0.1
     assert min(shades) - lightness(INK) > 0.45
     assert [bool(hatch) for hatch in HATCHES.values()] == [False, True, False]
     legend = patch("stick-rotate-separate")

@@ -5,18 +5,21 @@ import sys
 from functools import partial
 
 import numpy as np
+import pint
 import pytest
 import xarray as xr
 from loky import process_executor
-from wetdoublet.solvers import Scene, collide, collide_many, gradients_many
+from wetdoublet.solvers import Scene, collide, collide_many, gradients_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.remarks import silence_workers
 from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.batch import validated_batch
+from wetdoublet.solvers.many.results import QUANTITIES, RESULTS, REVERSALS
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 
 PRESETS = {"granulation": (0.005, 0.5), "pendulum": (0.1, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
-EVERYTHING = tuple(many.QUANTITIES)
+EVERYTHING = tuple(QUANTITIES)
 
 
 def impacts(preset, count, seed):
@@ -78,7 +81,15 @@ BAD = [
     ),
     ({"stokes": [0.1, -0.2]}, "impact.stokes", "out of range"),
     ({"stokes": [0.1, np.nan]}, "impact.stokes", "not finite"),
-    ({"stokes": [[0.1, 0.2]]}, "impact.stokes", "2 dimensions"),
+    ({"stokes": np.full((2, 3), 0.1), "angle": [0.1, 0.2]}, "impact.angle", "does not fit"),
+    ({"stokes": xr.DataArray([0.1, 0.2], dims="k"), "angle": [0.1, 0.2, 0.3]}, "impact.angle", "does not fit"),
+    (
+        {"stokes": xr.DataArray([0.1, 0.2], {"k": [1, 2]}), "angle": xr.DataArray([0.1, 0.2], {"k": [1, 3]})},
+        "impact.angle",
+        "is not aligned",
+    ),
+    ({"stokes": xr.DataArray([0.1, 0.2], dims="angle"), "angle": 0.1}, "dims", "does not lie alone"),
+    ({"stokes": xr.DataArray([0.1, 0.2], dims="outcome")}, "dims", "is the name of a result"),
     ({"stokes": ["much"]}, "impact.stokes", "is not a number"),
     ({"stokes": object()}, "impact.stokes", "is not a number"),
     ({"stokes": 0.1, "speed": 1.0}, "speed", "together with stokes"),
@@ -89,7 +100,9 @@ BAD = [
     ({"engine": "cvode"}, "engine", "did you mean cvodes?"),
     ({"vary": {"liquid.viscosty": [1.0]}}, "liquid.viscosty", "did you mean liquid.viscosity?"),
     ({"vary": {"impact.angle": [1.0]}}, "vary", "has an argument of its own"),
-    ({"vary": {"bridge.law": "willett"}}, "vary", "is a choice"),
+    ({"vary": {"bridge.law": ["mikami", "willet"]}}, "bridge.law", "did you mean willett?"),
+    ({"vary": {"bridge.law": [["mikami"], 3]}}, "bridge.law", "is not known"),
+    ({"vary": {"partner.wall": True}}, "vary", "is a choice"),
     ({"vary": {"pendulum.length": [1.0]}}, "vary", "table that the scene granulation has not"),
     ({"vary": {"particles.radius": [1e-4]}}, "particles.radius", "together with particles.reduced_radius"),
 ]
@@ -153,6 +166,78 @@ def test_vary():
     assert "particles.roughness" in str(rough.reason.values[1])
 
 
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+@pytest.mark.parametrize("preset", ["granulation", "pendulum"])
+def test_every_result_is_that_of_collide(preset, engine):
+    """All that may be asked for, terms of the ledger included, is what `collide` gives; NaN stands for None."""
+    stokes, angle = [0.004, 0.05, 0.4, 0.4], np.radians([60, 75, 20, 0])
+    asked = [name for name in RESULTS if name not in ("outcome", "certified", "reason", "validity")]
+    data = collide_many(preset, stokes=stokes, angle=angle, engine=engine, of=asked)
+    for k in range(4):
+        one = collide(preset, stokes=stokes[k], angle=angle[k], engine=engine)
+        for name in asked:
+            table, _, term = name.rpartition(".")
+            value = getattr(getattr(one, table) if table else one, term)
+            if name == "reversal":
+                value = -1 if value is None else REVERSALS.index(value)
+            value = np.nan if value is None else value
+            assert data[name].values[k] == pytest.approx(value, rel=1e-6, abs=1e-12, nan_ok=True), name
+
+
+def test_arrays_are_broadcast():
+    """A column against a row is their grid, as numpy has it, each result where its impact is."""
+    stokes, angle = np.array([[0.02], [0.05]]), np.array([0.2, 1.0, 1.3])
+    grid = collide_many("granulation", stokes=stokes, angle=angle)
+    flat = collide_many("granulation", stokes=np.repeat(stokes, 3), angle=np.tile(angle, 2))
+    assert grid.restitution.dims == ("dim_0", "dim_1")
+    assert (grid.restitution.values.ravel() == flat.restitution.values).all()
+    assert grid.stokes.dims == ("dim_0",)
+
+
+def test_data_arrays_are_broadcast_by_name():
+    """Dimensions and coordinates of DataArrays stay; their units are heeded, and so are those of pint quantities."""
+    stokes = xr.DataArray([0.02, 0.05], {"run": ["a", "b"]})
+    angle = xr.DataArray([20.0, 60.0, 80.0], {"tilt": [20, 60, 80]}, attrs={"units": "deg"})
+    data = collide_many("granulation", stokes=stokes, angle=angle)
+    plain = collide_many("granulation", stokes=[[0.02], [0.05]], angle=np.radians([20.0, 60.0, 80.0]))
+    assert data.outcome.dims == ("run", "tilt")
+    assert data.run.values.tolist() == ["a", "b"]
+    assert (data.restitution.values == plain.restitution.values).all()
+    turned = collide_many("granulation", stokes=stokes, angle=pint.UnitRegistry().Quantity(60.0, "deg"))
+    assert (turned.restitution.values == plain.restitution.values[:, 1]).all()
+
+
+def test_the_coordinates_of_a_map_are_accepted():
+    """The axes of a map, stacked or not, give the map's outcomes again."""
+    chart = regime_map("granulation", stokes=[0.02, 0.2], angle=[0.2, 1.3])
+    again = collide_many("granulation", stokes=chart.stokes, angle=chart.angle)
+    xr.testing.assert_equal(again.outcome.transpose("angle", "stokes").drop_vars("speed"),
+                            chart.outcome.drop_vars(["speed", "centrifugal"]))  # fmt: skip
+    stacked = chart.stack(k=("angle", "stokes"))
+    again = collide_many("granulation", stokes=stacked.stokes, angle=stacked.angle)
+    assert again.outcome.values.tolist() == chart.outcome.values.ravel().tolist()
+
+
+def test_laws_vary():
+    """Names of laws are entries as any other: each collision is by its own law, in the order of the request."""
+    laws = ["mikami", "willett", "mikami"]
+    data = collide_many("granulation", stokes=[0.02, 0.02, 0.05], angle=1.3, vary={"bridge.law": laws})
+    for k, law in enumerate(laws):
+        scene = Scene.load("granulation").with_entries({"bridge.law": law})
+        one = collide(scene, stokes=data.stokes.values[k], angle=1.3, engine="rosenbrock", ledger=False)
+        assert data.restitution.values[k] == pytest.approx(one.restitution, rel=1e-8)
+    assert data["bridge.law"].values.tolist() == laws
+
+
+def test_a_choice_that_its_scene_cannot_have_is_marked():
+    """A choice with which the scene is none fails alone; if none of them can be, it is refused."""
+    vary = {"bridge.law": ["mikami", "mikami", "willett"], "particles.roughness": ["0.2 um", "0.1 um", "9 um"]}
+    data = collide_many("granulation", stokes=0.02, angle=1.3, vary=vary)
+    assert data.outcome.values.tolist() == [1, 1, -1]
+    with pytest.raises(InputError, match="roughness"):
+        collide_many("granulation", stokes=0.02, vary={"bridge.law": "willett", "particles.roughness": "9 um"})
+
+
 @pytest.mark.slow
 def test_parallel_equals_serial(monkeypatch):
     """The number of worker processes changes nothing, to the last bit; idle ones are not killed, for which loky needs
@@ -175,7 +260,7 @@ def test_parallel_equals_serial(monkeypatch):
 def test_without_a_compiler(monkeypatch, capfd):
     """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
-    request = many.validated_batch("granulation", {"stokes": stokes, "angle": angle}, {}, 1e-9, None, EVERYTHING)
+    request = validated_batch("granulation", {"stokes": stokes, "angle": angle}, {}, 1e-9, None, EVERYTHING)
     fast = many.run(request, machine_code=True)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)

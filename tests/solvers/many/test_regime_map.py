@@ -1,5 +1,6 @@
 """Regime maps: the grid and its file, failures, progress, the character map and the picture."""
 
+import csv
 import os
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
+from wetdoublet.solvers.many.results import QUANTITIES
 from wetdoublet.solvers.many.text_map import failures, table
 
 from ...helpers.command import run
@@ -49,9 +51,9 @@ def test_the_grid(data):
             stokes=STOKES[j],
             angle=ANGLE[i],
             vary={"liquid.viscosity": [1.0, 2.0][k]},
-            of=tuple(many.QUANTITIES),
+            of=tuple(QUANTITIES),
         )
-        for name in ("outcome", "certified", "reason", *many.QUANTITIES):
+        for name in ("outcome", "certified", "reason", *QUANTITIES):
             np.testing.assert_array_equal(cell[name].values, one[name].values[0])
     sticks = data.outcome == 0
     assert bool((data.restitution.where(sticks, 0.0) == 0).all())
@@ -123,10 +125,10 @@ BAD = [
     ("--stokes 2:1:3 --angle 0:80:3", '--stokes: "2:1:3" is not a range'),
     ("--stokes 0.1:0.2:3 --angle 0:95:3", '--angle: "95 deg" is out of range'),
     ("--stokes 0.1:0.2:3 --angle 0deg:80kg:3", '--angle: "80kg" is a mass'),
-    ("--speed 0.1:0.2:3 --angle 0:80:3", '--speed: "0.1" has no unit'),
+    ("--speed 0.1:0.2:3 --angle 0:80:3", '--speed: "0.1:0.2" has no unit; accepted: a number with its unit'),
     ("--stokes 0.1:0.2:3 --speed 1m/s:2m/s:3", "--speed: "),
     ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity", "--vary: "),
-    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity=1:2:3", '--vary liquid.viscosity: "1" has no unit'),
+    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity=1:2:3", '--vary liquid.viscosity: "1:2" has no unit'),
     ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosty=1:2:3", "liquid.viscosty: "),
     ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary impact.angle=1:2:3", '--vary: "impact.angle"'),
     ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary pendulum.length=1m:2m:3", '--vary: "pendulum.length"'),
@@ -163,6 +165,21 @@ def test_failures_are_marked_counted_and_told(unlucky, tmp_path):
         assert back.outcome.values.tolist() == [[-1, 2]] * 3
         assert set(back.reason.values[:, 0]) == {"no luck; none"}
         assert set(back.reason.values[:, 1]) == {""}
+
+
+def test_table(unlucky, tmp_path):
+    """`-o FILE.csv` is a row a collision with units in the header; what failed has its reason and no numbers."""
+    file = tmp_path / "map.csv"
+    result = run("map", "granulation", "--stokes", "0.1:0.3:2", "--angle", "10:80:3", "-o", file)
+    assert (result.exit_code, [path.name for path in tmp_path.iterdir()]) == (0, ["map.csv"])
+    with file.open(newline="") as text:
+        rows = list(csv.DictReader(text))
+    assert [(row["outcome"], row["reason"]) for row in rows] == [("failed", "no luck; none"), ("bounce", "")] * 3
+    assert rows[0]["restitution"] == rows[0]["contact_time [s]"] == ""
+    whole = regime_map("granulation", stokes=[0.3], angle=np.radians([10, 45, 80]))
+    for name in ("angle [rad]", "speed [m/s]", "centrifugal", "restitution", "contact_time [s]", "smallest_gap [m]"):
+        expected = whole[name.partition(" ")[0]].broadcast_like(whole.outcome).values[:, 0]
+        assert [float(row[name]) for row in rows[1::2]] == pytest.approx(expected, rel=1e-9), name
 
 
 def test_reasons_that_differ_in_numbers_only_are_told_once(data):

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities
+from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities, sensitivities
 from wetdoublet.solvers.paper.factors import DOUBLED
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving
 
@@ -159,3 +159,14 @@ def test_what_a_boundary_is_followed_in_is_no_parameter() -> None:
         boundary_sensitivities("granulation", angle=0.9, wrt=["impact.stokes"])
     with pytest.raises(InputError, match="did you mean bridge.volume"):
         boundary_sensitivities("granulation", angle=0.9, wrt=["bridge.volum"])
+
+
+def test_a_stick_points_to_its_boundary() -> None:
+    """Its table names the command, and `boundary()` is what `boundary_sensitivities` finds at its angle."""
+    stick = sensitivities("granulation", wrt=["liquid.viscosity", "impact.speed"], stokes=0.01, angle="60 deg")
+    assert "wetdoublet boundary SCENE --wrt" in str(stick)
+    found = stick.boundary()
+    assert found.parameters == ("liquid.viscosity",)
+    expected = boundary_sensitivities("granulation", angle=stick.scene.angle, wrt="liquid.viscosity")
+    assert found.to_dict()["changes"] == expected.to_dict()["changes"]
+    assert found.changes[0][0].change.before == "stick"

@@ -15,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
 from wetdoublet.solvers.commands.cli import cli
+from wetdoublet.solvers.engines.choice import gradient_engine
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
@@ -22,7 +23,6 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.sensitivity import gradients_many as many
 from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
-from wetdoublet.solvers.sensitivity.choice import chosen
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
 from ...helpers.sensitive import CASES
@@ -252,16 +252,16 @@ def test_the_engine_that_is_chosen(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     """
     of_granulation()
     scene, asked = Scene.load("granulation"), {"stokes": 0.02, "angle": 1.3, "wrt": "liquid.viscosity"}
-    assert chosen(scene, OF, (True,), 1e-9) == "taylor"
+    assert gradient_engine(scene, OF, KNOWN, (True,), 1e-9) == "taylor"
     found = sensitivities(scene, OF, **asked)
     assert found.engine == "taylor"
     assert gradients_many(scene, **asked, of=OF).engine.values.tolist() == ["taylor"]
     assert sensitivities(scene, OF, **asked, method="adjoint").engine == "rosenbrock"
     assert sensitivities(scene, **asked, hessian={"liquid.viscosity": 1.0}).engine == "rosenbrock"
-    assert chosen(scene, (*OF, "energy.capillary"), (True,), 1e-9, 1000) == "rosenbrock"
+    assert gradient_engine(scene, (*OF, "energy.capillary"), KNOWN, (True,), 1e-9, 1000) == "rosenbrock"
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
-    assert chosen(scene, OF, (True,), 1e-9, 100) == "rosenbrock"
-    assert chosen(scene, OF, (True,), 1e-9, 101) == "taylor"
+    assert gradient_engine(scene, OF, KNOWN, (True,), 1e-9, 100) == "rosenbrock"
+    assert gradient_engine(scene, OF, KNOWN, (True,), 1e-9, 101) == "taylor"
     plain = gradients_many(scene, **asked, of=OF)
     assert plain.engine.values.tolist() == ["rosenbrock"]
     for of in OF:

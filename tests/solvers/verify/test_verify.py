@@ -155,15 +155,17 @@ def report() -> Report:
 
 
 def test_the_report_on_a_terminal() -> None:
-    """Failures first with what they say, at most 100 columns, a summary that names them at the end."""
+    """What failed and why in the first line, then failures with what they say, a summary that names them at the end."""
     text = str(report())
     lines = text.splitlines()
-    assert lines[0] == "Failed"
-    assert lines[2].startswith("FAIL") and "3.0e-06 <= 1.0e-08" in lines[2] and "at St 1, 30 deg, cvodes" in lines[2]
-    assert max(map(len, lines)) <= 100
+    why = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
+    assert lines[:3] == [f"1 of 2 checks FAIL, 1 note: {why}", "", "Failed"]
+    assert lines[4].startswith("FAIL") and "3.0e-06 <= 1.0e-08" in lines[4] and "at St 1, 30 deg, cvodes" in lines[4]
+    assert max(map(len, lines[1:])) <= 100
     assert lines[-1] == "1 of 2 checks FAIL, 1 note: energy ledger (Numeric: s)"
     good = Report(report().findings[:1])
-    assert "Failed" not in str(good) and str(good).splitlines()[-1] == "1 checks hold"
+    lines = str(good).splitlines()
+    assert "Failed" not in str(good) and lines[0] == lines[-1] == "1 checks hold"
 
 
 def test_the_report_as_markdown() -> None:
@@ -177,7 +179,7 @@ def test_the_report_as_markdown() -> None:
 
 def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: report())
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: report())
     result = run("verify", "granulation")
     assert result.exit_code == 1
     line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
@@ -187,7 +189,7 @@ def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None
 def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
     """Exit 130; the findings made so far are on standard output, what they leave open on standard error."""
 
-    def stopped(scene, progress):
+    def stopped(scene, progress, recompute):
         for finding in report().findings:
             progress(finding)
         raise KeyboardInterrupt
@@ -205,7 +207,7 @@ def test_the_command_draws(monkeypatch, tmp_path) -> None:
     """`--plot` draws the budget of the report; the report goes to standard output all the same."""
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
     good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress: good)
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: good)
     result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
     assert result.exit_code == 0
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")

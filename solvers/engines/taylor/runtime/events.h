@@ -1,4 +1,8 @@
-/* The first event of a step in each lane: by bounds, then Bernstein coefficients, then isolation. */
+/* The first event of a step in each lane: by bounds, then Bernstein coefficients, then isolation.
+ *
+ * The guards are those of derive/equations/automaton.py. Of coincident events the one searched first counts, so the calls
+ * of `look` are in the order of its table.
+ */
 #pragma once
 
 #include "model.h"

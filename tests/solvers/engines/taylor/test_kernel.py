@@ -12,10 +12,10 @@ from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.results import QUANTITIES
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
-EVERYTHING = tuple(many.QUANTITIES)
+EVERYTHING = tuple(QUANTITIES)
 RANGES = {"granulation": (0.005, 0.5), "pendulum": (0.3, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
 VARIANTS: list[tuple[str, dict[str, Any]]] = [
     *((preset, {}) for preset in RANGES),

@@ -12,11 +12,11 @@ from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import headers
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.results import QUANTITIES, RATES
 from wetdoublet.solvers.sensitivity.result import Sensitivities
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
-EVERYTHING = tuple(many.QUANTITIES)
+EVERYTHING = (*QUANTITIES, *RATES, "reversal")
 STRINGS = {"pendulum.length": 0.01, "bridge.law": "constant", "particles.dry_restitution": 0.9}
 RTOL = 1e-7  # of the lowest order, whose kernel is compiled fastest
 

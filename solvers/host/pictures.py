@@ -1,0 +1,82 @@
+"""What draws a Dataset, by what is in it: the accessor `.wetdoublet` of those that this package makes.
+
+The functions that draw are found by name on first use: they lie above this in the import order, and import matplotlib.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError
+from .files import save
+from .outputs import PICTURES, check_file
+
+if TYPE_CHECKING:
+    import xarray
+
+_HOMES = {  # a variable that only one kind of result has -> what draws it
+    "first_order": "sensitivity.uncertainty.draw",
+    "d_event_time": "sensitivity.trajectory_plot.draw",
+    "rotation_released": "verify.plot.draw_budget",
+    "total_within": "sensitivity.sobol_plot.draw",
+    "engine": "sensitivity.gradients_plot.draw",
+    "outcome": "many.plot_any.draw",
+}
+_ROOT = __package__.rpartition(".")[0]
+
+
+def plot(data: xarray.Dataset, path: str | Path | None = None) -> Any:
+    """Draw a Dataset that this package has made, read back from a file or not.
+
+    Arguments:
+        data: of `collide_many`, `regime_map`, `band`, `gradients_many`, `trajectory_sensitivities`, `sobol_indices` or
+            `restitution_budget`.
+        path: file to write (.png, .pdf or .svg); None only draws.
+
+    Returns:
+        The matplotlib Figure.
+
+    Raises:
+        InputError: another Dataset, or a file of another kind.
+
+    Example:
+        >>> from wetdoublet.solvers import plot, regime_map
+        >>> figure = plot(regime_map("granulation", stokes=[0.01, 0.1, 0.3], angle=["10 deg", "40 deg", "70 deg"]))
+    """
+    home = next((_HOMES[name] for name in _HOMES if name in getattr(data, "data_vars", ())), None)
+    if home is None:
+        raise InputError("data", type(data).__name__, "a Dataset that this package has made", "is none")
+    module, _, function = home.rpartition(".")
+    return saved(lambda: getattr(import_module(f"{_ROOT}.{module}"), function)(data), path)
+
+
+def saved(draw: Callable[[], Any], path: str | Path | None) -> Any:
+    """The figure that is drawn, written to a file if one is named; the name is checked before anything is drawn."""
+    file = None if path is None else check_file(path, "path", PICTURES)
+    figure = draw()
+    if file is not None:
+        save(figure, file, dpi=150)
+    return figure
+
+
+class Pictures:
+    """The accessor: `data.wetdoublet.plot("picture.png")`."""
+
+    def __init__(self, data: xarray.Dataset) -> None:
+        self._data = data
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw the Dataset; arguments and result as of the function `plot`."""
+        return plot(self._data, path)
+
+
+@cache
+def register() -> None:
+    """Make the accessor known to xarray; called where a Dataset is made."""
+    import xarray
+
+    xarray.register_dataset_accessor("wetdoublet")(Pictures)

@@ -1,0 +1,86 @@
+"""What can be kept of many collisions: results by name, with unit and meaning, and how a column of each is stored."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...generated.automaton import CRITERIA, OUTCOMES
+
+FAILED = -1
+NONE = -1  # code of a reversal where no criterion was met
+REVERSALS = tuple(CRITERIA)  # by code
+
+QUANTITIES: dict[str, tuple[str, str]] = {
+    "restitution": ("1", "normal restitution e_n"),
+    "tangential_restitution": ("1", "tangential restitution r_f omega_f/(r_0 omega_0)"),
+    "rotation": ("rad", "angle turned by the line of centres until separation"),
+    "contact_time": ("s", "time from initial contact to separation"),
+    "smallest_gap": ("m", "smallest gap until separation"),
+}
+"""What a regime map keeps unless it is told otherwise."""
+
+RATES = ("final_spin", "final_spin_partner", "final_rotation_rate")
+LEDGER: dict[str, tuple[str, str]] = {
+    "energy.initial": ("J", "kinetic energy at initial contact"),
+    "energy.final": ("J", "kinetic energy at the end"),
+    "energy.normal_lubrication": ("J", "taken by the film along the line of centres"),
+    "energy.tangential_lubrication": ("J", "taken by the shear"),
+    "energy.capillary": ("J", "work against the bridge"),
+    "energy.attraction": ("J", "work against van der Waals forces"),
+    "energy.dry_contact": ("J", "lost in the reversals"),
+    "energy.strings": ("J", "gain of the strings' potential energy"),
+    "energy.residual": ("J", "error of the integration: what the ledger leaves"),
+    "angular_momentum_drift": ("1", "|L(t_f)/L(0) - 1|"),
+}
+"""What takes an integration of the ledger; a term that a scene has not is NaN."""
+
+INTEGRATED: dict[str, tuple[str, str]] = {
+    **QUANTITIES,
+    "final_spin": ("rad/s", "spin at separation, of the first sphere"),
+    "final_spin_partner": ("rad/s", "spin of the partner at separation"),
+    "final_rotation_rate": ("rad/s", "angular velocity of the line of centres at separation"),
+    "until": ("s", "where the integration of a stick stopped"),
+    "reversal": ("", "first rebound criterion met"),
+    "steps": ("1", "steps that the engine took"),
+    **LEDGER,
+}
+OF_IMPACT: dict[str, tuple[str, str]] = {
+    "centrifugal": ("1", "centrifugal number m omega0^2/sigma"),
+    "capillary": ("1", "capillary number"),
+    "reynolds": ("1", "Reynolds number of the film"),
+    "generalised_centrifugal": ("1", "generalised centrifugal number m omega0^2 a/F"),
+}
+"""Numbers that the impact alone decides."""
+
+ALWAYS = ("outcome", "certified", "reason")
+VALIDITY = "validity"
+"""Name of the variable that says where the model leaves its range."""
+MAPPED = (*INTEGRATED, *ALWAYS, VALIDITY)
+RESULTS = (*MAPPED, *OF_IMPACT)
+
+
+def blank(name: str, size: int) -> np.ndarray:
+    """A column of a result, nothing computed yet."""
+    if name == "reversal":
+        return np.full(size, NONE, dtype=np.int8)
+    return np.full(size, np.nan)
+
+
+def attributes(name: str) -> dict[str, Any]:
+    """Unit and meaning of a column; flags of a code."""
+    unit, meaning = INTEGRATED[name] if name in INTEGRATED else OF_IMPACT[name]
+    if name == "reversal":
+        codes = np.arange(NONE, len(REVERSALS), dtype=np.int8)
+        return {"long_name": meaning, "flag_values": codes, "flag_meanings": " ".join(("none", *REVERSALS))}
+    return {"units": unit, "long_name": meaning}
+
+
+def outcome_attributes() -> dict[str, Any]:
+    """CF flag attributes of an outcome variable."""
+    return {
+        "long_name": "outcome",
+        "flag_values": np.array([FAILED, 0, 1, 2], dtype=np.int8),
+        "flag_meanings": "failed " + " ".join(name.replace("-", "_") for name in OUTCOMES),
+    }

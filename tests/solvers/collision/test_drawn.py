@@ -1,0 +1,151 @@
+"""Every result draws itself and, where it is tabular, is a DataFrame and a Dataset."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from wetdoublet.solvers import (
+    InputError,
+    band,
+    boundary,
+    boundary_sensitivities,
+    collide_many,
+    gradients_many,
+    plot,
+    regime_map,
+    sensitivities,
+    trajectory_sensitivities,
+)
+from wetdoublet.solvers.verify import Finding, Report, restitution_budget
+
+from ...helpers.command import run
+
+IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "75 deg"}
+WRT = ("liquid.viscosity", "impact.speed")
+SOME = {"stokes": [0.02, 0.05, 0.2], "angle": 1.2}
+FINDINGS = (Finding("g", "a", "it holds", "1e-9", "1e-8", True), Finding("g", "b", "told", "2", "", None))
+BAND: dict[str, Any] = {"uncertainty": {"liquid.viscosity": "5 %"}, "over": "impact.stokes", "values": [0.05, 0.2]}
+
+DRAWN: dict[str, Callable[[], Any]] = {
+    "boundaries": lambda: boundary("granulation", angle=[0.5], stokes=(0.05, 0.2)),
+    "boundary sensitivities": lambda: boundary_sensitivities("granulation", angle=0.5, stokes=(0.05, 0.2), wrt=WRT[0]),
+    "sensitivities": lambda: sensitivities("granulation", wrt=WRT, **IMPACT),
+    "verification": lambda: Report(FINDINGS, restitution_budget("granulation", stokes=[0.02, 0.05], angle=[1.0, 1.3])),
+    "many": lambda: collide_many("granulation", **SOME).wetdoublet,
+    "map": lambda: regime_map("granulation", stokes=[0.02, 0.05, 0.2], angle=[0.5, 1.0]).wetdoublet,
+    "gradients": lambda: gradients_many("granulation", wrt=WRT, **SOME).wetdoublet,
+    "trajectory": lambda: trajectory_sensitivities("granulation", WRT, **IMPACT).wetdoublet,
+    "band": lambda: band("granulation", **BAND, samples=4).wetdoublet,
+    "budget": lambda: restitution_budget("granulation", stokes=[0.02, 0.05], angle=[1.0, 1.3]).wetdoublet,
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", DRAWN)
+def test_results_draw_themselves(kind: str, tmp_path: Path) -> None:
+    """`.plot(path)` writes the picture and returns the figure; a file of another kind is refused."""
+    result = DRAWN[kind]()
+    figure = result.plot(tmp_path / "p.png")
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+    assert any(axes.has_data() for axes in figure.axes)
+    with pytest.raises(InputError, match=r"^path: .*unsupported suffix"):
+        result.plot(tmp_path / "p.txt")
+
+
+def test_a_map_read_from_a_file_is_drawn(tmp_path: Path) -> None:
+    """`plot` takes Datasets that were written and read; one that is not of this package is refused."""
+    collide_many("granulation", **SOME).to_netcdf(tmp_path / "many.nc", engine="h5netcdf")
+    with xr.open_dataset(tmp_path / "many.nc") as back:
+        assert plot(back).axes[0].has_data()
+    for strange in (xr.Dataset({"x": 1.0}), 3):
+        with pytest.raises(InputError, match="^data: "):
+            plot(strange)
+
+
+@pytest.mark.slow
+def test_tables() -> None:
+    """DataFrame and Dataset say what the result says, a row or an element each."""
+    found = sensitivities("granulation", ["restitution", "rotation"], WRT, **IMPACT)
+    table = found.to_pandas()
+    assert len(table) == 4
+    row = table[(table.quantity == "rotation") & (table.parameter == "impact.speed")].iloc[0]
+    assert row.gradient == found.gradient["rotation"]["impact.speed"]
+
+    moved = boundary_sensitivities("granulation", angle=[0.5, 1.0], wrt=WRT[0])
+    changes = [one for line in moved.changes for one in line]
+    assert moved.to_pandas().stokes.tolist() == [one.change.stokes for one in changes]
+    slopes = [one.gradient["stokes"][WRT[0]] for one in changes]
+    assert moved.to_dataset().stokes_gradient.sel(parameter=WRT[0]).values.tolist() == slopes
+    lines = moved.boundaries.to_pandas()
+    assert lines.kind.tolist() == [one.change.kind for one in changes]
+    assert sorted(set(lines.angle)) == [0.5, 1.0]
+
+
+def test_a_verification_is_a_table() -> None:
+    """One row a finding; a note is neither true nor false."""
+    report = Report(FINDINGS)
+    assert report.to_pandas().ok.tolist() == [True, None]
+    assert report.to_dataset().ok.values.tolist() == [1, -1]
+    assert json.loads(json.dumps(report.to_dict()))["findings"][0]["bound"] == "1e-8"
+    with pytest.raises(InputError, match="no one budget"):
+        report.plot()
+
+
+def test_without_pandas_it_says_what_to_install() -> None:
+    """A DataFrame without pandas is an error in one line, and nothing else needs it."""
+    code = (
+        "import sys\nsys.modules['pandas'] = None\n"
+        "from wetdoublet.solvers import sensitivities\n"
+        "sensitivities('granulation', wrt='liquid.viscosity', stokes=0.01).to_pandas()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert "ComputationError: a DataFrame needs pandas; pip install pandas" in done.stderr
+
+
+@pytest.mark.slow
+def test_bands_and_trajectories_from_the_command_line(tmp_path: Path) -> None:
+    """`--over` and `--over-time` print a table or JSON and draw it."""
+    told = ("--uncertainty", "liquid.viscosity=5 %", "--over", "stokes=0.05:0.2:2", "--plot", tmp_path / "b.png")
+    done = run("sensitivity", "granulation", *told)
+    assert (done.exit_code, done.stderr) == (0, "")
+    expected = band("granulation", **BAND)
+    assert float(done.stdout.splitlines()[2].split()[2]) == pytest.approx(float(expected.first_order[1]), rel=1e-4)
+    done = run("sensitivity", "granulation", "--wrt", "impact.speed", "--over-time", "--json", "--plot",
+               tmp_path / "t.png")  # fmt: skip
+    data = json.loads(done.stdout)
+    assert np.isfinite(data["data_vars"]["d_gap"]["data"]).all()
+    assert (tmp_path / "b.png").stat().st_size > 10_000 < (tmp_path / "t.png").stat().st_size
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("--over stokes=0.05:0.2:2", "--uncertainty: missing"),
+        ("--over viscosity=1:2:3 --uncertainty liquid.viscosity=0.1", "--over: "),
+        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --of restitution,rotation", "--of: "),
+        ("--over-time --of rotation", "--of: "),
+        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --hessian", "--hessian: "),
+    ],
+)
+def test_what_does_not_go_together_is_refused(line: str, says: str) -> None:
+    """Status 2 and one line that names the option."""
+    done = run("sensitivity", "granulation", *line.split())
+    assert (done.exit_code, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
+    assert done.stderr.startswith(says)
+
+
+def test_sobol_indices_are_drawn() -> None:
+    """A pair of bars for each parameter, the largest total index on top."""
+    columns = {name: ("parameter", [0.1, 0.7]) for name in ("first", "total", "first_within", "total_within")}
+    found = xr.Dataset(columns, {"parameter": ["a", "b"]}, {"of": "restitution", "collisions": 8})
+    (axes,) = plot(found).axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["a", "b"]
+    assert [bar.get_width() for bar in axes.patches] == [0.1, 0.7, 0.1, 0.7]

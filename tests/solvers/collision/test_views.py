@@ -1,0 +1,71 @@
+"""What results show in a notebook, and a scene when it is printed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from wetdoublet.solvers import Scene, atlas, boundary, collide, sensitivities
+from wetdoublet.solvers.verify import Finding, Report
+
+NAME = "<b>&'\""
+SCENE = Scene.load("granulation").with_entries({"name": NAME})
+
+# how it is made, what its table says
+RESULTS: dict[str, tuple[Callable[[], Any], list[str]]] = {
+    "scene": (lambda: SCENE, ["liquid.viscosity", "2 Pa s", "assumed: glass", "default"]),
+    "collision": (
+        lambda: collide(SCENE, stokes=0.05, angle="75 deg"),
+        ["stick-rotate-separate", "1.581", "rupture at"],
+    ),
+    "stick": (lambda: collide(SCENE, stokes=0.01, ledger=False), ["stick", "proved"]),
+    "boundaries": (lambda: boundary(SCENE, angle=[0.5], stokes=(0.05, 0.2)), ["28.6479", "stick-rotate-separate"]),
+    "sensitivities": (lambda: sensitivities(SCENE, stokes=0.01), ["restitution = 0", "wetdoublet boundary"]),
+    "verification": (
+        lambda: Report((Finding("Symbolic", NAME, "I < J", "left over: x", "", False),)),
+        ["1 of 1 checks FAIL", "I &lt; J"],
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", RESULTS)
+def test_a_notebook_shows_a_small_escaped_table(kind: str) -> None:
+    """A table of what matters; a name that looks like markup is text, and no colour is set that a dark page hides."""
+    make, says = RESULTS[kind]
+    shown = make()._repr_html_()
+    assert all(word in shown for word in says)
+    assert "&lt;b&gt;&amp;&#x27;&quot;" in shown and "<b>" not in shown
+    assert "<table" in shown and "color:" not in shown
+    assert len(shown) < 12_000
+
+
+@pytest.mark.slow
+def test_a_notebook_shows_an_atlas() -> None:
+    """Its curves and the point where they meet."""
+    shown = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)._repr_html_()
+    assert "stick → bounce" in shown and "triple point" in shown
+
+
+def test_a_printed_scene_is_a_table() -> None:
+    """Each entry with the unit it was given in, defaults and assumptions marked, and the impact both ways."""
+    scene = Scene.load("granulation").with_entries({"liquid.viscosity": 3.0})
+    rows = {line.split()[0]: line for line in str(scene).splitlines() if line.strip()}
+    assert rows["liquid.viscosity"].split()[1:] == ["3", "Pa", "s"]
+    assert rows["particles.reduced_radius"].split()[1:3] == ["50", "um"]
+    assert rows["bridge.rupture"].endswith("default")
+    assert "assumed: glass" in rows["particles.youngs_modulus"]
+    assert f"{scene.speed:.4g} m/s" in str(scene)
+    assert max(map(len, str(scene).splitlines())) <= 100
+
+
+def test_a_view_imports_no_matplotlib() -> None:
+    """A notebook that draws nothing does not load what draws."""
+    code = (
+        "import sys\nfrom wetdoublet.solvers import Scene, collide\n"
+        "collide('granulation', stokes=0.01)._repr_html_(); Scene.load('granulation')._repr_html_()\n"
+        "assert 'matplotlib' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,99 @@
+"""What the kernel watches for, and which of coincident events it reports: as the table of the automaton has it."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+from itertools import combinations
+
+import pytest
+from wetdoublet.generated.automaton import EVENTS
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor.headers import headers
+from wetdoublet.solvers.engines.taylor.includes import resolved
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.model import select_model
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+# Series of which those asked for are 1 - 2 t, up to a power of two: they vanish together, to the last bit.
+HARNESS = """#include "events.h"
+
+static series s;
+static lanes l;
+static fixed f;
+
+#define WANTED(event) (wanted >> (event) & 1)
+#define LINE(of, at_0, slope, event) of[0] = splat(at_0), of[1] = splat(WANTED(event) ? slope : 0.0)
+
+int reported(unsigned wanted, int closing, int inside, int sheared, int resting, int by_gap, double gap)
+{
+    double towards = closing ? -1.0 : 1.0;
+    memset(&s, 0, sizeof s);
+    memset(&l, 0, sizeof l);
+    memset(&f, 0, sizeof f);
+    l.alive = splat_mask(-1);
+    l.closing = splat_mask(closing ? -1 : 0);
+    l.resting = splat_mask(resting ? -1 : 0);
+    l.film = splat(inside), l.shear = splat(sheared);
+    f.contact = splat(0.25), f.edge = splat(2.0), f.end = splat(4.0);
+    LINE(s.gap, gap - 0.25*towards, 0.5*towards, by_gap);
+    LINE(s.normal_velocity, towards, -2.0*towards, AT_TURNING);
+    LINE(s.glass.result, 1.0, -2.0, AT_GLASS);
+    LINE(s.acceleration, -1.0, 2.0, AT_RELEASE);
+    LINE(s.rotation, M_PI - 1.0, 2.0, AT_HALF_TURN);
+    LINE(s.orbital_momentum, 1.0, -2.0, AT_UNWINDING);
+    first_event found;
+    find_events(&s, &l, &f, splat(1.0), &found);
+    return found.time[0] == 0.5 ? (int)found.event[0] : -1;
+}
+"""
+NUMBER = {event.name: number for number, event in enumerate(EVENTS)}
+GAPS = {"contact": 0.25, "film_edge": 1.0, "tangential_edge": 2.0, "rupture": 4.0}  # one of them at a time
+MODES = {  # motion, film, shear, resting, and what happens at a gap
+    "closing to contact": (-1, 1, 1, 0, "contact"),
+    "closing to the film": (-1, 0, 1, 0, "film_edge"),
+    "closing to the tangential edge": (-1, 0, 0, 0, "tangential_edge"),
+    "opening to the film's edge": (1, 1, 1, 0, "film_edge"),
+    "opening to the tangential edge": (1, 0, 1, 0, "tangential_edge"),
+    "opening to rupture": (1, 0, 0, 0, "rupture"),
+    "resting": (1, 1, 1, 1, "contact"),
+}
+
+
+@pytest.fixture(scope="module")
+def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+    """The search for events of a structure that has all of them: oblique, with bridge and strings."""
+    bridge = {"bridge.surface_tension": "0.05 N/m", "bridge.volume": 0.05, "bridge.contact_angle": "0 deg"}
+    choice = select_model(Scene.load("pendulum").with_entries(bridge), True)
+    emitted, found = headers(choice), compiler()
+    assert emitted is not None
+    assert found is not None
+    folder = tmp_path_factory.mktemp("precedence")
+    text = resolved(HARNESS, build.files(build.Variant(choice, 9), emitted, 2))
+    (folder / "events.c").write_text(text)
+    flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
+    command = [*found.command, *flags, "-o", str(folder / "events.so"), str(folder / "events.c"), "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    loaded = ctypes.CDLL(str(folder / "events.so"))
+    loaded.reported.argtypes = [ctypes.c_uint, *[ctypes.c_int] * 5, ctypes.c_double]
+    return loaded
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_of_coincident_events_the_first_of_the_table_is_reported(kernel: ctypes.CDLL, mode: str):
+    """Alone and in pairs, every event that the table watches for in a mode, in its order of precedence."""
+    motion, film, shear, resting, at_gap = MODES[mode]
+    values = {"motion": motion, "film": film, "resting": resting}
+    watched = [
+        event.name
+        for event in EVENTS
+        if all(values[part] == value for part, value in event.where)
+        and (event.name == at_gap if event.name in GAPS else True)
+    ]
+    assert len(watched) > 2
+    for some in (*combinations(watched, 1), *combinations(watched, 2)):
+        wanted = sum(1 << NUMBER[name] for name in some)
+        found = kernel.reported(wanted, motion < 0, film, shear, resting, NUMBER[at_gap], GAPS[at_gap])
+        assert found == NUMBER[some[0]], some

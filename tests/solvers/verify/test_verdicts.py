@@ -1,0 +1,94 @@
+"""Symbolic verdicts are made once for the same equations, and again where anything that they depend on is another."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from wetdoublet import derive
+from wetdoublet.solvers.verify.report import Finding, Report
+from wetdoublet.solvers.verify.verdicts import kept_verdicts, symbolic_key
+
+Verdicts = Callable[..., list[Finding]]
+FINDINGS = [
+    Finding("Symbolic", "one", "it holds", "identity", "", True, about=("a line",)),
+    Finding("Symbolic", "two", "it does not", "left over: x", "", False),
+]
+
+
+@pytest.fixture
+def verdicts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Verdicts:
+    """Verdicts of a key from an empty cache; `verdicts.made` has those that were not kept."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
+
+    def told(key: str, **more: bool) -> list[Finding]:
+        return list(kept_verdicts(key, made, **more))
+
+    def made() -> Iterator[Finding]:
+        for finding in FINDINGS:
+            told.made.append(finding)  # type: ignore[attr-defined]
+            yield finding
+
+    told.made = []  # type: ignore[attr-defined]
+    return told
+
+
+def test_a_second_run_makes_none_and_says_so(verdicts: Verdicts) -> None:
+    """The same findings, a failure and its lines included, are read and not made; the report counts them."""
+    first, second = verdicts("a"), verdicts("a")
+    assert verdicts.made == first == FINDINGS  # type: ignore[attr-defined]
+    assert [(one.name, one.ok, one.about) for one in second] == [(one.name, one.ok, one.about) for one in FINDINGS]
+    assert str(Report(tuple(second))).endswith("(2 verdicts kept from an earlier run on the same equations)")
+    assert "kept" not in str(Report(tuple(first)))
+
+
+def test_what_is_asked_for_anew_is_made(verdicts: Verdicts) -> None:
+    """Another key, and `recompute`, make all verdicts."""
+    for key, more in (("a", {}), ("b", {}), ("a", {"recompute": True})):
+        verdicts(key, **more)
+    assert len(verdicts.made) == 6  # type: ignore[attr-defined]
+
+
+def test_a_damaged_entry_is_made_again(verdicts: Verdicts, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """A verdict turned round in the file is not believed: it is said, and all are made again."""
+    verdicts("a")
+    (entry,) = (tmp_path / "cache").glob("verdicts-*")
+    entry.write_text(entry.read_text().replace("false", "true"))
+    assert verdicts("a") == FINDINGS
+    assert "was damaged" in capfd.readouterr().err
+
+
+def test_an_interrupted_run_keeps_none(verdicts: Verdicts) -> None:
+    """What was made before an interrupt is no whole set of verdicts."""
+
+    def interrupted() -> Iterator[Finding]:
+        yield FINDINGS[0]
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        list(kept_verdicts("a", interrupted))
+    assert verdicts("a") == FINDINGS
+
+
+def test_the_key_has_the_laws_and_the_settings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Other laws, and other settings of sympy's, are another key."""
+    keys = {symbolic_key({}), symbolic_key({"bridge": "mikami"}), symbolic_key({"bridge": "willett"})}
+    monkeypatch.setenv("SYMPY_USE_CACHE", "no")
+    assert len(keys | {symbolic_key({})}) == 4
+
+
+def test_the_derivation_depends_on_its_own_files_and_sympy_alone() -> None:
+    """What its modules import is sympy, the standard library or the derivation: all of it is in the digest."""
+    folder = Path(derive.__file__).parent
+    for file in folder.rglob("*.py"):
+        depth = len(file.relative_to(folder).parts)
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                for name in node.names:
+                    assert name.name.partition(".")[0] in {"sympy", *sys.stdlib_module_names}, file
+            elif isinstance(node, ast.ImportFrom):
+                root = (node.module or "").partition(".")[0]
+                assert node.level <= depth if node.level else root in {"sympy", *sys.stdlib_module_names}, file
