@@ -1,7 +1,7 @@
 /* The first event of a step in each lane: by bounds, then Bernstein coefficients, then isolation.
  *
- * The guards of derive/equations/automaton.py. Of coincident events the one that is looked for first counts, so the calls
- * of `look` stand in the order of its table.
+ * The guards are those of derive/equations/automaton.py. Of coincident events the one searched first counts, so the calls
+ * of `look` are in the order of its table.
  */
 #pragma once
 
