@@ -81,9 +81,9 @@ def collide_many(
         vary: other entries by dotted name: SI numbers, or the names of laws and other choices.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
-        of: what to keep besides outcome and restitution: any number that a `Collision` has, and terms of its ledger as
-            "energy.capillary" (the ledger is then integrated too, which takes longer); validity: flags of
-            where the model leaves its range, with the results that these need.
+        of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
+            "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
+            model leaves its range, with the results that these need).
 
     Numbers, arrays of any shape, quantities with units and DataArrays are broadcast against each other as numpy does,
     DataArrays by the names of their dimensions; plain arrays beside these go with the last dimensions.
@@ -125,6 +125,8 @@ def _whole(request: Batch, results: Block) -> None:
     compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
     if any(name in OF_IMPACT for name in request.of):
         fill(results, np.arange(request.size), of_impact(request))
+    if VALIDITY in request.of:
+        results[VALIDITY] = validity(request, results)
 
 
 def _by_text(request: Batch, results: Block) -> str:
@@ -138,6 +140,8 @@ def _by_text(request: Batch, results: Block) -> str:
         warn(part.scene)
         found = empty(part.size, part.of)
         _whole(part, found)
+        if VALIDITY in found:
+            results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
         fill(results, where, found)
         engines[part.engine] = None
     if first is not None and not engines:
@@ -319,9 +323,7 @@ def as_dataset(
     }
     for name, values in results.items():
         if name not in variables:
-            variables[name] = along, values, attributes(name)
-    if VALIDITY in request.of:
-        variables[VALIDITY] = along, validity(request, results), flag_attributes()
+            variables[name] = along, values, flag_attributes() if name == VALIDITY else attributes(name)
     said = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": engine or request.engine}
     if request.scene.package is not None:
         said["model"] = request.scene.package.text

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...generated.automaton import OUTCOMES
+from ...generated.automaton import OUTCOMES, ROTATE
 from ..collision.text import name_of
-from ..formatting.style import FILLS
+from ..formatting.style import EDGES, FILLS, picture
 from .plot_map import draw_map
 from .regime_map import scene_of
 from .results import FAILED
@@ -18,8 +18,10 @@ if TYPE_CHECKING:
     import xarray
 
 _MARKS = ("o", "^", "s")
+_FILL = FILLS | {ROTATE: EDGES[ROTATE]}  # of small marks, which have no hatch
 
 
+@picture
 def draw(data: xarray.Dataset) -> Figure:
     """Draw what `regime_map` or `collide_many` has returned."""
     return draw_map(data) if "Conventions" in data.attrs else _points(data)
@@ -33,11 +35,11 @@ def _points(data: xarray.Dataset) -> Figure:
             for name in ("angle", impact))  # fmt: skip
     figure = Figure(figsize=(6.4, 4.4), layout="constrained")
     axes = figure.add_subplot()
-    for code, (name, colour, mark) in enumerate(zip(OUTCOMES, FILLS.values(), _MARKS, strict=True)):
+    for code, (name, mark) in enumerate(zip(OUTCOMES, _MARKS, strict=True)):
         here = outcome == code
         if here.any():
             edge: Any = {"linewidths": 0.4, "edgecolors": "#404040", "label": f"{name} ({int(here.sum())})"}
-            axes.scatter(np.degrees(x[here]), y[here], s=26, c=colour, marker=mark, **edge)
+            axes.scatter(np.degrees(x[here]), y[here], s=26, c=_FILL[name], marker=mark, **edge)
     failed = outcome == FAILED
     if failed.any():
         axes.scatter(np.degrees(x[failed]), y[failed], s=30, c="#C00000", marker="x", label=f"failed ({failed.sum()})")

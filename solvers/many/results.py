@@ -54,9 +54,9 @@ OF_IMPACT: dict[str, tuple[str, str]] = {
 }
 """Numbers that the impact alone decides."""
 
-ALWAYS = ("outcome", "certified", "reason")
 VALIDITY = "validity"
 """Name of the variable that says where the model leaves its range."""
+ALWAYS = ("outcome", "certified", "reason")
 MAPPED = (*INTEGRATED, *ALWAYS, VALIDITY)
 RESULTS = (*MAPPED, *OF_IMPACT)
 

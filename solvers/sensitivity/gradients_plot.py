@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..formatting.style import picture
+
 if TYPE_CHECKING:
     import xarray
 
@@ -15,6 +17,7 @@ _PANELS = 4
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
 
+@picture
 def draw(found: xarray.Dataset) -> Figure:
     """Elasticities of each result over what of the impact varies; the strongest six parameters are drawn."""
     quantities = found["quantity"].values[:_PANELS]

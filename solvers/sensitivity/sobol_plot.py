@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..formatting.style import picture
+
 if TYPE_CHECKING:
     import xarray
 
 _BARS = (("first", "first order", "#2a6f97", -0.2), ("total", "total", "#c1554a", 0.2))
 
 
+@picture
 def draw(found: xarray.Dataset) -> Figure:
     """First-order and total indices with their 95 % intervals, the largest on top."""
     order = np.argsort(found["total"].values)

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..collision.text import prefix
+from ..formatting.style import picture
 
 if TYPE_CHECKING:
     import xarray
@@ -18,6 +19,7 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00")
 _EVENT: Any = {"color": "#999999", "linewidth": 0.7, "linestyle": ":"}
 
 
+@picture
 def draw(found: xarray.Dataset) -> Figure:
     """A row for each variable that is not zero: on the left its course, on the right p dy/dp of the parameters p.
 

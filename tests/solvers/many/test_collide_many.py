@@ -9,7 +9,7 @@ import pint
 import pytest
 import xarray as xr
 from loky import process_executor
-from wetdoublet.solvers import Scene, collide, collide_many, gradients_many, regime_map
+from wetdoublet.solvers import ModelWarning, Scene, collide, collide_many, gradients_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.remarks import silence_workers
@@ -295,3 +295,15 @@ def test_a_script_without_a_guard_runs_once(tmp_path):
     )
     result = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True)
     assert (result.stdout.split(), result.stderr) == (["begins", "0"], "")
+
+
+def test_validity_of_laws_that_vary():
+    """Where laws vary, each collision is held to the limits of its own: to the flags of a batch of that law alone."""
+    laws = ["mikami", "willett"]
+    wide = Scene.load("granulation").with_entries({"bridge.volume": 0.4})
+    with pytest.warns(ModelWarning):
+        both = collide_many(wide, stokes=0.3, angle=1.0, vary={"bridge.law": laws}, of="validity")
+        for k, law in enumerate(laws):
+            alone = collide_many(wide.with_entries({"bridge.law": law}), stokes=0.3, angle=1.0, of="validity")
+            assert both.validity.values[k] == alone.validity.values[0]
+            assert both.validity.attrs["flag_meanings"] == alone.validity.attrs["flag_meanings"]
