@@ -1,6 +1,7 @@
 """The rules of the house, read from the imports: arrows go one way, and there are no circles.
 
-`python tests/test_house.py` prints the rooms by floors, and what each imports.
+`python tests/test_house.py` prints the rooms by floors, the foundations at the bottom: what each is for, and the rooms
+that it stands on directly.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ import ast
 import re
 import sys
 from collections import defaultdict
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -67,13 +69,45 @@ def room(name: str) -> str:
     return ".".join(name.split(".")[:2])
 
 
+def apart(name: str) -> str:
+    """The room, with each of the two engines as a room of its own."""
+    parts = name.split(".")
+    return ".".join(parts[:3]) if parts[:2] == ["solvers", "engines"] and len(parts) > 3 else room(name)
+
+
+def between(of: Callable[[str], str]) -> Graph:
+    """Room -> rooms that it imports from, with the rooms that `of` gives."""
+    found: Graph = defaultdict(set)
+    for name, those in imports().items():
+        found[of(name)] |= {of(each) for each in those} - {of(name)}
+        for each in those:
+            found.setdefault(of(each), set())
+    return dict(found)
+
+
 @cache
 def rooms() -> Graph:
     """Room -> rooms that it imports from."""
-    found: Graph = defaultdict(set)
-    for name, those in imports().items():
-        found[room(name)] |= {room(each) for each in those} - {room(name)}
-    return dict(found)
+    return between(room)
+
+
+def direct(graph: Graph) -> Graph:
+    """The graph without the arrows that follow from others."""
+
+    @cache
+    def below(name: str) -> frozenset[str]:
+        return frozenset(graph[name]).union(*(below(each) for each in graph[name]))
+
+    return {
+        name: {each for each in those if not any(each in below(other) for other in those - {each})}
+        for name, those in graph.items()
+    }
+
+
+def purpose(name: str) -> str:
+    """The first line of a room's docstring."""
+    text = ast.get_docstring(ast.parse(modules()[name].read_text())) if name in modules() else "Emitted text."
+    return (text or "").partition("\n")[0]
 
 
 def circles(graph: Graph) -> list[list[str]]:
@@ -169,6 +203,9 @@ def test_files_that_are_named_exist() -> None:
 
 if __name__ == "__main__":
     assert not circles(rooms()), circles(rooms())
-    for floor, names in enumerate(floors(rooms())):
+    drawn = direct(between(apart))
+    for floor, names in reversed([*enumerate(floors(drawn))]):
         for each in sorted(names):
-            sys.stdout.write(f"{floor:2}  {each:24} {', '.join(sorted(rooms().get(each, ())))}\n")
+            sys.stdout.write(
+                f"{floor:2}  {each:24} {purpose(each)}\n{'':30}on {', '.join(sorted(drawn[each])) or '-'}\n"
+            )

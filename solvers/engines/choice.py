@@ -1,7 +1,4 @@
-"""Which engine answers where none is asked for: one collision, a batch, boundaries, derivatives.
-
-The only module of the engines that depends on both.
-"""
+"""Which engine answers where none is asked for: one collision, a batch, boundaries, derivatives."""
 
 from __future__ import annotations
 

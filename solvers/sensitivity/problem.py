@@ -73,7 +73,7 @@ class Problem:
         """The requested quantities that are odd in the angle, with a derivative at zero."""
         return tuple(name for name in of if QUANTITIES[name].odd) if "impact.angle" in self.wrt else ()
 
-    def beside(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
+    def from_small_angle(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
         """Derivatives in the angle of quantities that are odd in it, from a small angle.
 
         Used with strings, whose equations are divided by the impact's rotation rate. The error is quadratic in the
@@ -111,11 +111,11 @@ class Problem:
             rtol = max(rtol, _SHARPEST_CVODES)
         else:
             rtol = sharpened(rtol, near)
-        whole = trajectory_expression(course, of, plugin, tolerance_for(rtol, plugin, self.n.groups))
-        via = parameter_map(self.kind, self.wrt, whole.groups)
-        size = len(whole.groups)
-        p, scales = np.split(via.values(self.reference).full().ravel(), [size])
-        slopes = np.asarray(via.slopes(self.reference)[0].full())
+        expression = trajectory_expression(course, of, plugin, tolerance_for(rtol, plugin, self.n.groups))
+        mapping = parameter_map(self.kind, self.wrt, expression.groups)
+        size = len(expression.groups)
+        p, scales = np.split(mapping.values(self.reference).full().ravel(), [size])
+        slopes = np.asarray(mapping.slopes(self.reference)[0].full())
         active = influential(course, self.n.groups)
         dp, ds = slopes[:size] * np.array(active)[:, None], slopes[size:]
         durations = np.array([step.duration for step in path.steps])
@@ -123,11 +123,11 @@ class Problem:
         try:
             # second derivatives of the groups need the gradient in every group
             how = method if along is None else "adjoint"
-            durations, z, dz = differentiated(whole, course, p, durations, dp, active, how, _amplifies(near))
+            durations, z, dz = differentiated(expression, course, p, durations, dp, active, how, _amplifies(near))
             if along is not None:
-                right = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
-                durations = settled(whole, p, durations, landed(course), LANDED_WELL)
-                second = second_derivatives(whole, p, durations, dp, dp @ right, active)
+                seed_directions = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
+                durations = settled(expression, p, durations, landed(course), LANDED_WELL)
+                second = second_derivatives(expression, p, durations, dp, dp @ seed_directions, active)
         except IntegrationFailed as failure:
             raise ComputationError(
                 f"{plugin} could not differentiate the trajectory ({failure})",
@@ -137,7 +137,7 @@ class Problem:
         units = _Units(of, scales, ds)
         first = dz @ dp
         if second is not None:
-            second = units.second(via, self.reference, z, dz * np.array(active), first, second, right)
+            second = units.second(mapping, self.reference, z, dz * np.array(active), first, second, seed_directions)
         return Slopes(z * units.scale, first * units.scale[:, None] + z[:, None] * units.slope, second)
 
     def units(self) -> np.ndarray:
@@ -175,13 +175,13 @@ class _Units:
 
     def second(
         self,
-        via: ParameterMap,
+        mapping: ParameterMap,
         reference: np.ndarray,
         z: np.ndarray,
         dz: np.ndarray,
         first: np.ndarray,
         second: np.ndarray,
-        right: np.ndarray,
+        seed_directions: np.ndarray,
     ) -> np.ndarray:
         """Second derivatives in theta, from those of the trajectory in its groups and those of groups and scales."""
         found = []
@@ -190,6 +190,6 @@ class _Units:
             if (at := self.where[k]) is not None:
                 weights[dz.shape[1] + at] = z[k]
             crossed = np.outer(first[k], self.slope[k])
-            ways = np.asarray(via.bends(reference, weights).full())
-            found.append(second[k] * self.scale[k] + (crossed + crossed.T + ways) @ right)
+            map_curvature = np.asarray(mapping.bends(reference, weights).full())
+            found.append(second[k] * self.scale[k] + (crossed + crossed.T + map_curvature) @ seed_directions)
         return np.array(found)

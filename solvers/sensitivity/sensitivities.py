@@ -94,11 +94,11 @@ def sensitivities(
     todo = tuple(name for name in computed(of) if problem.defined(name, path))
     slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
     if slopes is None and todo:
-        beside, plugin = plugin == "taylor", casadi_gradient_engine() if plugin == "taylor" else plugin
+        refused, plugin = plugin == "taylor", casadi_gradient_engine() if plugin == "taylor" else plugin
         try:
             slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
         except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
-            alone = beside or asked is not None or method != "forward" or along is not None
+            alone = refused or asked is not None or method != "forward" or along is not None
             slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
             if slopes is None:
                 raise
@@ -108,7 +108,7 @@ def sensitivities(
         if along is not None:
             accepted = "an oblique impact, or parameters without impact.angle"
             raise InputError("hessian", hessian, accepted, "head-on with strings has no second derivatives")
-        turning = problem.beside(problem.odd(of), method, plugin, rtol)
+        turning = problem.from_small_angle(problem.odd(of), method, plugin, rtol)
     rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
     for name, slope in turning.items():
         row = rows[name][1]

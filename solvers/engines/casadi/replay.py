@@ -130,7 +130,7 @@ def _integrate_onto_event(
             raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
         replayed.steps += engine.steps
         if replayed.steps > STEPS:
-            raise Stopped(f"has not got through in {STEPS} steps", step, replayed.time, replayed.y)
+            raise Stopped(f"has not finished in {STEPS} steps", step, replayed.time, replayed.y)
         return y
 
     y = integrate(step.duration)

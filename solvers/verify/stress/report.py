@@ -124,8 +124,10 @@ def _failures(found: Stress) -> str:
     issues = found.issues("failure", "peer")
     counted = Counter((", ".join(issue.between), _kind(issue), issue.kind, issue.explained) for _, issue in issues)
     for (engine, kind, whose, why), count in counted.most_common():
-        rows.append([engine, kind, why or ("unexplained" if whose == "failure" else "a peer"), str(count)])
-    return table(["engine", "what it says", "physical reason", "count"], rows) if rows else "None."
+        rows.append(
+            [engine, kind, why or ("unexplained" if whose == "failure" else "not examined: another code"), str(count)]
+        )
+    return table(["engine", "what it says", "explanation", "count"], rows) if rows else "None."
 
 
 def _engines(found: Stress) -> str:

@@ -27,7 +27,7 @@ static inline vec polynomial_at(const vec *a, int order, vec t)
 /* The least relative clearance of the glass criterion within a step: the lowest of some samples, refined by Newton's
  * iteration to the minimum.
  */
-static __attribute__((noinline)) vec least_spare(const fixed *f, const series *s, vec h)
+static __attribute__((noinline)) vec least_pressure_margin(const fixed *f, const series *s, vec h)
 {
     const vec(*a)[TERMS] = (const void *)s;
     const vec *clearance = s->glass.result;
@@ -53,7 +53,7 @@ static __attribute__((noinline)) vec least_spare(const fixed *f, const series *s
     vec y[STATES];
     for (int state = 0; state < STATES; state++)
         y[state] = sum_at(a[state], place);
-    return spare(&f->c, y);
+    return pressure_margin(&f->c, y);
 }
 
 /* How far the pressure would exceed its limit without the rebound, to second order, over the limit. */
@@ -113,7 +113,7 @@ static void measure_event(carried *a, const lanes *l, const fixed *f, const seri
     double gap = at[GAP][lane], normal_velocity = at[NORMAL_VELOCITY][lane], contact = f->contact[lane];
     int closing = l->closing[lane] != 0;
     if (event == AT_GLASS && h == 0.0)
-        along_near(a, lane, fabs(log(1.0 - spare(&f->c, at)[lane])), TOUCH);
+        along_near(a, lane, fabs(log(1.0 - pressure_margin(&f->c, at)[lane])), TOUCH);
     else if (event == AT_GLASS)
         along_near(a, lane, flatness(f, s, at, h, lane), GLASS_GRAZE);
     if (contact > 0.0 && (event == AT_GLASS || (event == AT_TURNING && closing)))
@@ -167,7 +167,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
         close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
     }
     if (bits(close)) {
-        vec least = vec_abs(vec_log(1.0 - least_spare(f, s, h)));
+        vec least = vec_abs(vec_log(1.0 - least_pressure_margin(f, s, h)));
         for (unsigned left = bits(close); left; left &= left - 1)
             along_near(along, __builtin_ctz(left), least[__builtin_ctz(left)], GLASS_GRAZE);
     }

@@ -17,8 +17,8 @@ _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
  */
 enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
 
-/* Clearance of the glass criterion over that without motion: one minus the pressure over its limit. */
-static inline vec spare(const constants *c, const vec *y)
+/* Relative margin of the glass criterion: 1 - p/p_gt. The clearance without motion is the limit itself. */
+static inline vec pressure_margin(const constants *c, const vec *y)
 {
     vec still[STATES];
     memcpy(still, y, sizeof still);

@@ -90,7 +90,7 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
     unsigned any = glass | bits(asked & (l->y[GAP] <= f->contact));
 #if GRADIENTS
     if (glass) {
-        vec met = vec_abs(vec_log(1.0 - spare(&f->c, l->y)));
+        vec met = vec_abs(vec_log(1.0 - pressure_margin(&f->c, l->y)));
         for (unsigned left = glass; left; left &= left - 1)
             along_near(&l->along, __builtin_ctz(left), met[__builtin_ctz(left)], TOUCH);
     }
