@@ -60,11 +60,11 @@ class Lines:
         return {"rtol": self.rtol, "units": {**units, "stokes": "1", "centrifugal": "1"}} | known
 
     def __str__(self) -> str:
-        lines = [f"angle (deg)   St              Ce          {self.speed_heading:<15} change"]
+        lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
         for angle, changes in zip(self.angles, self.changes, strict=True):
             for one in changes:
                 ce = "-" if one.centrifugal is None else f"{one.centrifugal:.6g}"
-                change = f"{self.speed_at(one.stokes, angle):<15.6g} {one.before} -> {one.after}"
+                change = f"{self.speed_at(one.stokes, angle):<18.6g} {one.before} -> {one.after}"
                 lines.append(f"{math.degrees(angle):<13.6g} {one.stokes:<15.10g} {ce:<11} {change}")
             if not changes:
                 failure = next((reason for at, reason in self.failed if at == angle), "no change")
@@ -78,7 +78,7 @@ class Lines:
     @property
     def speed_heading(self) -> str:
         """Which speed `speed_at` gives."""
-        return "rel. speed, m/s" if self._relative else "speed, m/s"
+        return "rel. speed (m/s)" if self._relative else "normal speed (m/s)"
 
     def speed_at(self, stokes: float, angle: float) -> float:
         """Speed in m/s of a Stokes number at an angle (rad).
