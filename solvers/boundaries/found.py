@@ -60,11 +60,11 @@ class Lines:
         return {"rtol": self.rtol, "units": {**units, "stokes": "1", "centrifugal": "1"}} | known
 
     def __str__(self) -> str:
-        lines = [f"angle (deg)   St              Ce          {self._speed_heading:<15} change"]
+        lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
         for angle, changes in zip(self.angles, self.changes, strict=True):
             for one in changes:
                 ce = "-" if one.centrifugal is None else f"{one.centrifugal:.6g}"
-                change = f"{self._speed(one.stokes, angle):<15} {one.before} -> {one.after}"
+                change = f"{self.speed_at(one.stokes, angle):<18.6g} {one.before} -> {one.after}"
                 lines.append(f"{math.degrees(angle):<13.6g} {one.stokes:<15.10g} {ce:<11} {change}")
             if not changes:
                 failure = next((reason for at, reason in self.failed if at == angle), "no change")
@@ -72,24 +72,26 @@ class Lines:
         points = sum(len(changes) for changes in self.changes)
         merged = sum(one.merged for line in self.changes for one in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
-        looked = f"; strips narrower than {self.resolution:.1%} of St are seen where a margin shows them"
-        return "\n".join([*lines, f"{points} changes from {self.collisions} collisions{looked}"])
+        found = f"{points} change{'s' * (points != 1)} from {self.collisions} collisions"
+        return "\n".join([*lines, f"{found}; strips narrower than {self.resolution:.1%} in St may be missed"])
+
+    @property
+    def speed_heading(self) -> str:
+        """Which speed `speed_at` gives."""
+        return "rel. speed (m/s)" if self._relative else "normal speed (m/s)"
+
+    def speed_at(self, stokes: float, angle: float) -> float:
+        """Speed in m/s of a Stokes number at an angle (rad).
+
+        The magnitude of the relative velocity if the scene's impact has a `relative_speed`, else the normal speed.
+        """
+        assert self.scene is not None, "boundaries without a scene are only drawn"
+        speed = self.scene.speed_of(stokes)
+        return speed / math.cos(angle) if self._relative else speed
 
     @property
     def _relative(self) -> bool:
-        """Whether the scene speaks of the magnitude of the relative velocity, not of its normal component."""
         return self.scene is not None and self.scene.impact.relative_speed is not None
-
-    @property
-    def _speed_heading(self) -> str:
-        return "rel. speed, m/s" if self._relative else "speed, m/s"
-
-    def _speed(self, stokes: float, angle: float) -> str:
-        """The speed of a Stokes number, as the scene gives its own."""
-        if self.scene is None:
-            return "-"
-        speed = self.scene.speed_of(stokes)
-        return f"{speed / math.cos(angle) if self._relative else speed:.6g}"
 
 
 @dataclass(frozen=True)
@@ -221,8 +223,8 @@ class Curves(Lines):
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
         told = (
-            f"sought with {len(self.at)} lines, {shown(spacing):.3g} apart, and strips of {self.resolution:.2%} in St "
-            f"on them; {self.collisions} collisions; straight lines between the points of a curve are within "
+            f"from {len(self.at)} lines, {shown(spacing):.3g} apart, sampled every {self.resolution:.2%} in St; "
+            f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St"
         )
         if self.lattice != LATTICE:

@@ -20,11 +20,11 @@ def html(found: Lines) -> str:
         at = f"{math.degrees(angle):.6g}"
         rows += [
             (at, f"{one.stokes:.8g}", "-" if one.centrifugal is None else f"{one.centrifugal:.6g}",
-             f"{one.before} → {one.after}", one.kind)
+             f"{found.speed_at(one.stokes, angle):.6g}", f"{one.before} → {one.after}", one.kind)
             for one in line
         ]  # fmt: skip
-        rows += [] if line else [(at, failure or "no change", "", "", "")]
-    head = ("angle (deg)", "St", "Ce", "change", "kind")
+        rows += [] if line else [(at, failure or "no change", "", "", "", "")]
+    head = ("angle (deg)", "St", "Ce", found.speed_heading, "change", "kind")
     return view(f"{name}: boundaries between outcomes", rows, head, [f"{found.collisions} collisions"])
 
 

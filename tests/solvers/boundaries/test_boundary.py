@@ -290,7 +290,7 @@ def test_json_of_the_command(name: str, reference_boundaries: dict[str, Any]) ->
     outcome = run("boundary", name, "--angle", "35:65:3", "--stokes", "0.02:5", "--json")
     assert outcome.exit_code == 0, outcome.output
     found = json.loads(outcome.stdout)
-    assert set(found) == {"angles", "changes"}
+    assert set(found) == {"angles", "changes", "rtol", "units", "version", "scene"}
     assert found["angles"] == pytest.approx(np.radians([35, 50, 65]).tolist(), rel=1e-14)
     for line in found["changes"]:
         assert [one["stokes"] for one in line] == sorted(one["stokes"] for one in line)
