@@ -11,7 +11,7 @@ from functools import cache
 
 from ..physics.laws import LAWS, Law
 from ..vocabulary.quantities import gap
-from .admission import Certificate, certificate, certificates
+from .admission import Admission, certificate, certificates
 from .attraction_certificate import attraction_certificate
 from .attractions import law_checks
 from .base import Check
@@ -41,7 +41,7 @@ from .partners import partner_checks
 from .pendulum_certificate import pendulum_certificate
 from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
 
-__all__ = ["Certificate", "Check", "certificate", "symbolic_checks"]
+__all__ = ["Admission", "Check", "certificate", "symbolic_checks"]
 
 
 @cache

@@ -29,8 +29,8 @@ _DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": 
 
 
 @dataclass(frozen=True)
-class Certificate:
-    """The stick certificate of a model, if it admits one.
+class Admission:
+    """Whether a model admits a stick certificate, and which.
 
     Arguments:
         structure: of the model.
@@ -52,7 +52,7 @@ class Certificate:
         return self.argument if self.admitted else "none: " + "; ".join(self.against)
 
 
-def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> Certificate:
+def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> Admission:
     """The certificate of a structure with these laws (slot -> law; where left out, the default).
 
     Its preconditions: solids, film and shear only dissipate; bridge and strings have a potential; the angular momentum,
@@ -72,7 +72,7 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
     against += [f"{check.name}: {check.figure}" for check in checks if not check.ok]
     if not _has_barrier(structure):
         against.append("no barrier: L^2/(2 I) falls with the gap and nothing attracts, an oblique doublet always parts")
-    return Certificate(structure, _argument(structure), tuple(held), tuple(against))
+    return Admission(structure, _argument(structure), tuple(held), tuple(against))
 
 
 def _rotation(

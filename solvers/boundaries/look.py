@@ -113,7 +113,7 @@ class Look:
         found = blank(stokes)
         for name in ("outcome", "reversal", "events", "restitution", "time"):
             found[name] = told[name]
-        contact = contact_gap(self.scene, speed)
+        contact = contact_gap_at(self.scene, speed)
         found["criterion"] = np.where(told["outcome"] == 1, _margin(told, contact), np.nan)
         found["reach"] = np.where(told["at_touch"], np.nan, 0.0)
         return found
@@ -133,7 +133,7 @@ class Look:
                 found["reach"][sticks] = np.where(told["outcome"] == 0, told["final_gap"], np.nan)
         bounces = np.flatnonzero(found["outcome"] == 2)
         if bounces.size:
-            contact = contact_gap(self.scene, speed[bounces])
+            contact = contact_gap_at(self.scene, speed[bounces])
             told = by_kernel.looked(
                 self.scene,
                 speed[bounces],
@@ -179,7 +179,7 @@ def blank(stokes: np.ndarray) -> np.ndarray:
     return found
 
 
-def contact_gap(scene: Scene, speed: np.ndarray) -> np.ndarray:
+def contact_gap_at(scene: Scene, speed: np.ndarray) -> np.ndarray:
     """Gap over film thickness at which the solids meet, at normal speeds (m/s)."""
     values = {**si_values(scene, None, None), "speed": speed}
     gap = np.zeros(speed.size)

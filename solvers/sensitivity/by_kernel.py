@@ -19,7 +19,7 @@ from ..settings import STEPS
 from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
 from .problem import Problem, Slopes, sharpened
 from .result import Near
-from .results import QUANTITIES
+from .results import DIFFERENTIATED
 
 # Results that the kernel differentiates (not the ledger): column of the derivative, field of the value.
 _WHERE: dict[str, tuple[int, str | int]] = {
@@ -34,7 +34,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
 KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
-_TURNS = tuple(name for name in KNOWN if QUANTITIES[name].odd or name == "tangential_restitution")
+_TURNS = tuple(name for name in KNOWN if DIFFERENTIATED[name].odd or name == "tangential_restitution")
 
 
 def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
@@ -103,7 +103,7 @@ def gradients_by_kernel(
     for place, name in enumerate(of):
         column, where = _WHERE[name]
         if angle == 0 and name in _TURNS:
-            if QUANTITIES[name].odd:
+            if DIFFERENTIATED[name].odd:
                 value[place, separated] = 0.0
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
@@ -114,7 +114,7 @@ def gradients_by_kernel(
             first[place] += paced[:, [moved]] * rows[moved] * (bent - 1)
         if name == "final_spin":  # separation at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
-        if QUANTITIES[name].scale is not None:
+        if DIFFERENTIATED[name].scale is not None:
             scale, relative = scales().of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
@@ -177,6 +177,6 @@ class _Scales:
 
     def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""
-        scale = QUANTITIES[name].scale
+        scale = DIFFERENTIATED[name].scale
         assert scale is not None
         return self._values[scale], self._relative[scale]

@@ -30,7 +30,7 @@ from .boundary_distance import LOOK, limit, refused
 from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, parameter_map, references
 from .problem import NEAR, SHARPEST
 from .result import Near
-from .results import QUANTITIES, check_quantities
+from .results import DIFFERENTIATED, check_quantities
 from .sensitivities import sensitivities
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ def gradients_many(
 
 def _by_kernel(asked: _Asked) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
-    turns = any(QUANTITIES[name].odd for name in asked.of) and "impact.angle" in asked.wrt
+    turns = any(DIFFERENTIATED[name].odd for name in asked.of) and "impact.angle" in asked.wrt
     parts, left = [], [np.flatnonzero(asked.angle == 0) if turns else np.zeros(0, int)]
     for oblique in (True, False) if not turns else (True,):
         which = np.flatnonzero((asked.angle > 0) == oblique)
@@ -307,7 +307,7 @@ def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
         "engine": (along, asked.engine.astype(str), {"long_name": "what computed it"}),
     }
     coordinates: dict[str, Column] = {
-        "units": (("quantity",), np.array([QUANTITIES[name].unit for name in asked.of]), {}),
+        "units": (("quantity",), np.array([DIFFERENTIATED[name].unit for name in asked.of]), {}),
         "reference": (("collision", "parameter"), reference, {}),
         "speed": (along, asked.speed, {"units": "m/s", "long_name": "normal approach speed"}),
         "stokes": (along, stokes, {"units": "1", "long_name": "Stokes number"}),

@@ -19,7 +19,7 @@ from .derivatives import LANDED_WELL, settled
 from .directions import differentiated, landed, second_derivatives
 from .parameters import RELATIVE, SCALES, Kind, ParameterMap, kind_of, parameter_map, references
 from .result import Near
-from .results import QUANTITIES
+from .results import DIFFERENTIATED
 from .trajectory_expression import course_of, influential, trajectory_expression
 
 _LOCATED = 1e-8  # tolerance of the event location; landings on the events correct the remaining error
@@ -71,7 +71,7 @@ class Problem:
 
     def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
         """The requested quantities that are odd in the angle, with a derivative at zero."""
-        return tuple(name for name in of if QUANTITIES[name].odd) if "impact.angle" in self.wrt else ()
+        return tuple(name for name in of if DIFFERENTIATED[name].odd) if "impact.angle" in self.wrt else ()
 
     def from_small_angle(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
         """Derivatives in the angle of quantities that are odd in it, from a small angle.
@@ -168,7 +168,7 @@ class _Units:
     """SI scales of quantities, with their derivatives in the parameters."""
 
     def __init__(self, of: tuple[str, ...], scales: np.ndarray, slopes: np.ndarray) -> None:
-        self.where = [SCALES.index(scale) if (scale := QUANTITIES[name].scale) else None for name in of]
+        self.where = [SCALES.index(scale) if (scale := DIFFERENTIATED[name].scale) else None for name in of]
         self.scale = np.array([1.0 if k is None else scales[k] for k in self.where])
         none = np.zeros(slopes.shape[1])
         self.slope = np.array([none if k is None else slopes[k] for k in self.where])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ...generated.automaton import STICK
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
-from .results import QUANTITIES, Row
+from .results import DIFFERENTIATED, Row
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -100,7 +100,7 @@ class Sensitivities:
             "hold": self.hold,
             "nearest": near,
             "rtol": self.rtol,
-            "units": {name: QUANTITIES[name].unit for name in self.value}
+            "units": {name: DIFFERENTIATED[name].unit for name in self.value}
             | {name: self.scene.fields[name].unit or "1" for name in self.parameters},
             **origin(self.scene),
         }
@@ -147,7 +147,7 @@ class Sensitivities:
         coordinates: dict[str, Any] = {
             "quantity": list(self.value),
             "parameter": list(self.parameters),
-            "units": ("quantity", [QUANTITIES[name].unit for name in self.value]),
+            "units": ("quantity", [DIFFERENTIATED[name].unit for name in self.value]),
             "reference": ("parameter", list(self.reference.values())),
         }
         if self.hessian is not None:
@@ -193,7 +193,7 @@ class Sensitivities:
         largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
         order = sorted(self.parameters, key=lambda p: -largest[p])
         head = ["", *names]
-        units = ["value", *(_number(self.value[y], QUANTITIES[y].unit) for y in names)]
+        units = ["value", *(_number(self.value[y], DIFFERENTIATED[y].unit) for y in names)]
         rows = [[p, *(self._cell(y, p) for y in names)] for p in order]
         widths = [max(len(row[k]) for row in (head, units, *rows)) for k in range(len(head))]
 
@@ -231,7 +231,10 @@ class Sensitivities:
         from ..collision.text import name_of
         from ..formatting.notebook import view
 
-        head = ["parameter", *(f"{name} = {_number(self.value[name], QUANTITIES[name].unit)}" for name in self.value)]
+        head = [
+            "parameter",
+            *(f"{name} = {_number(self.value[name], DIFFERENTIATED[name].unit)}" for name in self.value),
+        ]
         rows = [[p, *(self._cell(y, p) for y in self.value)] for p in self.parameters]
         title = f"{name_of(self.scene)}, {self.outcome}: elasticities d ln y/d ln p"
         near = [f"nearest: {self.near}"] if self.near else []

@@ -47,17 +47,17 @@ _ALL = (
 )
 Row = Mapping[str, float | None]
 """A number for each parameter; None where it is not defined."""
-QUANTITIES = {quantity.name: quantity for quantity in _ALL}
-LEDGER = tuple(name for name in QUANTITIES if name.startswith("energy."))
+DIFFERENTIATED = {quantity.name: quantity for quantity in _ALL}
+LEDGER = tuple(name for name in DIFFERENTIATED if name.startswith("energy."))
 SPENT = (*LEDGER[2:-1],)
 """Terms that the ledger takes from the initial energy, beside the final one."""
 
 
 def check_quantities(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
     """The requested quantities; InputError with the nearest name for an unknown one."""
-    asked = check_names(of, tuple(QUANTITIES), label)
+    asked = check_names(of, tuple(DIFFERENTIATED), label)
     if not asked:
-        raise InputError(label, "", ", ".join(QUANTITIES), "names no quantity")
+        raise InputError(label, "", ", ".join(DIFFERENTIATED), "names no quantity")
     return asked
 
 

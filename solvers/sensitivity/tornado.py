@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from ..scene.scene import Scene
-from .results import QUANTITIES
+from .results import DIFFERENTIATED
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
 _MOST = 16  # most bars in a panel
@@ -105,7 +105,7 @@ def _panel(axis: Any, found: Elasticities, name: str, order: Sequence[str]) -> N
             text, (value, bar.get_y() + bar.get_height() / 2), (3 * side, 0), textcoords="offset points",
             ha="left" if side > 0 else "right", va="center", fontsize=7.5, color=_INK,
         )  # fmt: skip
-    unit = QUANTITIES[name].unit
+    unit = DIFFERENTIATED[name].unit
     value_ = found.value[name]
     axis.set_title(f"{name.replace('_', ' ')}\n{value_:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
     axis.spines[["top", "right", "left"]].set_visible(False)

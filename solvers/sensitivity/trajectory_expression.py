@@ -19,7 +19,7 @@ from ..host.thread_caches import own_cache
 from ..model.model import Model, ModelKey, load
 from ..model.phases import Flow, Phase, WatchedEvents
 from ..scene.contact import GAPS, contact_word
-from .results import QUANTITIES
+from .results import DIFFERENTIATED
 
 # further arguments of the guards: direction of motion, and the certificate's level, which is not used here
 _NO_LEVEL = 0.0
@@ -152,7 +152,7 @@ def ending(course: Course, plugin: str, tolerance: Tolerance) -> TrajectoryExpre
 
 def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
     """Names of the quadratures: the rotation where it is not a state, and the model's terms of the ledger."""
-    wanted = [QUANTITIES[name].extra for name in of]
+    wanted = [DIFFERENTIATED[name].extra for name in of]
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
     return tuple(name for name in wanted if name is not None and name in has)
