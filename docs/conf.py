@@ -56,7 +56,7 @@ autodoc_typehints = "none"
 python_maximum_signature_line_length = 72
 napoleon_google_docstring = True
 napoleon_numpy_docstring = False
-copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_text = r">>> |\.\.\. |\$ |!"  # the last in notebooks, before commands for the shell
 copybutton_prompt_is_regexp = True
 
 sphinx_gallery_conf = {

@@ -31,12 +31,12 @@ def pages() -> dict[str, str]:
     groups = {**GROUPS, **({"More": rest} if rest else {})}
     found = {"reference/api/index.md": _index(groups)}
     for names in groups.values():
-        found |= {f"reference/api/{name}.md": _page("wetdoublet.solvers", name) for name in names}
+        found |= {f"reference/api/{name}.md": _page("wetdoublet", name) for name in names}
     return found | {f"reference/api/model-{name}.md": _page("wetdoublet.derive.user", name) for name in MODEL_WRITERS}
 
 
 def _index(groups: dict[str, tuple[str, ...]]) -> str:
-    lines = ["# Python API", "", 'Plain numbers are SI and radians. Text carries its unit: `"75 deg"`.', ""]
+    lines = ["# Python API", "", "All names are in `wetdoublet`: `import wetdoublet as wd`.", "", 'Plain numbers are SI and radians. Text carries its unit: `"75 deg"`.', ""]
     for title, names in groups.items():
         lines += _listed(title, [(name, name, getattr(solvers, name)) for name in names])
     import wetdoublet.derive.user as user

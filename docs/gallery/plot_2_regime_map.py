@@ -8,7 +8,7 @@ Outcome over Stokes number and angle: ten thousand collisions in a fraction of a
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
-from wetdoublet.solvers import regime_map
+from wetdoublet import regime_map
 
 stokes, degrees = np.geomspace(0.005, 1, 100), np.linspace(0, 85, 100)
 grid = regime_map("granulation", stokes=stokes, angle=np.radians(degrees), of=["restitution"])

@@ -7,7 +7,7 @@ The Stokes numbers at which the outcome changes, found exactly, for three viscos
 
 import matplotlib.pyplot as plt
 import numpy as np
-from wetdoublet.solvers import Scene, boundary
+from wetdoublet import Scene, boundary
 
 scene, degrees = Scene.load("granulation"), np.arange(20, 81, 5.0)
 figure, axes = plt.subplots(layout="constrained")

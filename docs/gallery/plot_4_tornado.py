@@ -5,7 +5,7 @@ Tornado of sensitivities
 By how many per cent does the restitution change when a property changes by one per cent?
 """
 
-from wetdoublet.solvers import sensitivities
+from wetdoublet import sensitivities
 
 found = sensitivities("granulation", of=["restitution", "contact_time"])
 strongest = max(found.elasticity["restitution"].items(), key=lambda item: abs(item[1] or 0))

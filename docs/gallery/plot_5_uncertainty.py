@@ -7,7 +7,7 @@ Restitution with uncertain viscosity and angle: first order beside a sample. The
 
 import matplotlib.pyplot as plt
 import numpy as np
-from wetdoublet.solvers import band
+from wetdoublet import band
 
 uncertain = {"liquid.viscosity": "5 %", "impact.angle": "1 deg"}
 found = band("granulation", uncertain, "impact.stokes", np.geomspace(0.015, 0.1, 30))

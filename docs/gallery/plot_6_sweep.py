@@ -6,7 +6,7 @@ Restitution for a range of viscosities and impacts, as a table.
 """
 
 import numpy as np
-from wetdoublet.solvers import regime_map
+from wetdoublet import regime_map
 
 sweep = regime_map(
     "granulation",

@@ -7,7 +7,7 @@ A granule meets a larger one, or a wall. Beside a wall nothing turns, so that th
 
 import matplotlib.pyplot as plt
 import numpy as np
-from wetdoublet.solvers import Scene, collide_many
+from wetdoublet import Scene, collide_many
 
 equal = Scene.load("granulation")
 partners = {

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from wetdoublet.solvers import Scene, collide_many
+from wetdoublet import Scene, collide_many
 
 model = Path(tempfile.mkdtemp()) / "decaying.py"
 model.write_text("""

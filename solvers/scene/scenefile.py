@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, did_you_mean
 from ..host import bounded
+from . import units
 from . import user_model as custom
 from .schema import FIELDS, TABLES, Raw
 
@@ -22,6 +23,8 @@ PRESETS = (*OF_THE_PAPER, "glass-beads-water", "lactose-pvp", "pellet-coating")
 _FOLDER = Path(__file__).with_name("presets")
 _LARGEST = 200_000  # bytes; bounded because a file such as /dev/zero has no end
 _HEADER = re.compile(r"\s*\[\s*([A-Za-z_]+)\s*\]")
+_LINE = 200  # characters of a line that is looked at more closely
+_BARE = re.compile(r"\s*([A-Za-z_]+)\s*=\s*([-+]?\d[^\"'#\[\]{}]*?)\s*(?:#.*)?")
 _REMARK = re.compile(r"\s*([A-Za-z_]+)\s*=\s*(?:\"(?:[^\"\\\\]|\\\\.)*+\"|'[^']*+'|[^\"'#]*+)\s*#\s*(.*\S)")
 
 
@@ -39,6 +42,8 @@ def read_text(source: str | Path) -> tuple[str, str]:
     except FileNotFoundError:
         is_name = isinstance(source, str) and not re.search(r"[/\\]|\.toml$", source)
         hint = did_you_mean(source, PRESETS) if is_name else ""
+        if is_name and bounded.exists(Path(f"{source}.toml")):
+            hint = f", did you mean {source}.toml?"
         raise InputError("scene", str(source), accepted, "is neither a file nor a preset" + hint) from None
     except bounded.NotRead as reason:
         raise InputError("scene", str(source), accepted, str(reason)) from None
@@ -80,7 +85,17 @@ def parse(text: str, origin: str) -> dict[str, Any]:
         problem = said[: at.start()] if at else said
         where = f"{origin}, line {line}" if at else origin
         value = lines[min(line, len(lines)) - 1].strip() if at else None
-        raise InputError(where, value, "a scene in TOML", f"is broken TOML ({' '.join(problem.split())})") from None
+        accepted = _as_toml(value or "")
+        raise InputError(where, value, accepted, f"is broken TOML ({' '.join(problem.split())})") from None
+
+
+def _as_toml(line: str) -> str:
+    """What is accepted in place of a line that is no TOML, such as `diameter = 2 mm` or `dry_restitution = 0,8`."""
+    bare = _BARE.fullmatch(line)
+    if bare is None or len(line) > _LINE:
+        return "a scene in TOML"
+    key, value = bare[1], bare[2].replace(",", ".")
+    return f"{key} = {value}, with a point" if units.is_number(value) else f'text in quotes, {key} = "{value}"'
 
 
 def remarks(text: str) -> dict[str, str]:

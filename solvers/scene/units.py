@@ -162,6 +162,8 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
         raise InputError(field, text, accepted, "is not finite")
     if not unit:
         raise InputError(field, text, accepted, "has no unit")
+    if re.match(r",\d", unit):
+        raise InputError(field, text, accepted, "has a comma in place of a decimal point")
     if unit in COMMON:
         dimension, factor = COMMON[unit]
         if dimension != si:

@@ -54,6 +54,8 @@ def test_spoilt_scene_files(tmp_path, seed):
         (TEXT.replace("2 Pa s", "2 " + "(" * 150), "has the unknown unit"),
         ("a = 1\na = 2", "line 2"),
         ("\0", "is broken TOML"),
+        ("[particles]\ndiameter = 2 mm  # of a sphere", 'accepted: text in quotes, diameter = "2 mm"'),
+        ("[particles]\ndry_restitution = 0,8", "accepted: dry_restitution = 0.8, with a point"),
     ],
 )
 def test_scene_files_that_are_too_much(tmp_path, text, says):
@@ -88,6 +90,13 @@ def test_names_that_are_no_files(tmp_path):
         ("a\0b", "null byte"),
     ):
         refused(name, says)
+
+
+def test_a_scene_file_named_without_its_ending(tmp_path, monkeypatch):
+    """The file of that name is pointed to."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(TEXT)
+    refused("mine", "is neither a file nor a preset, did you mean mine.toml?")
 
 
 @posix

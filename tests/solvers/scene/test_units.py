@@ -131,6 +131,7 @@ def test_spellings(text):
         ("1 m^9^9^9^9", "m", "unknown unit"),
         ("1 degC", "m", "not a length"),
         ("1 (m", "m", "unknown unit"),
+        ("0,02 mm", "m", "has a comma in place of a decimal point"),
     ],
 )
 def test_bad_quantities(text, si, problem):
