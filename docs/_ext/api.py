@@ -36,7 +36,14 @@ def pages() -> dict[str, str]:
 
 
 def _index(groups: dict[str, tuple[str, ...]]) -> str:
-    lines = ["# Python API", "", "All names are in `wetdoublet`: `import wetdoublet as wd`.", "", 'Plain numbers are SI and radians. Text carries its unit: `"75 deg"`.', ""]
+    lines = [
+        "# Python API",
+        "",
+        "All names are in `wetdoublet`: `import wetdoublet as wd`.",
+        "",
+        'Plain numbers are SI and radians. Text carries its unit: `"75 deg"`.',
+        "",
+    ]
     for title, names in groups.items():
         lines += _listed(title, [(name, name, getattr(solvers, name)) for name in names])
     import wetdoublet.derive.user as user
