@@ -12,6 +12,7 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..host import files
+from ..model.validity import FLAGS
 from .results import FAILED, REVERSALS
 
 if TYPE_CHECKING:
@@ -32,7 +33,8 @@ def to_csv(data: xarray.Dataset) -> str:
         values = data[name].broadcast_like(data["outcome"]).transpose(*dims).values
         unit = data[name].attrs.get("units", "1")
         header.append(name if unit == "1" else f"{name} [{unit}]")
-        columns.append(_cells(name, np.broadcast_to(values, shape).ravel()))
+        cells = np.broadcast_to(values, shape).ravel()
+        columns.append(_flags(cells) if name == "validity" else _cells(name, cells))
     made = io.StringIO()
     table = csv.writer(made, lineterminator="\n")
     table.writerow(header)
@@ -49,6 +51,12 @@ def _coordinates(data: xarray.Dataset) -> list[str]:
     """Dimensions first, in their order, then what depends on them."""
     dims = [str(dim) for dim in data["outcome"].dims if dim in data.coords]
     return dims + [str(name) for name in data.coords if name not in dims]
+
+
+def _flags(values: np.ndarray) -> list[str]:
+    """The names of the limits that are passed, as `film_reynolds fly_by`; empty within the model's range."""
+    words = {code: " ".join(name for bit, name in enumerate(FLAGS) if code >> bit & 1) for code in set(values.tolist())}
+    return [words[code] for code in values.tolist()]
 
 
 def _cells(name: str, values: np.ndarray) -> list[Any]:

@@ -182,6 +182,15 @@ def test_table(unlucky, tmp_path):
         assert [float(row[name]) for row in rows[1::2]] == pytest.approx(expected, rel=1e-9), name
 
 
+def test_the_table_names_the_limits_that_are_passed(tmp_path):
+    """`validity` has the words of the flags, and is empty within the model's range."""
+    file = tmp_path / "map.csv"
+    options = ("--relative-speed", "0.5:5 m/s:2", "--angle", "20", "-o", file)
+    assert run("map", "lactose-pvp", *options).exit_code == 0
+    with file.open(newline="") as text:
+        assert [row["validity"] for row in csv.DictReader(text)] == ["", "film_reynolds"]
+
+
 def test_reasons_that_differ_in_numbers_only_are_told_once(data):
     """Reasons are grouped by their words, the most frequent first."""
     marked = data.isel({"liquid.viscosity": 0}).copy(deep=True)
