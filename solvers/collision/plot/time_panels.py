@@ -177,6 +177,7 @@ def _events(column: Column, collision: Outcome) -> None:
     marks = [(event.time, event.kind) for event in collision.events]
     if collision.decided is not None and collision.certified:
         marks.append((collision.decided, "proved to stick"))
+        marks.sort(key=lambda mark: mark[0])  # a stick that is followed on has events after its proof
     lines = [time for time, _ in marks if time <= column.end * (1 + 1e-9)]
     if len(lines) > _MANY:  # repeated rebounds: one line where they coincide in the figure
         lines = list({round(200 * time / span): time for time in lines}.values())

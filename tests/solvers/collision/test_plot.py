@@ -271,3 +271,15 @@ def test_letters_stand_in_one_column(figures):
     letters = [text for axes in figure.axes for text in axes.texts if text.get_text() in ("(a)", "(b)", "(c)")]
     assert len(letters) == 3
     assert np.ptp([letter.get_window_extent().x0 for letter in letters]) < 1
+
+
+def test_the_proof_stands_at_its_time():
+    """A stick that is followed on has its proof marked where it was certain, not behind the events that come after."""
+    impact = {"relative_speed": "0.7 m/s", "angle": "45 deg"}
+    collision = collide("lactose-pvp", **impact, until="0.5 ms", trajectory=True)
+    assert collision.certified
+    assert collision.decided < collision.events[-1].time
+    (mark,) = {
+        text.xy[0] for axes in draw(collision).axes for text in axes.texts if "proved to stick" in text.get_text()
+    }
+    assert mark == pytest.approx(collision.decided * 1e6, abs=0.02 * 500)  # us; labels this near are joined
