@@ -172,7 +172,7 @@ def test_json_of_a_plane(tmp_path: Path) -> None:
     told = run("boundary", "granulation-dry-bridge", *options)
     assert told.exit_code == 0, told.output
     found = json.loads(told.stdout)
-    assert set(found) == {"curves", "points", "resolution"}
+    assert {"curves", "points", "resolution"} < set(found)
     (one,) = found["curves"]
     assert set(one) == {"from", "to", "kind", "x", "stokes"}
     assert (one["from"], one["to"]) == OUTCOMES[1:]

@@ -22,7 +22,7 @@ REAL = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang") or ""
 pytestmark = pytest.mark.skipif(os.name != "posix" or compiler() is None or not REAL, reason="no compiler, or no sh")
 FLAGS = ("-shared", "-fPIC")
 # What a script does beside calling the real compiler. The trial's own source is the one with a main.
-ON_MORE = "[ -z $source ] || grep -q main $source ||"
+ON_MORE = "[ -z $source ] || grep -q 'main(' $source ||"
 
 
 def script(path: Path, does: str) -> Path:
@@ -75,7 +75,7 @@ def test_a_compiler_of_ones_own(
         ("exit 0", "it does not say its version"),
         ("[ $1 = --version ] || exit 0", "nothing came of it"),
         ("[ $1 = --version ] || { echo error: no licence >&2; exit 1; }", "error: no licence"),
-        ("grep -q main $source 2>/dev/null && sed -i s/42/41/ $source", "what it compiles does not run"),
+        ("grep -q 'main(' $source 2>/dev/null && sed -i s/42/41/ $source", "what it compiles does not run"),
         ("sleep 600", "it has not ended after 0.2 s"),
         ("[ $1 = --version ] || { sleep 600 & wait; }", "it has not ended after 0.2 s"),
     ],

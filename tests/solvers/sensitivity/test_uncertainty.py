@@ -188,7 +188,7 @@ def test_the_kernel_answers_where_the_other_engine_misses(monkeypatch):
     scene = Scene.load("granulation-dry-bridge").with_entries(
         {"model.glass": "film-corrected", "liquid.glass_transition_pressure": "1e-3 Pa"}
     )
-    monkeypatch.setattr("wetdoublet.solvers.sensitivity.sensitivities.chosen", lambda *_: "rosenbrock")
+    monkeypatch.setattr("wetdoublet.solvers.sensitivity.sensitivities.gradient_engine", lambda *_: "rosenbrock")
     found = sensitivities(scene, ["restitution"], ["particles.dry_restitution"], stokes=3, angle=0.5)
     assert found.engine == "taylor"
     assert found.gradient["restitution"]["particles.dry_restitution"] == pytest.approx(1.0, rel=1e-9)

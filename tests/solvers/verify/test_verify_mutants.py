@@ -177,7 +177,7 @@ def test_a_certificate_that_proves_too_much_is_caught() -> None:
     """Impacts that a false proof certifies escape when continued; the audit counts them and names one."""
     (honest,) = audit.stick_audit("g", SCENE, impacts=12)
     assert honest.ok and not honest.figure.startswith("0 of 0")
-    (found,) = audit.stick_audit("g", SCENE, impacts=12, trajectory=Deceived)
+    (found,) = audit.stick_audit("g", SCENE, impacts=12, locator=Deceived)
     assert (found.name, found.ok) == ("stick certificate", False)
     assert int(found.figure.split()[0]) > 0
     assert found.where.startswith("St ") and "apart at" in found.where
