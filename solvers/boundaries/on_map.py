@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..engines.choice import boundary_engine
-from ..errors import ComputationError, InputError
+from ..errors import ComputationError, InputError, ModelWarning
 from ..many.plot_map import Curve, panels
 from ..many.regime_map import impact_axis, scene_of
 from ..scene.scene import Scene
@@ -33,15 +34,19 @@ def map_curves(data: xarray.Dataset) -> dict[int, list[Curve]]:
         return {}
     varied = [str(name) for name in data["outcome"].dims if name not in ("angle", impact)]
     sizes = [data.sizes[name] for name in varied]
-    found = {}
+    found: dict[int, list[Curve]] = {}
     for place in panels(data):
         index = np.unravel_index(place, sizes) if varied else ()
         entries = {name: float(data[name].values[k]) for name, k in zip(varied, index, strict=True)}
+        found[place] = []
         try:
-            scene = scene_of(data).with_entries(entries)
+            scene = scene_of(data).with_si(entries)
+        except InputError:  # its cells are marked as failed
+            continue
+        try:
             found[place] = _curves(scene, angles, values, impact, data.attrs["rtol"])
-        except (InputError, ComputationError):  # its cells are marked as failed
-            found[place] = []
+        except ComputationError as error:
+            warnings.warn(f"the picture lacks boundaries: {error}", ModelWarning, stacklevel=2)
     return found
 
 

@@ -192,12 +192,34 @@ def checked_vary(
         if entry.choices:
             found[name] = checked_texts(name, values, entry)
             continue
-        measured = bool(entry.or_unit) and carries_unit(values)
+        measured = bool(entry.or_unit) and _carry_units(name, values)
         found[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
-        if entry.or_unit and found[name].size:
-            first = float(found[name].flat[0])
-            scene = scene.with_entries({name: f"{first!r} {entry.or_unit}" if measured else first})
+        if entry.or_unit and found[name].size and scene.ways.volume != ("absolute" if measured else "relative"):
+            scene = _with_any(scene, name, found[name], f" {entry.or_unit}" if measured else "")
     return scene, found
+
+
+def _carry_units(name: str, values: Any) -> bool:
+    """True if the values are quantities, False if they are plain numbers; InputError for a list of both."""
+    leaves = values.tolist() if isinstance(values, np.ndarray) and values.dtype.kind in "OU" else values
+    if not isinstance(leaves, (list, tuple)):
+        return carries_unit(values)
+    kinds = {_carry_units(name, each) for each in leaves}
+    if len(kinds) > 1:
+        raise InputError(name, values, "quantities with their units, or plain numbers, not both", "is a list of both")
+    return kinds == {True}
+
+
+def _with_any(scene: Scene, name: str, values: np.ndarray, unit: str) -> Scene:
+    """The scene with the first value that it accepts, so that its entry is meant as the values are."""
+    first: InputError | None = None
+    for value in values.ravel().tolist():
+        try:
+            return scene.with_entries({name: f"{value!r}{unit}" if unit else value})
+        except InputError as error:
+            first = first or error
+    assert first is not None  # there are values
+    raise first
 
 
 def check_varies(

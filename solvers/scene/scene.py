@@ -248,6 +248,24 @@ class Scene:
         """Return the scene with numbers replaced or added as `si` has them: a volume in m^3 where it is given so."""
         return self.with_entries({name: self.as_given(name, float(value)) for name, value in changes.items()})
 
+    def si_number(self, name: str, raw: object, label: str) -> float:
+        """The number that `raw` gives for an entry, meant as the scene's own: a volume in m^3, or V/R^3.
+
+        Raises:
+            InputError: no acceptable number, or a volume where the scene gives V/R^3, or the reverse.
+        """
+        entry = self.fields[name]
+        absolute = self.ways.volume == "absolute"
+        if entry.or_unit and entry.with_unit(raw) != absolute:
+            accepted = f"{name} as the scene gives it: {'a volume with its unit' if absolute else 'a number V/R^3'}"
+            raise InputError(
+                label,
+                raw,
+                accepted,
+                "is V/R^3, where the scene gives a volume" if absolute else "is a volume, where the scene gives V/R^3",
+            )
+        return entry.measured.number(raw, label=label) if entry.or_unit and absolute else entry.number(raw, label=label)
+
     def as_given(self, name: str, value: Any) -> Any:
         """A number or array as `si` has the entry, in a form that says what it is."""
         if name != "bridge.volume" or self.ways.volume != "absolute":

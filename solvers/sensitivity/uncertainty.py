@@ -18,7 +18,7 @@ from ..many.collide_many import collide_many
 from ..many.results import QUANTITIES as MANY
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, SPEEDS, Field
+from ..scene.schema import DEFAULTS, FIELDS, SPEEDS, Field
 from .gradients_many import gradients_many
 from .parameters import RELATIVE, check_wrt, hold_of
 from .result import Sensitivities
@@ -49,7 +49,7 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
                 raise InputError(label, given, accepted, "is no percentage") from None
         else:
             try:
-                value = scene.fields[name].number(given, label=f"{label} of {name}")
+                value = scene.si_number(name, given, f"{label} of {name}")
             except InputError as error:
                 raise InputError(error.field, given, accepted, error.problem) from None
         if not 0 < value < np.inf:
@@ -64,7 +64,7 @@ def _value(scene: Scene, name: str) -> float:
     if name == RELATIVE:
         speed, angle = scene.need_impact()
         return speed / float(normal_speed(1.0, angle))
-    return float(scene.entries[name])
+    return float(scene.entries[name] if name in scene.entries else DEFAULTS[name])
 
 
 def first_order(found: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:

@@ -110,7 +110,7 @@ def _bounds(scene: Scene, name: str, given: Sequence[float | str]) -> list[float
     accepted = f"(low, high) of {name} with low below high"
     if not isinstance(given, (list, tuple, np.ndarray)) or len(given) != 2:
         raise InputError("ranges", given, accepted, "is not a pair")
-    low, high = (scene.fields[name].number(value, label=f"ranges of {name}") for value in given)
+    low, high = (scene.si_number(name, value, f"ranges of {name}") for value in given)
     if not low < high:
         raise InputError("ranges", f"({given[0]}, {given[1]})", accepted, "is not ascending")
     return [low, high]

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, gradients_many, sensitivities
+from wetdoublet.solvers import InputError, Scene, band, collide, collide_many, gradients_many, sensitivities
+from wetdoublet.solvers.sensitivity.uncertainty import deviations
 
 from ...helpers.entries import BASE, BRIDGE, refused, tables
 
@@ -206,3 +207,28 @@ def test_a_volume_varies_in_either_way():
     volume = collide_many(said, vary={"bridge.volume": ["5e-5 mm^3", "1e-13 m^3"]})
     assert volume.restitution.values == pytest.approx(ratio.restitution.values, rel=1e-9)
     assert volume["bridge.volume"].attrs["units"] == "m^3"
+
+
+def test_a_volume_is_meant_as_the_scene_gives_it():
+    """Deviations of V/R^3 are no volumes; a list of both is refused; an impossible one is marked, wherever it is."""
+    granulation = Scene.load("granulation")
+    with pytest.raises(InputError, match="is a volume, where the scene gives V/R"):
+        deviations(granulation, {"bridge.volume": "1e-5 mm^3"})
+    assert deviations(granulation, {"bridge.volume": 0.01}) == {"bridge.volume": 0.01}
+    with pytest.raises(InputError, match="is a list of both"):
+        collide_many(granulation, stokes=0.1, angle=1.0, vary={"bridge.volume": ["5e-5 mm^3", 0.1]})
+    for volumes in ([1e-9, 0.1], ["1e-12 mm^3", "1e-4 mm^3"]):
+        found = collide_many(granulation, stokes=0.1, angle=1.0, vary={"bridge.volume": volumes})
+        assert found.outcome.values.tolist() == [-1, 1]
+
+
+def test_an_entry_left_to_its_default_is_uncertain_all_the_same():
+    """The band of a contact angle that the scene leaves out is that of 0 deg written down."""
+    given = {name: value for name, value in Scene.load("granulation").given if name != "bridge.contact_angle"}
+    left_out = Scene("", tuple(given.items()))
+    bands = [
+        band(one, {"bridge.contact_angle": "5 deg"}, "impact.stokes", [0.1, 0.2], samples=8)
+        for one in (left_out, left_out.with_entries({"bridge.contact_angle": "0 deg"}))
+    ]
+    for name in bands[0].data_vars:
+        np.testing.assert_array_equal(bands[0][name], bands[1][name])
