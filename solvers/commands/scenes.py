@@ -57,6 +57,8 @@ def command(
 
 def _new(name: str) -> Path:
     """The file to begin, which must not be there."""
+    if not name.strip():
+        raise InputError("--new", name, "a name for the file NAME.toml", "is empty")
     file = options.check_file(name if name.endswith(".toml") else f"{name}.toml", "--new")
     assert file is not None
     accepted = "a name NAME for a file NAME.toml that is not there"

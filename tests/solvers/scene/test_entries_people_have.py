@@ -232,3 +232,11 @@ def test_an_entry_left_to_its_default_is_uncertain_all_the_same():
     ]
     for name in bands[0].data_vars:
         np.testing.assert_array_equal(bands[0][name], bands[1][name])
+
+
+def test_the_entries_of_a_result_make_its_scene_again():
+    """The scene of a JSON object collides to the same numbers where the volume is given in its unit."""
+    given = Scene.load("granulation").with_entries({"bridge.volume": "5e-14 m^3"})
+    one = collide(given, stokes=0.1, angle="75 deg")
+    again = Scene.load("granulation").with_entries(one.to_dict()["scene"])
+    assert collide(again).restitution == one.restitution
