@@ -95,6 +95,8 @@ def _as_toml(line: str) -> str:
     if bare is None or len(line) > _LINE:
         return "a scene in TOML"
     key, value = bare[1], bare[2].replace(",", ".")
+    if units.is_number(bare[2]):
+        return "a scene in TOML"  # what is wrong is not the number
     return f"{key} = {value}, with a point" if units.is_number(value) else f'text in quotes, {key} = "{value}"'
 
 
