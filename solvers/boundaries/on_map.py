@@ -12,6 +12,7 @@ from ..errors import ComputationError, InputError, ModelWarning
 from ..many.plot_map import Curve, panels
 from ..many.regime_map import impact_axis, scene_of
 from ..scene.scene import Scene
+from ..scene.user_model import Package
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
 
@@ -21,12 +22,20 @@ if TYPE_CHECKING:
 _LINES = 5  # seed lines of constant angle; the lattice of the atlas finds the curves between them
 
 
-def map_curves(data: xarray.Dataset) -> dict[int, list[Curve]]:
+def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int, list[Curve]]:
     """The boundaries of each panel of a map: angles (rad) of every curve, and Stokes numbers or speeds (m/s).
 
     Nothing for a panel of one angle or one Stokes number, of a scene that the kernel does not support (one by one the
     thousands of collisions would take minutes), or that cannot be.
+
+    Arguments:
+        package: the scene's own model; a map only describes it, so that without its files there are no boundaries.
     """
+    base = scene_of(data)
+    if package is not None:
+        base = Scene(base.name, base.given, base.comments, package)
+    if base.package is not None and base.package.folder is None:
+        return {}  # only described
     angles = data["angle"].values
     impact = impact_axis(data)
     values = data[impact].values
@@ -40,7 +49,7 @@ def map_curves(data: xarray.Dataset) -> dict[int, list[Curve]]:
         entries = {name: float(data[name].values[k]) for name, k in zip(varied, index, strict=True)}
         found[place] = []
         try:
-            scene = scene_of(data).with_si(entries)
+            scene = base.with_si(entries)
         except InputError:  # its cells are marked as failed
             continue
         try:

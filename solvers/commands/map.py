@@ -90,7 +90,7 @@ def command(
 
     checked_vary(scene, varied, "--vary")
     data = _computed(scene, axes, varied, tolerance, chosen, file)
-    _show(data, file, picture)
+    _show(data, scene, file, picture)
 
 
 def _axes(
@@ -189,7 +189,7 @@ def _computed(
     return data
 
 
-def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None:
+def _show(data: xarray.Dataset, scene: Scene, file: Path | None, picture: Path | None) -> None:
     from ..many.text_map import failures, table
 
     if picture is not None:
@@ -197,7 +197,7 @@ def _show(data: xarray.Dataset, file: Path | None, picture: Path | None) -> None
         from ..host.files import save
         from ..many.plot_map import draw_map
 
-        save(draw_map(data, map_curves(data)), picture, dpi=150)
+        save(draw_map(data, map_curves(data, scene.package)), picture, dpi=150)
     if file is None and picture is None:
         click.echo(table(data))
     failed = failures(data)
