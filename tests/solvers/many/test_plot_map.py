@@ -32,6 +32,19 @@ def test_a_picture_has_the_exact_boundaries(chart):
     assert heights == pytest.approx([change.stokes for change in changes], rel=2e-3)
 
 
+@pytest.mark.slow
+def test_panels_over_a_volume_in_its_unit_have_boundaries():
+    """A panel of V = 0.1 R^3 in m^3 has the curves of the same bridge given as V/R^3."""
+    scene = Scene.load("granulation")
+    volume = 0.1 * (2 * scene.reduced_radius) ** 3
+    impact = {"stokes": np.geomspace(0.01, 0.5, 8), "angle": np.radians(np.linspace(40, 70, 8))}
+    by_ratio = map_curves(regime_map(scene, vary={"bridge.volume": [0.1]}, **impact))
+    by_volume = map_curves(regime_map(scene, vary={"bridge.volume": [f"{volume!r} m^3"]}, **impact))
+    assert by_ratio[0] and len(by_ratio[0]) == len(by_volume[0])
+    for (x, y), (other_x, other_y) in zip(by_ratio[0], by_volume[0], strict=True):
+        assert [x[0], x[-1], y[0], y[-1]] == pytest.approx([other_x[0], other_x[-1], other_y[0], other_y[-1]], rel=1e-6)
+
+
 def test_stick_rotate_separate_and_the_range_are_hatched(chart):
     """Cells of stick-rotate-separate have a hatch, those outside the range another, and both are in the legend."""
     figure = draw_map(chart)
