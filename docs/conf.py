@@ -10,7 +10,7 @@ sys.path.insert(0, str(HERE / "_ext"))
 # notebooks and their shell commands find the environment that builds the site
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
 
-from gallery_pictures import WrittenPictures  # noqa: E402
+from gallery_pictures import WrittenPictures  # noqa: E402 -- found by the path that is set above
 
 project = "wetdoublet"
 author = "The wetdoublet developers"

@@ -29,7 +29,7 @@ LEDGER: dict[str, tuple[str, str]] = {
     "energy.tangential_lubrication": ("J", "taken by the shear"),
     "energy.capillary": ("J", "work against the bridge"),
     "energy.attraction": ("J", "work against van der Waals forces"),
-    "energy.dry_contact": ("J", "lost in the reversals"),
+    "energy.dry_contact": ("J", "lost in the rebounds"),
     "energy.strings": ("J", "gain of the strings' potential energy"),
     "energy.residual": ("J", "error of the integration: what the ledger leaves"),
     "angular_momentum_drift": ("1", "|L(t_f)/L(0) - 1|"),

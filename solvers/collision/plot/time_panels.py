@@ -101,7 +101,7 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
     size, name = prefix(float(np.max(np.abs(data["normal_velocity"]))))
     velocity.plot(time, np.asarray(data["normal_velocity"]) / size, color=ORANGE)
     velocity.axhline(0, color=GREY, linewidth=0.6)
-    velocity.set_ylabel(f"opening\nvelocity ({micro(name + 'm/s')})")
+    velocity.set_ylabel(f"normal\nvelocity ({micro(name + 'm/s')})")
     if rows == 4:
         rates, angle = column.panels[2:]
         pair, wall = "spin_partner" in data, collision.scene.wall
