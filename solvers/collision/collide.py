@@ -33,17 +33,18 @@ def collide(
 
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name.
-        stokes: Stokes number of the impact; or
-        speed: its normal speed, m/s or a string with its unit; or
-        relative_speed: the magnitude of the relative velocity. Each overrides whichever the scene has.
+        stokes: Stokes number of the impact. At most one of stokes, speed and relative_speed is given; it replaces the
+            speed or Stokes number of the scene.
+        speed: normal component of the relative velocity, m/s or a string with its unit.
+        relative_speed: magnitude of the relative velocity, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None
             chooses (cvodes for one collision).
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
-        until: time after initial contact, s or a string with its unit, to which a stick that is certain before is
-            followed on; the outcome stands, events and energy run up to there.
+        until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
+            its proof; its outcome stays, its events and energy run up to this time.
 
     Returns:
         The Collision.
