@@ -45,7 +45,11 @@ def check() -> None:
 
 @contextmanager
 def handled() -> Iterator[Signals]:
-    """Turn SIGTERM into KeyboardInterrupt; no effect outside the main thread or if another handler is installed."""
+    """Turn SIGTERM into KeyboardInterrupt; no effect outside the main thread or if another handler is installed.
+
+    An error that follows a signal is a KeyboardInterrupt as well: a library that is interrupted may report
+    whatever it was doing as failed.
+    """
     _SIGNALS.pending = _SIGNALS.terminated = False
     main = threading.current_thread() is threading.main_thread()
     usual = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}
@@ -54,6 +58,10 @@ def handled() -> Iterator[Signals]:
         signal.signal(number, _SIGNALS)
     try:
         yield _SIGNALS
+    except Exception as error:
+        if _SIGNALS.pending:
+            raise KeyboardInterrupt from error
+        raise
     finally:
         for number, handler in ours.items():
             signal.signal(number, handler)

@@ -50,6 +50,7 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
             said = str(error) + heard.getvalue()
             if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
                 raise KeyboardInterrupt from None
+            check()
             raise IntegrationFailed(_reason(str(error))) from None
     if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES reported as a failed step
         raise KeyboardInterrupt

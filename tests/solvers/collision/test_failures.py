@@ -53,8 +53,7 @@ def test_interrupt(delay: float) -> None:
         time.sleep(delay)
         running.send_signal(signal.SIGINT)
         _, said = running.communicate(timeout=900)
-    assert running.returncode == 130
-    assert said.strip() == "interrupted"
+    assert (said.strip(), running.returncode) == ("interrupted", 130)
 
 
 def test_threads_give_the_serial_results() -> None:
