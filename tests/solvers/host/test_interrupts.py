@@ -12,7 +12,6 @@ from wetdoublet.solvers.host.interrupts import handled
 def test_an_error_that_follows_an_interrupt_is_the_interrupt() -> None:
     """A library that reports an interrupted computation as failed does not turn Ctrl-C into a failure."""
 
-
     @handled()
     def interrupted_library() -> None:
         try:
