@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from ..scene.scene import Scene
 from ..settings import CASADI_ENGINES, ENGINES, FEW
 from .taylor.build import is_compiled, supported
-from .taylor.call import order_for
+from .taylor.orders import order_for
 from .taylor.tangent import differentiates, variant_of
 
 

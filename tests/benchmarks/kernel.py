@@ -20,6 +20,7 @@ import numpy as np
 from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.orders import order_for
 from wetdoublet.solvers.host.environment import environment
 
 from .measured.tasks import Task
@@ -56,7 +57,7 @@ def work() -> list[dict[str, Any]]:
                 {
                     "task": task.preset,
                     "rtol": rtol,
-                    "order": engine.order_for(rtol),
+                    "order": order_for(rtol),
                     "microseconds": 1e6 * cpu / undecided,
                     "steps": float(one["steps"].sum() / (undecided / REPEATS)),
                     "largest error": float(np.abs(one["shown"][:, 0] - exact.restitution.values).max()),

@@ -41,7 +41,6 @@ FLAGS = (
 )
 # For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
-LARGEST_ORDER = 16
 _ONCE = "#pragma once"
 _NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
@@ -51,7 +50,7 @@ class Variant:
     """Compile-time options of a kernel.
 
     Arguments:
-        order: of the series, 8 to LARGEST_ORDER.
+        order: of the series (`orders.py`).
         rotation: with the angle turned as a quadrature, where it is not a state.
         own_rupture: the bridge ruptures at its law's own distance.
         gradients: with derivatives by the groups, along the trajectory.

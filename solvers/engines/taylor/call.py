@@ -7,7 +7,6 @@ the caller computes them by other means.
 from __future__ import annotations
 
 import ctypes
-import math
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -20,9 +19,10 @@ from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
-from .build import LARGEST_ORDER, Variant, kernel, supported
+from .build import Variant, kernel, supported
 from .endless import decide
 from .layout import ANSWER, Task, names
+from .orders import order_for
 
 _CHUNK = 4096  # collisions in a block for a thread
 
@@ -43,11 +43,6 @@ class Impacts:
 
 
 RunKernel = Callable[[Impacts, np.ndarray], None]
-
-
-def order_for(rtol: float) -> int:
-    """Order of the series with the least cost for a tolerance (docs/engineering/kernel.md)."""
-    return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
 
 
 def variant(
