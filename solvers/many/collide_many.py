@@ -80,7 +80,8 @@ def collide_many(
         angle: impact angles in rad; default the scene's.
         vary: other entries by dotted name: SI numbers, or the names of laws and other choices.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
+            compiler), "rosenbrock" or "cvodes".
         of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
             model leaves its range, with the results that these need).

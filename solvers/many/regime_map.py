@@ -6,7 +6,7 @@ import io
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
-from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
@@ -27,7 +26,7 @@ from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary
+from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, engine_for
 from .collide_many import Block, Slow, as_text, compute, empty, fill, validity
 from .journal import Journal
 from .results import QUANTITIES, VALIDITY, attributes, outcome_attributes
@@ -70,8 +69,8 @@ class Grid:
             return values / stokes_per_speed
         return values if self.impact == "speed" else np.asarray(normal_speed(values, angle))
 
-    def request(self, rtol: float, engine: str, of: Sequence[str]) -> Batch:
-        """All collisions of the grid as one batch."""
+    def request(self, rtol: float, asked: str | None, of: Sequence[str]) -> Batch:
+        """All collisions of the grid as one batch, its engine not chosen yet."""
         full = np.meshgrid(self.angle, self.values, *self.vary.values(), indexing="ij")
         angle, values, *varied = (axis.ravel() for axis in full)
         return Batch(
@@ -81,8 +80,9 @@ class Grid:
             angle=angle,
             vary=dict(zip(self.vary, varied, strict=True)),
             rtol=rtol,
-            engine=engine,
+            engine=asked or "rosenbrock",
             of=tuple(of),
+            asked=asked,
         )
 
 
@@ -110,7 +110,8 @@ def regime_map(
         angle: impact angles in rad, an axis or a single number; default the scene's.
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
+            compiler), "rosenbrock" or "cvodes".
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
             smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
@@ -136,9 +137,10 @@ def regime_map(
     told = (check_function(progress, "progress"), check_function(slow, "slow"))
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     grid = _grid(Scene.load(scene), impact, {} if vary is None else vary)
-    by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
-    request = grid.request(check_rtol(rtol), by, check_outputs(of))
+    asked = check_engine(engine)
+    request = grid.request(check_rtol(rtol), asked, check_outputs(of))
     check_some_scene(request)
+    request = replace(request, engine=engine_for(request, request.size))
     warn(grid.scene)
     kept = _journal(journal)
     if kept is None:

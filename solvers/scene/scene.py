@@ -14,7 +14,7 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
-from .quantities import SHADOW, Ways, coating_fraction, normal_speed, shared
+from .quantities import SHADOW, Ways, coating_fraction, normal_speed, quantities, shared
 from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
@@ -297,9 +297,36 @@ class Scene:
         kept = {name: value for name, value in self.given if name not in replaced}
         entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
-        return type(self)(self.name, tuple(entries), comments, self.package)
+        return self._at_impact(tuple(entries), comments, changes)
+
+    def _at_impact(
+        self, given: tuple[tuple[str, Raw], ...], comments: tuple[tuple[str, str], ...], changes: Mapping[str, Any]
+    ) -> Self:
+        """Return the scene of these entries, of which only those of the impact differ; what has not changed is kept.
+
+        Equal to the scene that `__post_init__` makes of the same entries, with the rules that concern an impact.
+        """
+        known, si = fields(self.package), dict(self.si)
+        read = {name: known[name].read(raw) for name, raw in changes.items()}
+        values = tuple((name, read[name] if name in read else si[name]) for name, _ in given)
+        present = {name for name, _ in given}
+        made = object.__new__(type(self))
+        made.__dict__.update({name: value for name, value in self.__dict__.items() if name != "_written"})
+        made.__dict__.update(
+            given=tuple((name, self._kept(known[name], raw) if name in read else raw) for name, raw in given),
+            comments=tuple((name, text) for name, text in comments if name in present),
+            si=values,
+            impact=rules.table(Impact, dict(values), self.ways),
+        )
+        rules.check_speed(made)
+        return made
 
     # ---- quantities of the pair
+
+    @cached_property
+    def material(self) -> Mapping[str, float]:
+        """The quantities by vocabulary name, SI, without those of the impact. Read only."""
+        return quantities({name: value for name, value in self.si if not name.startswith("impact.")}, self.ways)
 
     @property
     def wall(self) -> bool:
@@ -332,7 +359,7 @@ class Scene:
 
     # ---- lengths, and the impact as Stokes number and as speed
 
-    @property
+    @cached_property
     def rupture_gap(self) -> float:
         """x_f in m: rupture gap of the bridge, or without one the film thickness."""
         if self.bridge is None:
@@ -345,7 +372,7 @@ class Scene:
             return None
         return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
 
-    @property
+    @cached_property
     def stokes_per_speed(self) -> float:
         """m/(6 pi mu a^2) in s/m: ratio of the Stokes number to the normal speed."""
         return scaled("stokes", self, speed=1.0)

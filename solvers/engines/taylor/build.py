@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
+import os
 import platform
 import threading
 from collections.abc import Collection
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...host.compiler import CannotCompile, compiler, key, more_flags, stop
+from ...host.background import TimeUp, begin
+from ...host.compiler import CannotCompile, compiler, is_named, key, more_flags, stop
 from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
 from ...host.remarks import say_once
 from ...host.thread_caches import once
-from ...host.user_cache import has, kept, loaded
+from ...host.user_cache import folder, has, kept, loaded
 from ...model.model import ModelKey, select_model
 from .headers import automaton, headers, tangents
 from .includes import resolved
@@ -181,6 +186,57 @@ def is_compiled(variant: Variant) -> bool:
 def _expected(variant: Variant, flags: tuple[str, ...]) -> str | None:
     emitted = _emitted(variant)
     return None if compiler() is None or emitted is None else _entry(variant, source(variant, emitted), flags)
+
+
+@once
+def _was_compiled(variant: Variant, _cache: Path) -> bool:
+    """`is_compiled` of either way of compiling it, as it was when this process first asked."""
+    return any(is_compiled(replace(variant, few=few)) for few in (False, True))
+
+
+def at_hand(variants: Collection[Variant]) -> bool:
+    """True if the kernels were compiled when this process first asked; else a background process compiles them.
+
+    The answer stays for as long as this process, so that a repeated request repeats its digits.
+    """
+    missing = tuple(variant for variant in variants if not _was_compiled(variant, folder()))
+    if missing:
+        _compile_beside(missing, folder())
+    return not missing
+
+
+@once
+def _compile_beside(variants: tuple[Variant, ...], _cache: Path) -> None:
+    wanted = tuple(variant for variant in variants if not has(_refused(variant)))
+    if wanted and is_named():
+        begin(compile_or_refuse, wanted)
+
+
+def compile_or_refuse(variants: Collection[Variant]) -> None:
+    """Compile kernels into the cache; stop at one that cannot be compiled, and note it there for later processes."""
+    if compiler() is None:
+        return
+    for variant in variants:
+        made = False
+        with suppress(TimeUp):
+            made = kernel(variant) is not None
+        if not made:
+            kept(f"{_refused(variant)}txt", lambda: b"this kernel cannot be compiled\n")
+            return
+
+
+def _refused(variant: Variant) -> str:
+    """Stem, with its dot, of the entry which says that a variant cannot be compiled, by this version and compiler."""
+    package, named = variant.choice.package, os.environ.get("CC", "")
+    own = replace(variant, choice=replace(variant.choice, package=None)), package and package.digest
+    content = repr((own, _flags(variant), named, version("wetdoublet")))
+    return f"refused-{hashlib.sha256(content.encode(errors='surrogateescape')).hexdigest()[:32]}."
+
+
+@once
+def for_few(variant: Variant) -> Variant:
+    """The variant to integrate few collisions with: itself if it is compiled, else one that compiles faster."""
+    return variant if is_compiled(variant) else replace(variant, few=True)
 
 
 @once
