@@ -68,7 +68,7 @@ def collide(
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
-    plugin = single_engine(asked, loaded, dimensionless.oblique, rtol, ledger, trajectory, last is not None)
+    plugin = single_engine(asked, loaded, dimensionless.oblique, rtol, ledger, trajectory)
     if plugin == "taylor":
         found = collision(loaded, dimensionless, rtol, ledger, trajectory)
         if found is not None and (last is None or found.outcome != STICK):

@@ -13,16 +13,10 @@ from .taylor.record import variant_to_record
 from .taylor.tangent import differentiates, variant_of
 
 
-def single_engine(
-    asked: str | None, scene: Scene, oblique: bool, rtol: float, ledger: bool, trajectory: bool, followed: bool = False
-) -> str:
-    """The engine for one collision: the requested one, else the Taylor kernel if it is compiled, else CVODES.
-
-    Arguments:
-        followed: a stick is followed on, which the kernel does not do.
-    """
-    if asked is not None or followed:
-        return asked or "cvodes"
+def single_engine(asked: str | None, scene: Scene, oblique: bool, rtol: float, ledger: bool, trajectory: bool) -> str:
+    """The engine for one collision: the requested one, else the Taylor kernel if it is compiled, else CVODES."""
+    if asked is not None:
+        return asked
     return "taylor" if at_hand((variant_to_record(scene, oblique, rtol, ledger, trajectory),)) else "cvodes"
 
 
