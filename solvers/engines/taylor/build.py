@@ -7,7 +7,8 @@ import hashlib
 import os
 import platform
 import threading
-from collections.abc import Collection
+import time
+from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -22,7 +23,7 @@ from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
 from ...host.remarks import say_once
 from ...host.thread_caches import once
-from ...host.user_cache import folder, has, kept, loaded
+from ...host.user_cache import folder, found, has, kept, loaded
 from ...model.model import ModelKey, select_model
 from .headers import automaton, headers, tangents
 from .includes import resolved
@@ -242,32 +243,53 @@ def for_few(variant: Variant) -> Variant:
 @once
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for an unsupported model, without a compiler, or if compilation fails."""
-    found, emitted = compiler(), _emitted(variant)
-    if found is None or emitted is None:
+    tool, emitted = compiler(), _emitted(variant)
+    if tool is None or emitted is None:
         return None
     text, flags = source(variant, emitted), _flags(variant)
     try:
         library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
     except (CannotCompile, OSError) as error:
-        say_once(f"{found} cannot compile the Taylor kernel ({error}): other engines answer")
+        say_once(f"{tool} cannot compile the Taylor kernel ({error}): other engines answer")
         return None
     library.collide.restype = ctypes.c_char_p
     library.collide.argtypes = [ctypes.c_void_p]
     return library
 
 
-def compile_all(variants: Collection[Variant]) -> None:
-    """Compile the kernels of several variants in parallel, where they are not cached."""
-    if len(variants) > 1:
-        threads: list[int] = []
+def compile_all(
+    variants: Collection[Variant], progress: Callable[[int, int], None] | None = None
+) -> dict[Variant, float | None]:
+    """Compile the kernels of several variants in parallel, where they are not cached.
 
-        def compiled_here(variant: Variant) -> None:
-            threads.append(threading.get_ident())
-            kernel(variant)
+    Arguments:
+        progress: called with the numbers of finished and of all kernels.
 
-        with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes
-            try:
-                list(pool.map(compiled_here, variants))
-            except BaseException:
-                stop(threads)
-                raise
+    Returns:
+        The seconds that each took; None for one that cannot be compiled.
+    """
+    threads: list[int] = []
+
+    def compiled_here(variant: Variant) -> float | None:
+        threads.append(threading.get_ident())
+        start = time.perf_counter()
+        made = kernel(variant) is not None
+        return time.perf_counter() - start if made else None
+
+    took: dict[Variant, float | None] = {}
+    with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes
+        try:
+            for variant, seconds in zip(variants, pool.map(compiled_here, variants), strict=True):
+                took[variant] = seconds
+                if progress is not None:
+                    progress(len(took), len(variants))
+        except BaseException:
+            stop(threads)
+            raise
+    return took
+
+
+def size_of(variant: Variant) -> int:
+    """Size in bytes of the compiled library of a variant; 0 if it is not in the cache."""
+    entry = _expected(variant, _flags(variant))
+    return len(found(entry) or b"") if entry is not None else 0
