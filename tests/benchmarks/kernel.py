@@ -20,6 +20,7 @@ import numpy as np
 from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.machine import lanes
 from wetdoublet.solvers.engines.taylor.orders import order_for
 from wetdoublet.solvers.host.environment import environment
 
@@ -80,7 +81,7 @@ def table(rows: list[dict[str, Any]]) -> str:
 def main() -> None:
     """Measure everything."""
     assert Scene.load("granulation")
-    record = {"environment": environment(), "lanes": library.lanes(), "flags": library.FLAGS}
+    record = {"environment": environment(), "lanes": lanes(), "flags": library.FLAGS}
     record["work"] = work()
     text = f"""{BEGIN}
 {record["lanes"]} lanes. CPU time a collision that is not decided at initial contact:

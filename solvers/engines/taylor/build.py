@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -28,6 +28,7 @@ from ...model.model import ModelKey, select_model
 from .headers import automaton, headers, tangents
 from .includes import resolved
 from .layout import MOST_STEPS, RESULTS, declarations
+from .machine import described, lanes, native
 
 if TYPE_CHECKING:
     from ...scene.scene import Scene
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 FLAGS = (
     "-O2",
     "-funroll-loops",
-    "-march=native",
+    native(platform.machine()),
     "-fno-math-errno",
     "-ffp-contract=fast",
     "-fPIC",
@@ -48,7 +49,6 @@ FLAGS = (
 # For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _ONCE = "#pragma once"
-_NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,7 @@ class Variant:
         few: for few collisions: compiled faster.
         ledger: with the energy ledger; the structure must keep the spin.
         trajectory: every step is recorded.
+        lanes: collisions side by side, 1, 2, 4 or 8; as many as the processor has room for.
     """
 
     choice: ModelKey
@@ -75,33 +76,13 @@ class Variant:
     few: bool = False
     ledger: bool = False
     trajectory: bool = False
+    lanes: int = field(default_factory=lanes)
 
     def __post_init__(self) -> None:
         """Reset options without effect, so that equal kernels are compiled once."""
         structure = self.choice.structure
         if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
             object.__setattr__(self, "rotation", False)
-
-
-@cache
-def lanes() -> int:
-    """Number of doubles in a vector register of this machine."""
-    flags = _processor()
-    return next((count for count, flag in _NEEDED.items() if flag in flags), 1)
-
-
-@cache
-def _processor() -> frozenset[str]:
-    """Processor features, as the operating system reports them; on other systems the baseline is assumed."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-    except OSError:
-        lines = []
-    for line in lines:
-        name, _, value = line.partition(":")
-        if name.strip() in ("flags", "Features"):
-            return frozenset(value.split())
-    return frozenset({"sse2"})
 
 
 def supported(scene: Scene) -> bool:
@@ -111,19 +92,18 @@ def supported(scene: Scene) -> bool:
 
 def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     """C source of a kernel, from its emitted headers."""
-    return resolved('#include "entry.h"\n', files(variant, emitted, lanes()))
+    return resolved('#include "entry.h"\n', files(variant, emitted))
 
 
-def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, str]:
+def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     """Files of a variant that the runtime includes besides its own, by name.
 
     Arguments:
         emitted: its emitted headers.
-        lanes: doubles side by side.
     """
     slots = dict(variant.choice.laws)
     settings = {
-        "LANES": lanes,
+        "LANES": variant.lanes,
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
@@ -171,8 +151,7 @@ def _stem(variant: Variant) -> str:
 
 def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
     """File name of the library compiled from a source."""
-    machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
-    return f"{_stem(variant)}-{key(text, flags, machine)}.so"
+    return f"{_stem(variant)}-{key(text, flags, described())}.so"
 
 
 def is_compiled(variant: Variant) -> bool:
