@@ -38,7 +38,7 @@ LAWS = [
 
 # fewer impacts than a user gets, of every kind
 SMALL = sample.Extent(
-    tolerances=tuple(10.0**-k for k in (5, 6, 7, 9)), audited=30, grid_angles=(30, 60, 75), grid_points=8
+    tolerances=tuple(10.0**-k for k in (5, 6, 7, 8, 9, 10)), audited=30, grid_angles=(30, 60, 75), grid_points=8
 )
 
 

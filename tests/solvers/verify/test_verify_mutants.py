@@ -86,7 +86,8 @@ def open_ledger(one: Collision) -> Collision:
 )
 def test_one_bad_collision_is_found_and_named(laws, change, engine) -> None:
     """An open ledger, one that is no number, a drift, an engine off by 1e-6, another outcome: the laws that it breaks,
-    at that place."""
+    at that place.
+    """
     collisions = sample.collisions(SCENE, extent=FEW, collide=doctored(change, engine))
     found = by_name(conserved.conserved("g", collisions))
     assert failures(found.values()) == laws
