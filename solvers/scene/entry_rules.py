@@ -56,19 +56,21 @@ def grouped(entries: Mapping[str, Any]) -> dict[str, Any]:
     return {name: entries[name] for table in tables for name in entries if name.partition(".")[0] == table}
 
 
-def check_entries(entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False) -> None:
-    """Raise InputError for an entry that is unknown, wrong by itself, or an alternative to another given one."""
+def check_entries(
+    entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False
+) -> dict[str, float | str]:
+    """Return the entries in SI; InputError for one that is unknown, wrong by itself, or an alternative to another."""
     known = custom.fields(package)
     for name, raw in entries.items():
         if name not in known:
             raise custom.unknown(name, raw, package) or unknown_entry(name, raw)
-    for name, raw in entries.items():
-        known[name].read(raw, from_file=from_file)
+    read = {name: known[name].read(raw, from_file=from_file) for name, raw in entries.items()}
     for ways in ALTERNATIVES:
         first, *others = [name for name in ways if name in entries] or [""]
         if others:
             problem = f"is given together with {first} = {shown(entries[first])}"
             raise InputError(others[0], entries[others[0]], "only one of " + ", ".join(ways), problem)
+    return read
 
 
 def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None:

@@ -292,31 +292,33 @@ class Scene:
         changes = {name: value for name, value in impact.items() if value is not None}
         if not changes:
             return self
-        rules.check_entries(changes, self.package)
-        replaced = {*SPEEDS} if {*changes} - {"impact.angle"} else set()
-        kept = {name: value for name, value in self.given if name not in replaced}
-        entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
-        comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
-        return self._at_impact(tuple(entries), comments, changes)
+        read, known = rules.check_entries(changes, self.package), fields(self.package)
+        replaced = {*SPEEDS} - {*changes} if {*changes} - {"impact.angle"} else set()
+        entries = {name: value for name, value in self.given if name not in replaced}
+        again = changes.keys() <= entries.keys()  # then the order is the same
+        entries |= {name: self._kept(known[name], raw) for name, raw in changes.items()}
+        return self._at_impact(
+            tuple(entries.items() if again else _in_order({**dict(self.given), **changes}, entries)), read
+        )
 
-    def _at_impact(
-        self, given: tuple[tuple[str, Raw], ...], comments: tuple[tuple[str, str], ...], changes: Mapping[str, Any]
-    ) -> Self:
+    def _at_impact(self, given: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str]) -> Self:
         """Return the scene of these entries, of which only those of the impact differ; what has not changed is kept.
 
         Equal to the scene that `__post_init__` makes of the same entries, with the rules that concern an impact.
+
+        Arguments:
+            read: those that differ, SI.
         """
-        known, si = fields(self.package), dict(self.si)
-        read = {name: known[name].read(raw) for name, raw in changes.items()}
-        values = tuple((name, read[name] if name in read else si[name]) for name, _ in given)
-        present = {name for name, _ in given}
+        values = {**dict(self.si), **read}
+        unchanged = {name for name, _ in given} - read.keys()
+        si = tuple((name, values[name]) for name, _ in given)
         made = object.__new__(type(self))
         made.__dict__.update({name: value for name, value in self.__dict__.items() if name != "_written"})
         made.__dict__.update(
-            given=tuple((name, self._kept(known[name], raw) if name in read else raw) for name, raw in given),
-            comments=tuple((name, text) for name, text in comments if name in present),
-            si=values,
-            impact=rules.table(Impact, dict(values), self.ways),
+            given=given,
+            comments=tuple((name, text) for name, text in self.comments if name in unchanged),
+            si=si,
+            impact=Impact.of({name.partition(".")[2]: value for name, value in si if name.startswith("impact.")}),
         )
         rules.check_speed(made)
         return made
