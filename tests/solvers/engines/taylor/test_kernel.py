@@ -201,8 +201,9 @@ def _one(preset: str, stokes: float, angle: float) -> engine.Impacts:
     return engine.Impacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
 
 
-def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]):
+def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """More than a hundred go to the kernel, fewer do not wait for a compiler; without one Rosenbrock answers."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     few = collide_many("granulation", stokes=[0.02] * 3, angle=1.3)
     lots = collide_many("granulation", stokes=[0.02] * 101, angle=1.3)
     assert (few.attrs["engine"], lots.attrs["engine"]) == ("rosenbrock", "taylor")
