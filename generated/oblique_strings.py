@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88
+# Equations sha256 ec77cb83c8db0fce779449e9cd6ffa200dc8319c375c7dd05cbe29aaeaac05dd
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -60,9 +60,10 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "pendulum_margins",
+    "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88"
+DIGEST = "ec77cb83c8db0fce779449e9cd6ffa200dc8319c375c7dd05cbe29aaeaac05dd"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -376,4 +377,32 @@ def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]
         "pull": weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2),
         "film": stokes*fmax(0, normal_velocity) - laws.film.stopping(gap),
         "recoil": dry_restitution*fastest*stokes - laws.film.stopping(reach),
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 37
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    largest_pull = weight*(aspect + 8)*laws.strings.stiffness(string_ratio, aspect**2/4 + 4*aspect + 16)
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = largest_pull
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
     }

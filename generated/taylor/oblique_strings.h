@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88 */
+ * Equations sha256 ec77cb83c8db0fce779449e9cd6ffa200dc8319c375c7dd05cbe29aaeaac05dd */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -86,6 +86,7 @@ typedef struct {
     vec contact;
     vec nearest;
     vec farthest;
+    vec part_ratio;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -149,6 +150,8 @@ static inline void prepare(constants *c)
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect + 4.0;
+    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
+        c->rough_gap)));
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -411,6 +414,28 @@ static inline void pendulum_stops(const constants *c, const vec *y, vec *film, v
 }
 #else
 #define PENDULUM 0
+#endif
+
+#if defined(FILM_BRAKING) && defined(GLASS_REACH)
+#define APPROACH_BOUNDS MIDGAP_ARM
+/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+ * velocity): the part's end, the largest speed there and within it. */
+static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
+{
+    vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect) + 4.0*c->aspect + 16.0);
+    vec deeper = y[GAP]*c->part_ratio;
+    vec largest_force = largest_pull;
+    vec path = y[GAP] - deeper;
+    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
+    vec gain = largest_force*path/vec_larger(left,
+        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
+    *deeper_gap = deeper;
+    *slowed = gain + vec_larger(splat(0.0), left);
+    *fastest = gain - y[NORMAL_VELOCITY];
+}
+#else
+#define APPROACH_BOUNDS 0
 #endif
 
 #if WITH_LEDGER

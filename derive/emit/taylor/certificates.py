@@ -66,6 +66,19 @@ def attraction_functions(model: Model, constants: Constants, prepared: dict[tupl
     ]
 
 
+def approach_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The functions of the approach certificate, for laws with what it uses; arguments as above."""
+    falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    lines = [f"#if {' && '.join(['defined(FILM_BRAKING)', 'defined(GLASS_REACH)', *falling])}"]
+    lines.append(f"#define APPROACH_BOUNDS {'MIDGAP_ARM' if 'arm' in model.slots else '1'}")
+    for each in (each for each in model.functions if each.name in ("approach_step", "approach_force")):
+        outputs = dict(each.outputs)
+        kept, _ = needed(list(outputs.values()), model.definitions)
+        lines += _function(each.name, each.doc, kept, outputs, moving, constants, prepared)
+    return [*lines, "#else", "#define APPROACH_BOUNDS 0", "#endif", ""]
+
+
 def _function(
     name: str,
     doc: str,

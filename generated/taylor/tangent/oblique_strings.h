@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88 */
+ * Equations sha256 ec77cb83c8db0fce779449e9cd6ffa200dc8319c375c7dd05cbe29aaeaac05dd */
 
 /* Oblique doublet with pendulum strings.
  *
