@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import nan
+from typing import Any
 
 from casadi import SX, densify, fmax, fmin, if_else, logic_and, vertcat
 
@@ -169,17 +172,26 @@ def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
     return if_else(motion == directions[0], value, 1) if directions else value
 
 
+def pendulum_impulse(found: Mapping[str, Any], margin: SX | float) -> SX:
+    """Bound of the outward impulse, from the pendulum certificate's margins; zero where all forces point inward.
+
+    NaN if a force is NaN, which fmax within the bound may have hidden.
+    """
+    outward, pull = found["outward"], found["pull"]
+    inward = outward - pull + margin * (outward + pull) < 0
+    return if_else(outward + pull >= 0, if_else(inward, 0, found["impulse"]), nan)
+
+
 def pendulum_margin(model: Model, margin: SX | float) -> SX:
-    """The largest of the pendulum certificate's three inequalities; negative where it holds by the relative `margin`.
+    """The larger of the pendulum certificate's two inequalities; negative where it holds by the relative `margin`.
 
     Not negative if one of them is NaN, which fmax would ignore.
     """
-    found = model("pendulum_margins")
-    outward, pull = found["outward"], found["pull"]
-    slack = margin * fmax(model.groups["stokes"], 1)
-    parts = (outward - pull + margin * (outward + pull), found["film"] + slack, found["recoil"] + slack)
-    worst = fmax(fmax(parts[0], parts[1]), parts[2])
-    return if_else(logic_and(logic_and(parts[0] < 0, parts[1] < 0), parts[2] < 0), worst, fmax(worst, 0))
+    found, stokes = model("pendulum_margins"), model.groups["stokes"]
+    slack = stokes * pendulum_impulse(found, margin) + margin * fmax(stokes, 1)
+    film, recoil = found["film"] + slack, found["recoil"] + slack
+    worst = fmax(film, recoil)
+    return if_else(logic_and(film < 0, recoil < 0), worst, fmax(worst, 0))
 
 
 def mechanical_energy(flow: Flow) -> SX:

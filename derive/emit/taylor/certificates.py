@@ -13,15 +13,20 @@ from .c_text import Constants, Text
 from .law_header import moves
 from .layout import comment, function
 
-# two functions for strings, the cheap and usually decisive margin first
+# the cheap and usually decisive margins in functions of their own
 PARTS = {
     "pendulum_inward": (
         ("outward", "pull"),
         "The strings outweigh the rotation from now on if outward < pull (equations/certificates/pendulum.py).",
     ),
+    "pendulum_impulse": (("impulse",), "Bound of the outward impulse of all forces but the film's from now on."),
     "pendulum_stops": (
         ("film", "recoil"),
-        "The film then stops the opening and every rebound if film < 0 and recoil < 0.",
+        "The film then stops the opening and every rebound if film < 0 and recoil < 0, the impulse added.",
+    ),
+    "pendulum_rebounds": (
+        ("rebound", "beneath"),
+        "It stops a rebound from this gap and speed, or one from any smaller gap, if these are negative.",
     ),
 }
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 ec77cb83c8db0fce779449e9cd6ffa200dc8319c375c7dd05cbe29aaeaac05dd */
+ * Equations sha256 8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355 */
 
 /* Oblique doublet with pendulum strings.
  *

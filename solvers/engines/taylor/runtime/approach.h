@@ -28,7 +28,27 @@ static inline mask clear_of_glass(const constants *c, const vec *bounds, vec fas
     return glass_clearance(c, there) > 0.0;
 }
 
-#if !STRINGS
+#if STRINGS
+/* Lanes in which the film stops the doublet, and every rebound that a criterion may cause, for good. */
+static mask held_on_approach(const constants *c, const vec *y, vec contact, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec film, recoil, rebound, beneath, bounds[STATES], there[STATES];
+    vec slack = pendulum_slack(c, y, margin);
+    pendulum_stops(c, y, &film, &recoil);
+    mask sure = (contact < y[GAP]) & (film + slack < 0.0);
+    memcpy(bounds, y, sizeof bounds);
+    memcpy(there, y, sizeof there);
+    for (int part = 0; part < APPROACH_PARTS && bits(sure); part++) {
+        there[GAP] = bounds[GAP];
+        there[NORMAL_VELOCITY] = -next_part(c, bounds);
+        pendulum_rebounds(c, there, &rebound, &beneath);
+        sure &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | (rebound + slack < 0.0);
+    }
+    pendulum_rebounds(c, bounds, &rebound, &beneath);
+    return sure & (beneath + slack < 0.0);
+}
+#else
 /* Lanes in which the energy falls below the barrier beyond the film before a criterion can be met. */
 static mask held_on_approach(const constants *c, const vec *y, const barrier *b, vec contact, double tolerance)
 {
