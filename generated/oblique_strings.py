@@ -344,8 +344,8 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude separation, St
-    impulse added to both unless outward < pull; rebound and beneath are of a gap and speed.
+    """Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude separation,
+    with St impulse added unless outward < pull; rebound, beneath: of a gap and speed.
 
     Total operations: 355
     """

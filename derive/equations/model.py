@@ -250,8 +250,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "pendulum_margins",
-                "Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude separation, "
-                "St impulse added to both unless outward < pull; rebound and beneath are of a gap and speed.",
+                "Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude "
+                "separation, with St impulse added unless outward < pull; rebound, beneath: of a gap and speed.",
                 tuple(pendulum_margins().items()),
             )
         )

@@ -15,7 +15,7 @@ from ..scene.contact import contact_gap
 
 @dataclass(frozen=True)
 class Part:
-    """Bounds in a part of the film: its two gaps, the largest closing speed at its end and within it; over x0 and v0."""
+    """A part of the film: its two gaps over x0, the largest closing speed over v0 at its end and within it."""
 
     start: float
     gap: float

@@ -56,4 +56,6 @@ class PendulumCertificate:
 @own_cache(64)
 def _pendulum(model: Model) -> Function:
     margin = SX.sym("margin")
-    return Function("pendulum_margins", [model.column, model.parameters, margin], [pendulum_margin(model, margin)])
+    return Function(
+        "pendulum_margins", [model.column, model.parameters, margin], [pendulum_margin(model, margin, True)]
+    )

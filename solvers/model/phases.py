@@ -182,16 +182,27 @@ def pendulum_impulse(found: Mapping[str, Any], margin: SX | float) -> SX:
     return if_else(outward + pull >= 0, if_else(inward, 0, found["impulse"]), nan)
 
 
-def pendulum_margin(model: Model, margin: SX | float) -> SX:
-    """The larger of the pendulum certificate's two inequalities; negative where it holds by the relative `margin`.
+def pendulum_margin(model: Model, margin: SX | float, turning: bool = False) -> SX:
+    """The largest of the pendulum certificate's inequalities; negative where it holds by the relative `margin`.
 
     Not negative if one of them is NaN, which fmax would ignore.
+
+    Arguments:
+        turning: allow for the impulse of the rotation, instead of requiring that all forces point inward. It is not
+            differentiable, so an event that is watched does not.
     """
     found, stokes = model("pendulum_margins"), model.groups["stokes"]
-    slack = stokes * pendulum_impulse(found, margin) + margin * fmax(stokes, 1)
-    film, recoil = found["film"] + slack, found["recoil"] + slack
-    worst = fmax(film, recoil)
-    return if_else(logic_and(film < 0, recoil < 0), worst, fmax(worst, 0))
+    outward, pull = found["outward"], found["pull"]
+    slack = margin * fmax(stokes, 1)
+    parts = [found["film"] + slack, found["recoil"] + slack]
+    if turning:
+        parts = [part + stokes * pendulum_impulse(found, margin) for part in parts]
+    else:
+        parts.append(outward - pull + margin * (outward + pull))
+    worst, holds = parts[0], parts[0] < 0
+    for part in parts[1:]:
+        worst, holds = fmax(worst, part), logic_and(holds, part < 0)
+    return if_else(holds, worst, fmax(worst, 0))
 
 
 def mechanical_energy(flow: Flow) -> SX:
