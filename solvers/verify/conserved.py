@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ..collision.collide import collide
 from ..collision.result import Collision
@@ -51,10 +51,15 @@ def _agreement(group: str, sample: Sample) -> Iterator[Finding]:
         if engine != REFERENCE
     ]
     for engine in dict.fromkeys(one.engine for one, _ in pairs):
-        judged = [(_apart(one, other), _allowed(one, other), one) for one, other in pairs if one.engine == engine]
-        figure, bound, one = max(judged, key=lambda found: found[0] / found[1])
-        statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
-        yield bounded(group, f"{engine} = {REFERENCE}", statement, figure, bound, where(one))
+        yield agreement(group, f"{engine} = {REFERENCE}", [pair for pair in pairs if pair[0].engine == engine])
+
+
+def agreement(group: str, name: str, pairs: Sequence[tuple[Collision, Collision]]) -> Finding:
+    """Finding on collisions by one engine, each beside the same by another: the worst in outcome and e_n."""
+    judged = [(_apart(one, other), _allowed(one, other), one) for one, other in pairs]
+    figure, bound, one = max(judged, key=lambda found: found[0] / found[1])
+    statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
+    return bounded(group, name, statement, figure, bound, where(one))
 
 
 def _residual(one: Collision) -> float:

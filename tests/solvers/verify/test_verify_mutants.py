@@ -167,8 +167,8 @@ class Overeager:
 class Deceived(locate.EventLocator):
     """A trajectory that believes it."""
 
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
+    def __init__(self, *given: Any, **options: Any) -> None:
+        super().__init__(*given, **options)
         self.proof = Overeager()
         self.watch = replace(self.watch, certificate=None)
 
