@@ -64,7 +64,16 @@ def kinetic_energy() -> sp.Expr:
         sp.Rational(1, 2) * 2 * m * velocity.dot(velocity)
         + sp.Rational(1, 2) * sphere_inertia() * q.spin_angle.diff(time) ** 2
     )
-    return sp.simplify(2 * per_sphere)
+    return sp.factor(without_sines(2 * per_sphere, q.beta))
+
+
+def without_sines(expression: sp.Expr, angle: sp.Expr) -> sp.Expr:
+    """A polynomial in sine and cosine of an angle, expanded, with its squared sines as 1 - cos^2.
+
+    Lengths and products with unit vectors then no longer name the angle.
+    """
+    squared = sp.sin(angle) ** 2, 1 - sp.cos(angle) ** 2
+    return sp.expand(sp.expand(expression).subs(*squared))
 
 
 @cache
@@ -82,7 +91,7 @@ def generalised_forces() -> dict[str, sp.Expr]:
     position = (4 * a + q.x) / 2 * n
     work = {}
     for name, coordinate in (("x", q.x), ("beta", q.beta)):
-        work[name] = sp.simplify(2 * force.dot(position.diff(coordinate)))
+        work[name] = sp.factor(without_sines(2 * force.dot(position.diff(coordinate)), q.beta))
     work["spin_angle"] = 2 * F_t * arm
     return work
 
