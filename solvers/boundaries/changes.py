@@ -66,6 +66,11 @@ class _Bracket:
     def width(self) -> float:
         return math.log(self.high / self.low)
 
+    def divided(self, count: int) -> np.ndarray:
+        """Stokes numbers that divide it into `count` parts, even in the logarithm, without its ends."""
+        inside: np.ndarray = self.low * (self.high / self.low) ** (np.arange(1, count) / count)
+        return inside
+
 
 def changes_along(
     lines: Sequence[Line], look: Look, samples: Sequence[np.ndarray]
@@ -275,7 +280,7 @@ def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> li
             break
         parts = 1 + math.ceil(_AT_ONCE / len(open_))
         counts = [_PARTS if k in slow else min(parts, _PARTS) for k, _ in open_]
-        grids = [np.geomspace(one.low, one.high, count + 1)[1:-1] for (_, one), count in zip(open_, counts)]
+        grids = [one.divided(count) for (_, one), count in zip(open_, counts)]
         sizes = [grid.size for grid in grids]
         angle = np.repeat([one.line.angle for _, one in open_], sizes)
         seen = np.split(look.outcomes(angle, np.concatenate(grids), kernel_only), np.cumsum(sizes)[:-1])
