@@ -85,7 +85,7 @@ class Model:
     def expanded(self, expression: sp.Expr) -> sp.Expr:
         """`expression` with every named intermediate substituted."""
         for symbol, value in reversed(self.definitions):
-            expression = expression.subs(symbol, value)
+            expression = expression.xreplace({symbol: value})
         return expression
 
 

@@ -83,8 +83,7 @@ def _scaled_rim() -> sp.Expr:
 def _resistance(force: sp.Expr) -> sp.Expr:
     """A force over 6 pi mu a^2 u/x0, with all lengths (also the rim) in x0."""
     viscous_scale = 6 * sp.pi * mu * a**2 * u / x0
-    scaled = sp.simplify(force / viscous_scale).subs({x: gap * x0, _rim: _rim * x0}, simultaneous=True)
-    return sp.factor(sp.simplify(scaled))
+    return sp.factor((force / viscous_scale).xreplace({x: gap * x0, _rim: _rim * x0}))
 
 
 def _stopping(force: sp.Expr) -> LawFunction:
