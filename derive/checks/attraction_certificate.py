@@ -22,6 +22,7 @@ from ..vocabulary.quantities import (
     orbital_momentum,
     rupture_gap,
     spin,
+    volume,
     weight,
 )
 from .base import Check, vanishing
@@ -29,15 +30,19 @@ from .base import Check, vanishing
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
 
-def force_falls(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """dF/dx <= 0 for every law declared to decrease with the gap."""
+def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]:
+    """dF/dx <= 0 for every law declared to decrease with the gap, up to the gap `last`."""
     checks = []
     for law in laws:
         for each in law.functions:
             if each.falls:
                 first = sp.Symbol(each.arguments[0].name, positive=True)
                 force = each(*each.arguments).subs(each.arguments[0], first).subs(sp.cos(contact_angle), _COSINE)
-                slope = sp.factor(sp.simplify(force.diff(first)))
+                if aspect in each.arguments:  # a volume per film thickness, to keep the expressions short
+                    force = force.subs(volume, sp.pi * aspect**2 * volume)
+                slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
+                if slope.is_nonpositive is None and last != sp.oo:
+                    slope = sp.factor(slope.subs(first, last / (1 + first)))  # any gap below the last
                 checks.append(
                     Check(f"force falls: {law.name}", "dF/dx <= 0", slope.is_nonpositive is True, f"dF/dh = {slope}")
                 )

@@ -215,6 +215,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return splat(0.0);
 }
 
+#define SLOW_MANIFOLD 0
+
 #define FILM_MOMENTUM 1
 /* Loss of normal velocity in the film per gap, over v0/x0. */
 static inline vec film_slowing(const constants *c, vec gap)

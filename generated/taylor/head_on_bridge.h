@@ -273,6 +273,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return bridge_force;
 }
 
+#define SLOW_MANIFOLD 0
+
 #if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
 #define APPROACH_BOUNDS 1
 /* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal

@@ -316,6 +316,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
+#define SLOW_MANIFOLD 0
+
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */
 static inline vec capillary_work(const constants *c, vec gap)

@@ -261,6 +261,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return string_pull;
 }
 
+#define SLOW_MANIFOLD 0
+
 #if WITH_LEDGER
 enum { ENERGIES = 2 };
 /* Energies of the state over m v0^2. In order: kinetic, strings. */

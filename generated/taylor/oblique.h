@@ -381,6 +381,8 @@ static inline vec angular_momentum(const constants *c, const vec *y)
     return angular_momentum;
 }
 
+#define SLOW_MANIFOLD 0
+
 #if WITH_LEDGER
 enum { ENERGIES = 1 };
 /* Energies of the state over m v0^2. In order: kinetic. */

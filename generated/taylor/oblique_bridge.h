@@ -514,6 +514,8 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ATTRACTION_MARGINS 0
 #endif
 
+#define SLOW_MANIFOLD 0
+
 #if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
 #define APPROACH_BOUNDS MIDGAP_ARM
 /* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal

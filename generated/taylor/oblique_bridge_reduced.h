@@ -77,6 +77,7 @@ typedef struct {
     vec nearest;
     vec farthest;
     vec spun_up;
+    vec relaxation_per_combination_by_shear_log_factor_law_over_distance;
     vec part_ratio;
     vec bridge_work_factor;
     vec edge;
@@ -151,6 +152,8 @@ static inline void prepare(constants *c)
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
     c->spun_up = (c->farthest*c->farthest)*c->momentum/((c->farthest*c->farthest) + 6.4);
+    c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
+        0.041666666666666664*c->aspect/c->stokes;
     c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
         c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
@@ -382,6 +385,76 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 }
 #else
 #define ATTRACTION_MARGINS 0
+#endif
+
+#if defined(BRIDGE_FORCE_FALLS) && defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)
+#define SLOW_MANIFOLD (!CAPILLARY_STATE)
+/* Inside the film, as series in the gap (derive/equations/certificates/slow_manifold.py): `distance` centre
+ * distance over a; `slowing` loss of normal velocity in the film per gap, over v0/x0: f; `relaxation` rate at
+ * which shear brings the orbital momentum to its rigid value, per x0/v0: s; `rigid` orbital momentum in rigid
+ * rotation: J_r; `centrifugal` centrifugal force over the square of the orbital momentum: c; `attractions`
+ * attractive forces: A. */
+typedef struct {
+    vec gap[TERMS];
+    vec distance[TERMS];
+    film_resistance_series film_resistance_law;
+    vec slowing[TERMS];
+    vec distance_squared[TERMS];
+    vec combination[TERMS];
+    shear_log_factor_series shear_log_factor_law;
+    vec combination_by_shear_log_factor_law[TERMS];
+    vec combination_by_shear_log_factor_law_over_distance[TERMS];
+    vec over_combination_by_shear_log_factor_law_over_distance;
+    vec relaxation[TERMS];
+    vec combination_2[TERMS];
+    vec distance_squared_over_combination_2[TERMS];
+    vec over_distance_squared_over_combination_2;
+    vec rigid[TERMS];
+    vec distance_squared_by_distance[TERMS];
+    vec inverse_distance_squared_by_distance[TERMS];
+    vec centrifugal[TERMS];
+    vec scaled_gap[TERMS];
+    bridge_force_series bridge_force_law;
+    vec attractions[TERMS];
+} slow_series;
+
+INLINE void slow_coefficients(slow_series *s, const constants *c, int k)
+{
+    (void)c;
+    s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
+    film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
+    s->slowing[k] = c->film_force_factor*s->film_resistance_law.result[k];
+    s->distance_squared[k] = square(s->distance, k);
+    s->combination[k] = k == 0 ? 5.0*s->distance_squared[k] + 32.0 : 5.0*s->distance_squared[k];
+    shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
+    s->combination_by_shear_log_factor_law[k] = product(s->combination, s->shear_log_factor_law.result, k);
+    s->combination_by_shear_log_factor_law_over_distance[k] = quotient(s->combination_by_shear_log_factor_law,
+        s->distance, s->combination_by_shear_log_factor_law_over_distance,
+        &s->over_combination_by_shear_log_factor_law_over_distance, k);
+    s->relaxation[k] =
+        c->relaxation_per_combination_by_shear_log_factor_law_over_distance*s->combination_by_shear_log_factor_law_over_distance[k];
+    s->combination_2[k] = k == 0 ? s->distance_squared[k] + 6.4 : s->distance_squared[k];
+    s->distance_squared_over_combination_2[k] = quotient(s->distance_squared, s->combination_2,
+        s->distance_squared_over_combination_2, &s->over_distance_squared_over_combination_2, k);
+    s->rigid[k] = c->momentum*s->distance_squared_over_combination_2[k];
+    s->distance_squared_by_distance[k] = product(s->distance, s->distance_squared, k);
+    s->inverse_distance_squared_by_distance[k] = reciprocal(s->distance_squared_by_distance,
+        s->inverse_distance_squared_by_distance, k);
+    s->centrifugal[k] = c->centrifugal_force_factor*s->inverse_distance_squared_by_distance[k];
+    s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
+    bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
+    s->attractions[k] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
+}
+
+#if defined(FILM_BRAKING)
+/* Velocity that the film takes from x0 to a gap, over v0. */
+static inline void film_taken(const constants *c, const vec *y, vec *taken)
+{
+    *taken = film_braking(y[GAP])/c->stokes;
+}
+#endif
+#else
+#define SLOW_MANIFOLD 0
 #endif
 
 #if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)

@@ -508,6 +508,8 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ATTRACTION_MARGINS 0
 #endif
 
+#define SLOW_MANIFOLD 0
+
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */
 static inline vec capillary_work(const constants *c, vec gap)

@@ -59,6 +59,7 @@ typedef struct {
     vec tangential_restitution_factor;
     vec energy_per_inverse_inertia_ratio;
     vec slope_per_distance_over_inertia_ratio_squared;
+    vec relaxation_per_combination_by_shear_log_factor_law_over_distance;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -111,6 +112,8 @@ static inline void prepare(constants *c)
     c->energy_per_inverse_inertia_ratio = 0.03125*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
     c->slope_per_distance_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
+    c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
+        0.041666666666666664*c->aspect/c->stokes;
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -297,6 +300,72 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
     vec orbital_momentum_2 = c->momentum*distance_squared_over_inertia_ratio;
     return orbital_momentum_2;
 }
+
+#if defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)
+#define SLOW_MANIFOLD (!CAPILLARY_STATE)
+/* Inside the film, as series in the gap (derive/equations/certificates/slow_manifold.py): `distance` centre
+ * distance over a; `slowing` loss of normal velocity in the film per gap, over v0/x0: f; `relaxation` rate at
+ * which shear brings the orbital momentum to its rigid value, per x0/v0: s; `rigid` orbital momentum in rigid
+ * rotation: J_r; `centrifugal` centrifugal force over the square of the orbital momentum: c; `attractions`
+ * attractive forces: A. */
+typedef struct {
+    vec gap[TERMS];
+    vec distance[TERMS];
+    film_resistance_series film_resistance_law;
+    vec slowing[TERMS];
+    vec distance_squared[TERMS];
+    vec combination[TERMS];
+    shear_log_factor_series shear_log_factor_law;
+    vec combination_by_shear_log_factor_law[TERMS];
+    vec combination_by_shear_log_factor_law_over_distance[TERMS];
+    vec over_combination_by_shear_log_factor_law_over_distance;
+    vec relaxation[TERMS];
+    vec combination_2[TERMS];
+    vec distance_squared_over_combination_2[TERMS];
+    vec over_distance_squared_over_combination_2;
+    vec rigid[TERMS];
+    vec distance_squared_by_distance[TERMS];
+    vec inverse_distance_squared_by_distance[TERMS];
+    vec centrifugal[TERMS];
+    vec attractions[TERMS];
+} slow_series;
+
+INLINE void slow_coefficients(slow_series *s, const constants *c, int k)
+{
+    (void)c;
+    s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
+    film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
+    s->slowing[k] = c->film_force_factor*s->film_resistance_law.result[k];
+    s->distance_squared[k] = square(s->distance, k);
+    s->combination[k] = k == 0 ? 5.0*s->distance_squared[k] + 32.0 : 5.0*s->distance_squared[k];
+    shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
+    s->combination_by_shear_log_factor_law[k] = product(s->combination, s->shear_log_factor_law.result, k);
+    s->combination_by_shear_log_factor_law_over_distance[k] = quotient(s->combination_by_shear_log_factor_law,
+        s->distance, s->combination_by_shear_log_factor_law_over_distance,
+        &s->over_combination_by_shear_log_factor_law_over_distance, k);
+    s->relaxation[k] =
+        c->relaxation_per_combination_by_shear_log_factor_law_over_distance*s->combination_by_shear_log_factor_law_over_distance[k];
+    s->combination_2[k] = k == 0 ? s->distance_squared[k] + 6.4 : s->distance_squared[k];
+    s->distance_squared_over_combination_2[k] = quotient(s->distance_squared, s->combination_2,
+        s->distance_squared_over_combination_2, &s->over_distance_squared_over_combination_2, k);
+    s->rigid[k] = c->momentum*s->distance_squared_over_combination_2[k];
+    s->distance_squared_by_distance[k] = product(s->distance, s->distance_squared, k);
+    s->inverse_distance_squared_by_distance[k] = reciprocal(s->distance_squared_by_distance,
+        s->inverse_distance_squared_by_distance, k);
+    s->centrifugal[k] = c->centrifugal_force_factor*s->inverse_distance_squared_by_distance[k];
+    s->attractions[k] = k == 0 ? splat(0.0) : splat(0.0);
+}
+
+#if defined(FILM_BRAKING)
+/* Velocity that the film takes from x0 to a gap, over v0. */
+static inline void film_taken(const constants *c, const vec *y, vec *taken)
+{
+    *taken = film_braking(y[GAP])/c->stokes;
+}
+#endif
+#else
+#define SLOW_MANIFOLD 0
+#endif
 
 /* Gap beyond which there is no tangential force. */
 static inline vec tangential_edge(const constants *c)

@@ -495,6 +495,8 @@ static inline void pendulum_rebounds(const constants *c, const vec *y, vec *rebo
 #define PENDULUM 0
 #endif
 
+#define SLOW_MANIFOLD 0
+
 #if defined(FILM_BRAKING) && defined(GLASS_REACH)
 #define APPROACH_BOUNDS MIDGAP_ARM
 /* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal

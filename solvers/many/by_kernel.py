@@ -23,7 +23,7 @@ from ..settings import FEW
 from .batch import Batch
 from .columns import varied_columns
 from .results import LEDGER as OF_LEDGER
-from .results import NONE, RATES, REVERSALS
+from .results import NONE, RATES, REVERSALS, TIMES
 
 Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
@@ -55,6 +55,7 @@ def collide_by_kernel(
     """
     left = [which[:0]]
     ledger = any(name in OF_LEDGER for name in request.of)
+    jumps = 0 if any(name in TIMES for name in request.of) else 1 if "smallest_gap" in request.of else 2
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
@@ -64,7 +65,9 @@ def collide_by_kernel(
             both = _with_books(impacts, request.rtol, threads)
             found, books = both if both is not None else (None, None)
         else:
-            found = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW)
+            found = run_kernel(
+                impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW, jumps=jumps
+            )
         if found is None:
             return which
         kept = found["status"] <= LAST_ANSWER

@@ -21,6 +21,9 @@ QUANTITIES: dict[str, tuple[str, str]] = {
 }
 """What a regime map keeps unless it is told otherwise."""
 
+TIMES = ("contact_time", "rotation", "until")
+"""What needs the whole trajectory: none of it is then replaced by the slow manifold."""
+
 RATES = ("final_spin", "final_spin_partner", "final_rotation_rate")
 LEDGER: dict[str, tuple[str, str]] = {
     "energy.initial": ("J", "kinetic energy at initial contact"),

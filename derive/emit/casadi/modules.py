@@ -68,7 +68,7 @@ def law_module(law: Law) -> str:
 
 def _falls(law: Law) -> list[str]:
     """The constant FALLS of a law whose force decreases with the gap; no lines for other laws."""
-    return ["", "FALLS = True", ""] if any(each.falls for each in law.functions) else []
+    return ["", "FALLS = True", ""] if any(each.falls and each.name == "force" for each in law.functions) else []
 
 
 def _validity(law: Law) -> list[str]:

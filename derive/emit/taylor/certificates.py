@@ -49,7 +49,7 @@ def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     for name, (keys, doc) in PARTS.items():
         kept, _ = needed([outputs[key] for key in keys], model.definitions)
-        lines += _function(name, doc, kept, {key: outputs[key] for key in keys}, moving, constants, prepared)
+        lines += margin_function(name, doc, kept, {key: outputs[key] for key in keys}, moving, constants, prepared)
     return [*lines, "#else", "#define PENDULUM 0", "#endif", ""]
 
 
@@ -63,7 +63,7 @@ def attraction_functions(model: Model, constants: Constants, prepared: dict[tupl
     return [
         f"#if {' && '.join(falling)}",
         "#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)",
-        *_function("attraction_margins", doc, kept, outputs, moving, constants, prepared),
+        *margin_function("attraction_margins", doc, kept, outputs, moving, constants, prepared),
         "#else",
         "#define ATTRACTION_MARGINS 0",
         "#endif",
@@ -80,11 +80,11 @@ def approach_functions(model: Model, constants: Constants, prepared: dict[tuple[
     for each in (each for each in model.functions if each.name in ("approach_step", "approach_force")):
         outputs = dict(each.outputs)
         kept, _ = needed(list(outputs.values()), model.definitions)
-        lines += _function(each.name, each.doc, kept, outputs, moving, constants, prepared)
+        lines += margin_function(each.name, each.doc, kept, outputs, moving, constants, prepared)
     return [*lines, "#else", "#define APPROACH_BOUNDS 0", "#endif", ""]
 
 
-def _function(
+def margin_function(
     name: str,
     doc: str,
     kept: list[tuple[sp.Symbol, sp.Expr]],

@@ -53,6 +53,7 @@ def _law(name: str, outer: sp.Expr, meaning: str, source: str, references: tuple
                 (gap, aspect),
                 log_factor(outer),
                 "Tangential force over 8 pi mu a^2 (omega - xi), inside its edge.",
+                falls=True,
             ),
             LawFunction(
                 "edge", (aspect,), edge, "Gap (in film thicknesses) beyond which there is no tangential force."

@@ -61,6 +61,8 @@ static inline vec film_resistance_value(const film_resistance_constants *c, vec 
     return result;
 }
 
+#define FILM_RESISTANCE_FALLS 1 /* never increases with its first argument */
+
 #define FILM_BRAKING 1
 /* Velocity, over v0/St, that the film takes from an approach from x0 to this gap. */
 static inline vec film_braking(vec gap, vec aspect, vec volume)

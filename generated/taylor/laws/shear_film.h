@@ -37,6 +37,8 @@ static inline vec shear_log_factor_value(const shear_log_factor_constants *c, ve
     return result;
 }
 
+#define SHEAR_LOG_FACTOR_FALLS 1 /* never increases with its first argument */
+
 /* Gap (in film thicknesses) beyond which there is no tangential force. */
 static inline vec shear_edge(vec aspect)
 {

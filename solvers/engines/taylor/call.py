@@ -63,7 +63,13 @@ def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, f
 
 
 def run_kernel(
-    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = STEPS, few: bool = False
+    impacts: Impacts,
+    rtol: float,
+    rotation: bool = False,
+    threads: int = 1,
+    budget: int = STEPS,
+    few: bool = False,
+    jumps: int = 0,
 ) -> np.ndarray | None:
     """An array of ANSWER, one per collision; None if no kernel is available.
 
@@ -71,13 +77,15 @@ def run_kernel(
         rotation: also the angle turned.
         budget: number of steps after which a collision is handed over.
         few: use a kernel that compiles faster and integrates slightly slower.
+        jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
+            approach as well (nor is the smallest gap).
     """
     found = np.zeros(impacts.angle.size, ANSWER)
     turns = impacts.angle > 0
     for oblique, those in ((True, turns), (False, ~turns)):
         count = int(np.count_nonzero(those))
         if count and not _fill(
-            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, few), threads
+            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, few, jumps), threads
         ):
             return None
     return found
@@ -109,14 +117,16 @@ def _fill(
     return True
 
 
-def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> RunKernel | None:
+def _plain(
+    those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool, jumps: int
+) -> RunKernel | None:
     """The kernel of these impacts; None if none is available."""
     scene = those.scene
     wanted = variant_for_many(scene, oblique, rtol, rotation, fold=not those.others)
     library = kernel(for_few(wanted) if few else wanted)
     if library is None:
         return None
-    choice, run = wanted.choice, bind_kernel(library, rtol, budget)
+    choice, run = wanted.choice, bind_kernel(library, rtol, budget, jumps)
 
     def decided(impacts: Impacts, made: np.ndarray) -> None:
         run(impacts, made)
@@ -126,13 +136,14 @@ def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: i
     return decided
 
 
-def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray) -> Task:
+def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray, jumps: int = 0) -> Task:
     """The task of a kernel for impacts that fit it.
 
     Arguments:
         made: array for the answers, zeros of ANSWER.
     """
     asked = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
+    asked.number("jumps", jumps)
     given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
     given |= si_values(impacts.scene, None, None)
     given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
@@ -145,10 +156,10 @@ def _column(values: np.ndarray | float) -> np.ndarray | float:
     return values if isinstance(values, float) else np.ascontiguousarray(values, dtype=float).reshape(-1)
 
 
-def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int) -> RunKernel:
+def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:
     """A kernel as a function of impacts that fit it and of an array for the answers (zeros of ANSWER)."""
 
     def run(impacts: Impacts, made: np.ndarray) -> None:
-        task(library, impacts, rtol, budget, made).run()
+        task(library, impacts, rtol, budget, made, jumps).run()
 
     return run

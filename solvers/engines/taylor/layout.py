@@ -54,6 +54,10 @@ TASK = np.dtype(
         ("count", "i8"),
         ("budget", "i8"),  # steps of a trajectory
         ("purpose", "i8"),  # used by kernels with a trajectory
+        (
+            "jumps",
+            "i8",
+        ),  # what the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach as well
         ("asked", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),

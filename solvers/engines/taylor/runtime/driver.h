@@ -9,6 +9,7 @@
 #include "effects.h"
 #include "events.h"
 #include "implicit.h"
+#include "jump.h"
 #include "model.h"
 #include "nearness.h"
 #include "queue.h"
@@ -33,6 +34,12 @@ static void run(queue *q)
     memset(&s, 0, sizeof s);
     memset(&f, 0, sizeof f);
     EACH_LANE(lane) refill(q, &l, &f, lane);
+#if JUMPS
+    if (!bits(l.alive) && q->turns) { /* all may jump from initial contact */
+        jump(q);
+        EACH_LANE(lane) refill(q, &l, &f, lane);
+    }
+#endif
     if (!bits(l.alive))
         return;
     int sound = __builtin_ctz(bits(l.alive)); /* idle lanes repeat a live one: no traps, no slow arithmetic */
@@ -49,6 +56,12 @@ static void run(queue *q)
             crawl(q);
             EACH_LANE(lane) if (!l.alive[lane]) refill(q, &l, &f, lane);
         }
+#if JUMPS
+        if (q->turns && (q->turns >= LANES || !bits(l.alive))) {
+            jump(q);
+            EACH_LANE(lane) if (!l.alive[lane]) refill(q, &l, &f, lane);
+        }
+#endif
         if (!bits(l.alive))
             break;
         /* a stick may be certified a step later, so the energy is checked every second step only */
@@ -129,6 +142,9 @@ static void run(queue *q)
         l.steps += 1;
         l.crept = (l.crept + 1) & creeps;
         l.stride = h;
+#if JUMPS
+        park_turned(q, &l, &f, falls & ~lost & (found.event == AT_TURNING) & l.alive & ~l.closing);
+#endif
         mask spent = l.alive & (lost | (l.steps > q->budget));
         unsigned slow_ones = bits(l.alive & ~falls & ~spent & (l.crept > PATIENCE));
 #if BACKWARD

@@ -6,6 +6,7 @@
 #include "criteria.h"
 #include "energy_barrier.h"
 #include "ledger.h"
+#include "slow_manifold.h"
 #include "state.h"
 #include "tangents.h"
 #include "tape.h"
@@ -71,6 +72,9 @@ static void fill_queue(queue *q)
 #if WITH_TRAJECTORY
         proved &= bits(provable(q, splat_mask(-1)));
 #endif
+#if LEAPS
+        unsigned leaps = q->t->jumps > 1 ? bits(may_leap(&f.c, f.edge, q->rtol)) : 0;
+#endif
         for (int lane = 0; lane < many; lane++) {
             if (beyond >> lane & 1) {
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);
@@ -88,6 +92,9 @@ static void fill_queue(queue *q)
                 q->rows[q->queued][field] = ((vec *)&f)[field][lane];
             for (int state = 0; state < STATES; state++)
                 q->starts[q->queued][state] = y[state][lane];
+#if LEAPS
+            q->leaps[q->queued] = leaps >> lane & 1;
+#endif
             q->queued++;
         }
     }
@@ -112,20 +119,9 @@ static void unpack(const double *row, lanes *l, fixed *f, int lane)
         ((word_of_lane *)l)[field*LANES + lane] = row[FIXED + field];
 }
 
-/* Puts the next collision of the queue into a lane; the lane becomes idle if there is none. */
-static void refill(queue *q, lanes *l, fixed *f, int lane)
+/* Puts the collision of a row into a lane, at initial contact. */
+static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
 {
-    if (q->resumes) {
-        unpack(q->resumed[--q->resumes], l, f, lane);
-        return;
-    }
-    if (q->taken == q->queued)
-        fill_queue(q);
-    if (q->taken == q->queued) {
-        l->alive[lane] = 0;
-        return;
-    }
-    long row = q->taken++;
     for (int field = 0; field < FIXED; field++)
         ((double *)&((vec *)f)[field])[lane] = q->rows[row][field];
     for (int state = 0; state < STATES; state++)
@@ -145,6 +141,38 @@ static void refill(queue *q, lanes *l, fixed *f, int lane)
 #elif GRADIENTS
     along_start(&l->along, &f->c, lane);
 #endif
+}
+
+#if LEAPS
+static void jump(queue *q);
+#endif
+
+/* Puts the next collision of the queue into a lane; the lane becomes idle if there is none. */
+static void refill(queue *q, lanes *l, fixed *f, int lane)
+{
+    for (;;) {
+        if (q->resumes) {
+            unpack(q->resumed[--q->resumes], l, f, lane);
+            return;
+        }
+        if (q->taken == q->queued)
+            fill_queue(q);
+        if (q->taken == q->queued) {
+            l->alive[lane] = 0;
+            return;
+        }
+        long row = q->taken++;
+        begin(q, l, f, lane, row);
+#if LEAPS
+        if (q->leaps[row]) {
+            pack(q->turned[q->turns++], l, f, lane);
+            if (q->turns >= LANES)
+                jump(q);
+            continue;
+        }
+#endif
+        return;
+    }
 }
 
 /* Moves a lane's trajectory to those waiting for implicit.h; it continues in its lane if these are enough. */

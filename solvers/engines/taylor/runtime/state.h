@@ -8,6 +8,18 @@
 #include "model.h"
 #include "tangents.h"
 
+/* Whether trajectories may be replaced by the slow manifold (slow_manifold.h). */
+#if SLOW_MANIFOLD && !GRADIENTS && !WITH_TRAJECTORY && !WITH_LEDGER && !TURNING_STATE
+#define JUMPS 1
+#else
+#define JUMPS 0
+#endif
+#if JUMPS && defined(FILM_BRAKING)
+#define LEAPS 1 /* from initial contact */
+#else
+#define LEAPS 0
+#endif
+
 static const double SLOW = 0.1; /* in v0: least scale of the error of the normal velocity, which decays in a film */
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
@@ -60,8 +72,15 @@ typedef struct {
     long waiting[LANES];
     double rows[LANES][FIXED];
     double starts[LANES][STATES];
-    int parks, resumes; /* trajectories waiting for implicit.h, and trajectories returning from it */
-    double parked[LANES][FIXED + LANE_STATE], resumed[LANES][FIXED + LANE_STATE];
+#if LEAPS
+    int leaps[LANES]; /* whether they may jump from initial contact */
+#endif
+    int parks, resumes; /* trajectories waiting for implicit.h, and trajectories that return to lanes */
+    double parked[LANES][FIXED + LANE_STATE], resumed[3*LANES][FIXED + LANE_STATE];
+#if JUMPS
+    int turns; /* trajectories waiting for slow_manifold.h */
+    double turned[2*LANES][FIXED + LANE_STATE];
+#endif
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, and by each quantity */
     nearness *near;

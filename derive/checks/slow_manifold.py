@@ -1,0 +1,88 @@
+"""Checks of the slow manifold: the form of the rates, the difference of two solutions, and what falls with the gap."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..equations.certificates.slow_manifold import admits, coefficients
+from ..equations.model import Model, derive
+from ..physics.forces import FILM, SHEAR
+from ..physics.laws import LAWS
+from ..physics.laws.base import slot_call
+from ..physics.scaling import DISTANCE
+from ..physics.structure import structures
+from ..vocabulary.quantities import aspect, gap, normal_velocity, orbital_momentum
+from .attraction_certificate import force_falls
+from .base import Check, vanishing
+
+_OPEN = sp.Symbol("beyond_touching", nonnegative=True)  # centre distance over a, above 4
+
+
+def _models() -> list[Model]:
+    return [derive(structure) for structure in structures() if admits(structure)]
+
+
+def rates_have_the_form() -> Check:
+    """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
+    left = []
+    for model in _models():
+        found = coefficients(model)
+        rates = {key: model.expanded(value) for key, value in model["right_hand_side"].outputs}
+        push = found["centrifugal"] * orbital_momentum**2 - found["attractions"] - found["slowing"] * normal_velocity
+        turn = -found["relaxation"] * (orbital_momentum - found["rigid"])
+        for state, rate in ((normal_velocity, push), (orbital_momentum, turn)):
+            inside = rates[state.name].subs({FILM: 1, SHEAR: 1})
+            left.append(sp.simplify(inside - model.expanded(rate)))
+    return vanishing("slow manifold: rates", "du/dt = c J^2 - A - f u, dJ/dt = -s (J - J_r)", left)
+
+
+def secants() -> Check:
+    """The difference of two solutions over the gap obeys the equations from which the contraction is bounded."""
+    c, attractions, f, s, rigid = sp.symbols("c A f s J_r", real=True)
+    u1, u2 = sp.symbols("u1 u2", positive=True)
+    j1, j2 = sp.symbols("J1 J2", real=True)
+
+    def slopes(u: sp.Expr, j: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        return (c * j**2 - attractions) / u - f, -s * (j - rigid) / u
+
+    (rise1, turn1), (rise2, turn2) = slopes(u1, j1), slopes(u2, j2)
+    force, e, j = c * j2**2 - attractions, u1 - u2, j1 - j2
+    normal = -force * e / (u1 * u2) + c * (j1 + j2) * j / u1
+    tangential = s * (j2 - rigid) * e / (u1 * u2) - s * j / u1
+    return vanishing(
+        "slow manifold: difference",
+        "two solutions over the gap differ by the Jacobian at secants",
+        [rise1 - rise2 - normal, turn1 - turn2 - tangential],
+    )
+
+
+def coefficients_are_monotonic() -> Check:
+    """C falls; s over the logarithm rises, but slower than the distance; J_r rises ever more slowly."""
+    signs = []
+    for model in _models():
+        found = coefficients(model)
+        lever = sp.cancel(found["relaxation"] / slot_call("shear", "log_factor", gap, aspect))
+        slopes = (
+            -found["centrifugal"].diff(DISTANCE),
+            lever.diff(DISTANCE),
+            -(lever / DISTANCE).diff(DISTANCE),
+            found["rigid"].diff(DISTANCE),
+            -found["rigid"].diff(DISTANCE, 2),
+        )
+        for slope in slopes:
+            open_ = sp.factor(sp.together(model.expanded(slope).subs(DISTANCE, 4 + _OPEN)))
+            over, under = sp.fraction(open_)
+            signs.append(sp.expand(over).is_nonnegative is True and sp.expand(under).is_positive is True)
+    return Check(
+        "slow manifold: monotonic",
+        "c, s/(r ln) and dJ_r/dx fall with the gap, s/ln and J_r rise",
+        bool(signs) and all(signs),
+        f"{sum(signs)} of {len(signs)} signs",
+    )
+
+
+def slow_manifold() -> tuple[Check, ...]:
+    """Every check of the slow manifold."""
+    laws = [law for slot in ("film", "shear") for law in LAWS[slot].values()]
+    falls = force_falls(laws, last=sp.Integer(1))
+    return (rates_have_the_form(), secants(), coefficients_are_monotonic(), *falls)

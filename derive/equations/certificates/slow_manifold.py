@@ -1,0 +1,92 @@
+"""The slow manifold of an opening doublet: the motion that every trajectory takes once a film has slowed it.
+
+Inside the film, with the angular momentum conserved and without strings, the rates are
+
+    du/dt = c(x) J^2 - A(x) - f(x) u,        dJ/dt = -s(x) (J - J_r(x)),
+
+with the film's slowing f, the attractions A, the centrifugal coefficient c, the relaxation s of the orbital momentum by
+shear, and its value J_r in rigid rotation. Everything but x decays: one slow variable.
+
+The difference (e, j) of two solutions, as functions of the gap while both open, obeys exactly (c J^2 - A = F)
+
+    e' = -F e/(u1 u2) + c (J1 + J2) j/u1,    j' = s (J2 - J_r) e/(u1 u2) - s j/u1,
+
+which is the Jacobian of the two rates, taken at secants. With bounds of u, J and the coefficients over a range of gaps
+that hold for both solutions, its logarithmic norm in max(|e|, |j|/p) is at most
+
+    -min(F/u^2 - p c (J1 + J2)/u, s/u - s |J - J_r|/(p u^2)),
+
+each term at its worst. The integral of that bound over the gap is the contraction that the kernel requires before it
+replaces a trajectory by the slow manifold (solvers/engines/taylor/runtime/slow_manifold.h). f, s and A fall with the
+gap for the laws that are declared so, and c does: their values at the ends of a range bound them within it.
+
+On the slow manifold u = F/(f + u') and J = J_r - u J'/s, from which its series in x follow by iteration.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ...physics.forces import FILM, SHEAR
+from ...physics.scaling import DISTANCE
+from ...vocabulary.quantities import normal_velocity, orbital_momentum
+from ..intermediates import MOMENTUM
+
+if TYPE_CHECKING:
+    from ...physics.structure import Structure
+    from ..model import Model
+
+FALLING = ("film.resistance", "shear.log_factor", "bridge.force", "attraction.force")  # calls that have to fall
+
+
+def admits(structure: Structure) -> bool:
+    """True for structures with one slow variable: oblique, without strings, the spin eliminated."""
+    return structure.oblique and structure.reduced and not structure.strings and not structure.partner
+
+
+@cache
+def coefficients(model: Model) -> dict[str, sp.Expr]:
+    """f, s, J_r, c and A as functions of the gap and of the centre distance r, from the model's rates.
+
+    Raises:
+        ValueError: the rates do not have the form above.
+    """
+    rate = {key: value.subs({FILM: 1, SHEAR: 1}) for key, value in _rates(model).items()}
+    u, momentum = normal_velocity, orbital_momentum
+    push, turn = rate[u.name], rate[momentum.name]
+    rigid = _in_gap_and_distance(model, dict(model["rigid_rotation"].outputs)[momentum.name])
+    film = -push.diff(u)
+    centrifugal = push.diff(momentum, 2) / 2
+    attractions = -push.subs({u: 0, momentum: 0})
+    relaxation = -turn.diff(momentum)
+    left = (push - (centrifugal * momentum**2 - attractions - film * u), turn + relaxation * (momentum - rigid))
+    for rest in left:
+        if sp.simplify(sp.expand(rest)) != 0:
+            raise ValueError(f"{model.structure.name}: the motion is not of the form of a slow manifold: {rest}")
+    found = {
+        "slowing": film,
+        "relaxation": sp.factor(relaxation),
+        "rigid": rigid,
+        "centrifugal": sp.factor(centrifugal),
+        "attractions": attractions,
+    }
+    moving = {u, momentum}
+    if any(value.free_symbols & moving for value in found.values()):
+        raise ValueError(f"{model.structure.name}: a coefficient of the slow manifold depends on the motion")
+    return found
+
+
+def _rates(model: Model) -> dict[str, sp.Expr]:
+    return {key: _in_gap_and_distance(model, value) for key, value in model["right_hand_side"].outputs}
+
+
+def _in_gap_and_distance(model: Model, expression: sp.Expr) -> sp.Expr:
+    """An expression with every intermediate but the centre distance and the conserved momentum substituted."""
+    found = sp.sympify(expression)
+    for symbol, value in reversed(model.definitions):
+        if symbol not in (DISTANCE, MOMENTUM):
+            found = found.subs(symbol, value)
+    return found
