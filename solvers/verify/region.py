@@ -45,9 +45,10 @@ def beside_cvodes(group: str, scene: Scene, data: xarray.Dataset, fast: Collide 
     fast = fast or _fast(scene)
     done = [(float(data["stokes"][k]), float(data["angle"][j])) for j, k in np.argwhere(data["outcome"].values >= 0)]
     picked = np.unique(np.linspace(0, len(done) - 1, min(_BESIDE, len(done))).round().astype(int))
+    by_cvodes = partial(collide, engine="cvodes")
     pairs = [
-        tuple(by(scene, stokes=stokes, angle=angle, rtol=_RTOL) for by in (fast, partial(collide, engine="cvodes")))
-        for stokes, angle in (done[k] for k in picked)
+        (fast(scene, stokes=s, angle=a, rtol=_RTOL), by_cvodes(scene, stokes=s, angle=a, rtol=_RTOL))
+        for s, a in (done[k] for k in picked)
     ]
     if pairs:
         yield agreement(group, f"{pairs[0][0].engine} = cvodes, on the grid", pairs)

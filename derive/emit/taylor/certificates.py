@@ -93,6 +93,12 @@ def margin_function(
     constants: Constants,
     prepared: dict[tuple[str, str], str],
 ) -> list[str]:
+    """A C function of the states with several results.
+
+    Arguments:
+        kept: intermediates in order; those that do not vary become constants of the structure.
+        moving: C text of what varies.
+    """
     local = dict(moving)
     text = Text(lambda symbol: local.get(symbol) or constants.name(symbol), _calls(prepared))
     body = []

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...equations.certificates import slow_manifold
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import is_slot_call
@@ -340,10 +339,7 @@ class Header:
             lines += pendulum_functions(model, self.constants, prepared)
         if any(each.name == "attraction_margins" for each in model.functions):
             lines += attraction_functions(model, self.constants, prepared)
-        if slow_manifold.admits(shape):
-            lines += slow_manifold_functions(model, self.constants, self.calls, prepared)
-        else:
-            lines += ["#define SLOW_MANIFOLD 0", ""]
+        lines += slow_manifold_functions(model, self.constants, prepared)
         if any(each.name == "approach_step" for each in model.functions):
             lines += approach_functions(model, self.constants, prepared)
         if attracting(self.model):

@@ -6,14 +6,13 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...equations.certificates.approach import braking
-from ...equations.certificates.slow_manifold import coefficients
+from ...equations.certificates.slow_manifold import admits, coefficients
 from ...equations.model import Model
 from ...physics.laws.base import is_slot_call
 from ...physics.scaling import DISTANCE
 from ...vocabulary.quantities import gap, stokes
 from .c_text import Constants, Recurrences
 from .certificates import margin_function
-from .closed_forms import Calls
 from .layout import comment, function
 from .program import Program
 
@@ -27,21 +26,21 @@ MEANINGS = {
 }
 
 
-def slow_manifold_functions(
-    model: Model, constants: Constants, calls: Calls, prepared: dict[tuple[str, str], str]
-) -> list[str]:
-    """The series of `coefficients` in the gap, compiled only for laws that fall with it.
+def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The series of `coefficients` in the gap, compiled only for laws that fall with it; none where they are not given.
 
     Arguments:
         constants: of the structure; factors that do not vary are added to them.
-        calls: those of the structure, by the name of their constants.
         prepared: by slot and function, the name of the law's constants in those of the structure.
     """
+    given = coefficients(model) if admits(model.structure) else None
+    if given is None:
+        return ["#define SLOW_MANIFOLD 0", ""]
     program = Program((gap,))
     program.define(DISTANCE, dict(model.definitions)[DISTANCE])
     found: dict[str, str | sp.Expr] = {"distance": DISTANCE.name}
     falling = set()
-    for name, expression in coefficients(model).items():
+    for name, expression in given.items():
         if program.moves(expression):
             program.define(sp.Symbol(name), expression)
             found[name] = program.series(sp.Symbol(name))
@@ -50,23 +49,18 @@ def slow_manifold_functions(
         for node in expression.atoms(AppliedUndef):
             if is_slot_call(node):
                 falling.add(node.func.__name__.replace(".", "_").upper() + "_FALLS")
-    where = {(slot, call): name for name, (slot, call, _) in calls.items()}
     made = Recurrences(program, constants, lambda series: f"s->{series}")
-    lines = []
-    for operation in program.operations:
-        if operation.call is not None:  # constants of a law are those of the equations of motion
-            operation_name = where[operation.call[:2]]
-            assert operation_name == operation.name, operation_name
+    lines: list[str] = []
     fields = ["    vec gap[TERMS];", *(f"    {field}" for field in made.fields())]
     own = {operation.name for operation in program.operations}
     for name, value in found.items():
-        if isinstance(value, str) and (value not in own or value != name):
+        if value == name and name in own:
+            continue
+        fields.append(f"    vec {name}[TERMS];")
+        if isinstance(value, str):
             lines.append(f"s->{name}[k] = {made.coefficient(value)};")
-            fields.append(f"    vec {name}[TERMS];")
-        elif not isinstance(value, str):
-            level = constants.factor(value, name)
-            lines.append(f"s->{name}[k] = k == 0 ? splat({level}) : splat(0.0);")
-            fields.append(f"    vec {name}[TERMS];")
+        else:
+            lines.append(f"s->{name}[k] = k == 0 ? splat({constants.factor(value, name)}) : splat(0.0);")
     meanings = "; ".join(f"`{name}` {meaning}" for name, meaning in MEANINGS.items())
     return [
         f"#if {' && '.join(f'defined({name})' for name in sorted(falling))} && !defined(FILM_CAVITATES)",

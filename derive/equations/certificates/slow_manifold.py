@@ -48,11 +48,10 @@ def admits(structure: Structure) -> bool:
 
 
 @cache
-def coefficients(model: Model) -> dict[str, sp.Expr]:
-    """f, s, J_r, c and A as functions of the gap and of the centre distance r, from the model's rates.
+def coefficients(model: Model) -> dict[str, sp.Expr] | None:
+    """f, s, J_r, c and A as functions of the gap and of the centre distance r; None for rates of another form.
 
-    Raises:
-        ValueError: the rates do not have the form above.
+    Another form has, for instance, the film of a user's model whose resistance depends on the velocity.
     """
     rate = {key: value.subs({FILM: 1, SHEAR: 1}) for key, value in _rates(model).items()}
     u, momentum = normal_velocity, orbital_momentum
@@ -63,9 +62,8 @@ def coefficients(model: Model) -> dict[str, sp.Expr]:
     attractions = -push.subs({u: 0, momentum: 0})
     relaxation = -turn.diff(momentum)
     left = (push - (centrifugal * momentum**2 - attractions - film * u), turn + relaxation * (momentum - rigid))
-    for rest in left:
-        if sp.simplify(sp.expand(rest)) != 0:
-            raise ValueError(f"{model.structure.name}: the motion is not of the form of a slow manifold: {rest}")
+    if any(sp.simplify(sp.expand(rest)) != 0 for rest in left):
+        return None
     found = {
         "slowing": film,
         "relaxation": sp.factor(relaxation),
@@ -73,9 +71,8 @@ def coefficients(model: Model) -> dict[str, sp.Expr]:
         "centrifugal": sp.factor(centrifugal),
         "attractions": attractions,
     }
-    moving = {u, momentum}
-    if any(value.free_symbols & moving for value in found.values()):
-        raise ValueError(f"{model.structure.name}: a coefficient of the slow manifold depends on the motion")
+    if any(value.free_symbols & {u, momentum} for value in found.values()):
+        return None
     return found
 
 

@@ -57,7 +57,7 @@ TASK = np.dtype(
         (
             "jumps",
             "i8",
-        ),  # what the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach as well
+        ),  # the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach as well
         ("asked", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),

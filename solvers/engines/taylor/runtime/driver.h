@@ -9,7 +9,6 @@
 #include "effects.h"
 #include "events.h"
 #include "implicit.h"
-#include "jump.h"
 #include "model.h"
 #include "nearness.h"
 #include "queue.h"

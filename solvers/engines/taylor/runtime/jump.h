@@ -10,7 +10,7 @@
 #pragma once
 
 #include "model.h"
-#include "queue.h"
+#include "rows.h"
 #include "slow_manifold.h"
 #include "state.h"
 
@@ -63,17 +63,5 @@ static __attribute__((noinline)) void jump(queue *q)
         pack(q->resumed[q->resumes++], &l, &f, lane);
     q->turns -= count;
     memmove(q->turned[0], q->turned[count], sizeof q->turned[0]*(size_t)q->turns);
-}
-
-/* Parks lanes that have just turned, where they may jump. */
-static void park_turned(queue *q, lanes *l, fixed *f, mask turned)
-{
-    unsigned left = q->t->jumps ? bits(turned) : 0;
-    if (left)
-        for (left &= bits(may_jump(l, f, q->rtol)); left; left &= left - 1) {
-            int lane = __builtin_ctz(left);
-            pack(q->turned[q->turns++], l, f, lane);
-            refill(q, l, f, lane);
-        }
 }
 #endif

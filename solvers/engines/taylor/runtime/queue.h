@@ -5,7 +5,9 @@
 #include "certificates.h"
 #include "criteria.h"
 #include "energy_barrier.h"
+#include "jump.h"
 #include "ledger.h"
+#include "rows.h"
 #include "slow_manifold.h"
 #include "state.h"
 #include "tangents.h"
@@ -100,25 +102,6 @@ static void fill_queue(queue *q)
     }
 }
 
-typedef double word_of_lane __attribute__((may_alias)); /* fields are doubles or integers */
-
-/* Copies a lane's trajectory to a row, and back. */
-static void pack(double *row, const lanes *l, const fixed *f, int lane)
-{
-    for (int field = 0; field < FIXED; field++)
-        row[field] = ((const vec *)f)[field][lane];
-    for (int field = 0; field < LANE_STATE; field++)
-        row[FIXED + field] = ((const word_of_lane *)l)[field*LANES + lane];
-}
-
-static void unpack(const double *row, lanes *l, fixed *f, int lane)
-{
-    for (int field = 0; field < FIXED; field++)
-        ((double *)&((vec *)f)[field])[lane] = row[field];
-    for (int field = 0; field < LANE_STATE; field++)
-        ((word_of_lane *)l)[field*LANES + lane] = row[FIXED + field];
-}
-
 /* Puts the collision of a row into a lane, at initial contact. */
 static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
 {
@@ -142,10 +125,6 @@ static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
     along_start(&l->along, &f->c, lane);
 #endif
 }
-
-#if LEAPS
-static void jump(queue *q);
-#endif
 
 /* Puts the next collision of the queue into a lane; the lane becomes idle if there is none. */
 static void refill(queue *q, lanes *l, fixed *f, int lane)
@@ -183,6 +162,20 @@ static void park(queue *q, lanes *l, fixed *f, int lane)
     pack(q->parked[q->parks++], l, f, lane);
     refill(q, l, f, lane);
 }
+
+#if JUMPS
+/* Parks lanes that have just turned, where they may jump. */
+static void park_turned(queue *q, lanes *l, fixed *f, mask turned)
+{
+    unsigned left = q->t->jumps ? bits(turned) : 0;
+    if (left)
+        for (left &= bits(may_jump(l, f, q->rtol)); left; left &= left - 1) {
+            int lane = __builtin_ctz(left);
+            pack(q->turned[q->turns++], l, f, lane);
+            refill(q, l, f, lane);
+        }
+}
+#endif
 
 _Static_assert(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
 
