@@ -179,7 +179,8 @@ def pendulum_impulse(found: Mapping[str, Any], margin: SX | float) -> SX:
     """
     outward, pull = found["outward"], found["pull"]
     inward = outward - pull + margin * (outward + pull) < 0
-    return if_else(outward + pull >= 0, if_else(inward, 0, found["impulse"]), nan)
+    bound: SX = if_else(outward + pull >= 0, if_else(inward, 0, found["impulse"]), nan)
+    return bound
 
 
 def pendulum_margin(model: Model, margin: SX | float, turning: bool = False) -> SX:
