@@ -290,6 +290,7 @@ CONSTANTS = (
     Constant("LOOSEST", 1e-6, "largest relative tolerance; a larger one is reduced to it, as certificates need it"),
     Constant("SAFETY", 30.0, "least margin of a certificate in tolerances of the largest energy: errors of the fastest "
              "motion persist in the energy, and errors of many steps add up"),
+    Constant("STILL", 1e-9, "in v0: a slower motion is at a turning point"),
     Constant("CHATTER_PHASES", 100, "number of phases beyond which a trajectory is treated as chatter"),
     Constant("FILM_DEPTHS", 16, "gaps in geometric sequence down to contact at which the film certificate bounds the "
              "pressure"),

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 1c9791c70e8f593b03cb723ee1e300c67e8c7edf5262556a53d73690f97282dc */
+ * Automaton sha256 cf19649af787cdb7d9e01d9a07459b190f6d216dfcc0efc22afc45b0e647d403 */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -62,6 +62,7 @@ static const double REST_SPEED = 1e-09; /* in v0: a slower rebound against an in
 static const double MOST_OBLIQUE = 1000000000.0; /* in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0 */
 static const double LOOSEST = 1e-06; /* largest relative tolerance; a larger one is reduced to it, as certificates need it */
 static const double SAFETY = 30.0; /* least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up */
+static const double STILL = 1e-09; /* in v0: a slower motion is at a turning point */
 enum { CHATTER_PHASES = 100 }; /* number of phases beyond which a trajectory is treated as chatter */
 enum { FILM_DEPTHS = 16 }; /* gaps in geometric sequence down to contact at which the film certificate bounds the pressure */
 enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same with an attraction, which grows at small gaps */

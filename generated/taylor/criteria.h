@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 1c9791c70e8f593b03cb723ee1e300c67e8c7edf5262556a53d73690f97282dc
+ * Automaton sha256 cf19649af787cdb7d9e01d9a07459b190f6d216dfcc0efc22afc45b0e647d403
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -8,10 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
-from ...generated.automaton import CLOSING
+from ...generated.automaton import CLOSING, STILL
 from ..model.phases import Phase
 
-STILL = 1e-9  # relative to v0; a slower motion is at a turning point
 # added to SAFETY at the watched level, so that rounding does not leave the certificate undecided at the event
 BEYOND = 1.0
 

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import CLOSING, SAFETY
+from ...generated.automaton import CLOSING, SAFETY, STILL
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import STILL, Certainty, Certificate, at_maximum
+from .base import Certainty, Certificate, at_maximum
 from .chatter import chatters
 from .quadrature import panels
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from casadi import SX, Function
 
-from ...generated.automaton import SAFETY
+from ...generated.automaton import SAFETY, STILL
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase, pendulum_impulse, pendulum_margin
@@ -29,7 +29,9 @@ class PendulumCertificate:
         return (SAFETY + BEYOND) * self.rtol
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        held = float(_pendulum(self.model)(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0
+        turning = abs(y[1]) <= STILL  # the engines allow for the impulse at the same states: at a turn
+        margin = _pendulum(self.model, turning)
+        held = float(margin(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0
         return Certainty.of(held or self._held_on_approach(y, phase))
 
     def _held_on_approach(self, y: np.ndarray, phase: Phase) -> bool:
@@ -54,8 +56,8 @@ class PendulumCertificate:
 
 
 @own_cache(64)
-def _pendulum(model: Model) -> Function:
+def _pendulum(model: Model, turning: bool) -> Function:
     margin = SX.sym("margin")
     return Function(
-        "pendulum_margins", [model.column, model.parameters, margin], [pendulum_margin(model, margin, True)]
+        "pendulum_margins", [model.column, model.parameters, margin], [pendulum_margin(model, margin, turning)]
     )

@@ -60,7 +60,7 @@ def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
         (pendulum.FARTHEST, 4 + q.aspect * pendulum.CONTACT, "outward"),
         (pendulum.LARGEST_MOMENTUM, q.orbital_momentum, "outward"),
         (pendulum.CONTACT, q.rough_gap, "outward, pull, recoil"),
-        (pendulum.LARGEST_PULL, pendulum.pull_at(sp.Integer(1), q.beta), "recoil"),
+        (pendulum.LARGEST_PULL, pendulum.pull_at(sp.Integer(1), q.beta), "recoil, beneath"),
         (pendulum.FASTEST, sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PULL), "recoil"),
         (pendulum.FASTEST, sp.sqrt(2 * pendulum.LARGEST_PULL), "recoil"),
     ],

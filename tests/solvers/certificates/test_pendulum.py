@@ -171,7 +171,7 @@ def test_the_sample_needs_every_margin(margin, change, strings: list[Hung], monk
 
 @pytest.mark.parametrize("margin", ["outward", "pull", "impulse", "film", "recoil"])
 def test_a_margin_that_is_no_number_proves_nothing(margin: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """NaN in any of the five, on the way in: not proved, though all else says so."""
+    """NaN in any of the five, at a turn: not proved, though all else says so."""
     scene = Scene.load("pendulum")
     n = nondimensionalise(scene, scene.speed_of(0.3), math.radians(20))
     model = load(select_model(scene, oblique=True))
@@ -181,4 +181,4 @@ def test_a_margin_that_is_no_number_proves_nothing(margin: str, monkeypatch: pyt
         with monkeypatch.context() as patch:
             _broken(patch, lambda _, own=own: own)
             one = EventLocator(model, n.groups, 1e-9)
-            assert bool(one.proof.decided(np.array([0.9, *one.y[1:]]), one.phase)) is expected
+            assert bool(one.proof.decided(np.array([0.9, 0.0, *one.y[2:]]), one.phase)) is expected

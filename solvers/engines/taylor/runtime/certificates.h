@@ -115,18 +115,31 @@ static vec pendulum_slack(const constants *c, const vec *y, double margin)
     return slack + only(~inward, c->stokes*impulse);
 }
 
-/* Pendulum certificate: lanes where the margins of derive/equations/certificates/pendulum.py exceed their error, as in
- * solvers/model/phases.py `pendulum_margin`.
+/* Pendulum certificate: lanes where the margins of derive/equations/certificates/pendulum.py exceed their error while
+ * all forces but the film's point inward, as in solvers/model/phases.py `pendulum_margin`.
  */
 static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 {
-    vec film, recoil;
-    pendulum_stops(c, y, &film, &recoil);
-    mask held = (film < 0.0) & (recoil < 0.0);
+    double margin = SAFETY*tolerance;
+    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
+    pendulum_inward(c, y, &outward, &pull);
+    mask held = outward - pull + margin*(outward + pull) < 0.0;
     if (!bits(held))
         return held;
-    vec slack = pendulum_slack(c, y, SAFETY*tolerance);
+    pendulum_stops(c, y, &film, &recoil);
     return held & (film + slack < 0.0) & (recoil + slack < 0.0);
+}
+
+/* The same at a turn, with the impulse of the rotation allowed for. */
+static mask held_at_turn(const constants *c, const vec *y, mask asked, double tolerance)
+{
+    vec film, recoil;
+    asked &= vec_abs(y[NORMAL_VELOCITY]) <= STILL;
+    if (!bits(asked))
+        return asked;
+    vec slack = pendulum_slack(c, y, SAFETY*tolerance);
+    pendulum_stops(c, y, &film, &recoil);
+    return asked & (film + slack < 0.0) & (recoil + slack < 0.0);
 }
 #endif
 
@@ -211,6 +224,9 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)asked; (void)tolerance;
+#if PENDULUM
+    return held_at_turn(c, y, asked, tolerance);
+#endif
 #if ATTRACTION_MARGINS
     if (bits(asked))
         return asked & held_by_attraction(c, y, tolerance);
