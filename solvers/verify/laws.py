@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import TYPE_CHECKING
 
 from ..errors import WetDoubletError
@@ -42,14 +43,11 @@ def numeric(
         ("stick certificate", lambda: stick_audit(group, scene, (0.0,) if head_on else None, extent.audited)),
     ]
     if not head_on:
-        laws.append(("e_n > 1", lambda: _grid(group, scene, grid(scene, extent) if budget is None else budget)))
+        data = cache(lambda: grid(scene, extent) if budget is None else budget)
+        laws.append(("cvodes, on the grid", lambda: beside_cvodes(group, scene, data())))
+        laws.append(("e_n > 1", lambda: argument(group, scene, data())))
     for name, law in laws:
         try:
             yield from law()
         except WetDoubletError as failure:
             yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)
-
-
-def _grid(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:
-    yield from beside_cvodes(group, scene, data)
-    yield from argument(group, scene, data)

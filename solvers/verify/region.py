@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray
 
 from ..collision.collide import collide
+from ..collision.result import Collision
 from ..engines.choice import boundary_engine
 from ..scene.scene import Scene
 from .budget import LOSSES, TERMS, budgeted
@@ -36,6 +38,10 @@ def _fast(scene: Scene) -> Collide:
     return partial(collide, engine=boundary_engine(scene))
 
 
+def _reference(scene: Scene, **impact: Any) -> Collision:
+    return collide(scene, engine="cvodes", **impact)
+
+
 def beside_cvodes(group: str, scene: Scene, data: xarray.Dataset, fast: Collide | None = None) -> Iterator[Finding]:
     """Finding on the engine of a budget's grid: a sample of its points beside CVODES.
 
@@ -45,11 +51,10 @@ def beside_cvodes(group: str, scene: Scene, data: xarray.Dataset, fast: Collide 
     fast = fast or _fast(scene)
     done = [(float(data["stokes"][k]), float(data["angle"][j])) for j, k in np.argwhere(data["outcome"].values >= 0)]
     picked = np.unique(np.linspace(0, len(done) - 1, min(_BESIDE, len(done))).round().astype(int))
-    by_cvodes = partial(collide, engine="cvodes")
-    pairs = [
-        (fast(scene, stokes=s, angle=a, rtol=_RTOL), by_cvodes(scene, stokes=s, angle=a, rtol=_RTOL))
-        for s, a in (done[k] for k in picked)
-    ]
+    pairs = []
+    for stokes, angle in (done[k] for k in picked):
+        one, other = (by(scene, stokes=stokes, angle=angle, rtol=_RTOL) for by in (fast, _reference))
+        pairs.append((one, other))
     if pairs:
         yield agreement(group, f"{pairs[0][0].engine} = cvodes, on the grid", pairs)
 

@@ -54,14 +54,14 @@ ATTRACTIONS = (
             LawFunction(
                 "force",
                 (gap,),
-                sp.simplify((van_der_waals_force() / van_der_waals_force().subs(x, x0)).subs(x, gap * x0)),
+                (van_der_waals_force() / van_der_waals_force().subs(x, x0)).subs(x, gap * x0),
                 "Attraction over A a/(6 x0^2).",
                 falls=True,
             ),
             LawFunction(
                 "potential",
                 (gap,),
-                sp.simplify((van_der_waals_potential() / (van_der_waals_force() * x**2 / x0)).subs(x, gap * x0)),
+                (van_der_waals_potential() / (van_der_waals_force() * x**2 / x0)).subs(x, gap * x0),
                 "Potential energy over A a/(6 x0), zero far away.",
             ),
         ),

@@ -7,6 +7,7 @@ from functools import cache
 import sympy as sp
 
 from ...vocabulary.quantities import a, beta, g, l_s, m, string_ratio
+from ..mechanics import without_sines
 from .base import Law, LawFunction
 from .references import DOUBLETS
 
@@ -30,7 +31,8 @@ def swing_squared() -> sp.Expr:
     rest = sp.Matrix([4 * a, 0])
     half = (now - rest) / 2
     sound = (r - 4 * a) ** 2 / 4 + 4 * a * r * sp.sin(beta / 2) ** 2
-    if sp.simplify(half.dot(half) - sound) != 0:
+    half_angle = sp.cos(beta), 1 - 2 * sp.sin(beta / 2) ** 2
+    if sp.expand(without_sines(half.dot(half), beta).subs(*half_angle) - sound) != 0:
         raise ArithmeticError("the swing is not what its cancellation-free form says")
     return sound
 
