@@ -61,7 +61,7 @@ typedef struct {
     double rows[LANES][FIXED];
     double starts[LANES][STATES];
     int parks, resumes; /* trajectories waiting for implicit.h, and trajectories returning from it */
-    double parked[LANES][FIXED + LANE_STATE], resumed[LANES][FIXED + LANE_STATE];
+    double parked[2*LANES][FIXED + LANE_STATE], resumed[2*LANES][FIXED + LANE_STATE];
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, and by each quantity */
     nearness *near;
