@@ -29,6 +29,7 @@ class Batch:
     """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length.
 
     `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`).
+    A chunk of a request has the number of collisions of the whole in `whole`: its engine is the request's and no other.
     """
 
     scene: Scene
@@ -40,10 +41,16 @@ class Batch:
     engine: str
     of: tuple[str, ...]
     texts: dict[str, np.ndarray] = field(default_factory=dict)
+    whole: int = 0
 
     @property
     def size(self) -> int:
         return int(self.angle.size)
+
+    @property
+    def count(self) -> int:
+        """Number of collisions of the request that this batch is a chunk of, or of the batch itself."""
+        return self.whole or self.size
 
     def scene_of(self, k: int) -> Scene:
         """The scene of collision k; InputError if the varied entries make it impossible."""
@@ -78,9 +85,8 @@ class Batch:
             try:
                 scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
                 part = replace(
-                    self.part(which), scene=scene, texts={}, engine=bulk_engine(self.engine, self.size, scene)
+                    self.part(which), scene=scene, texts={}, engine=bulk_engine(self.engine, self.count, scene)
                 )
-                check_some_scene(part)
             except InputError as error:
                 yield which, error
             else:

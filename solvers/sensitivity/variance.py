@@ -32,6 +32,8 @@ def sobol_indices(
     samples: int = 256,
     rtol: float = 1e-6,
     seed: int = 0,
+    client: Any = None,
+    store: str | FilePath | None = None,
 ) -> xarray.Dataset:
     """First-order and total Sobol indices of a result over a box of parameters, uniformly distributed.
 
@@ -40,6 +42,8 @@ def sobol_indices(
         ranges: dotted name -> (low, high), text with its unit or SI. The impact's speed is held unless it varies.
         of: restitution, or another result of `collide_many` (an error if some collision sticks).
         samples: number of base samples, a power of two; samples (2 + parameters) collisions are computed.
+        client, store: a cluster that computes them and a Zarr store that keeps them, as for `collide_many`; a call that
+            was interrupted goes on where it was.
 
     Returns:
         Dataset over `parameter`: `first`, `total`, and half widths of their 95 % intervals; `collisions` in the
@@ -83,7 +87,7 @@ def sobol_indices(
         impact["speed"] = speed
     columns = {name: loaded.as_given(name, column) for name, column in columns.items()}
     keep = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
-    found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep)
+    found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep, client=client, store=store)
     failed = int((found.outcome.values == FAILED).sum())
     result = np.asarray(found[of].values, dtype=float)
     if failed or not np.isfinite(result).all():

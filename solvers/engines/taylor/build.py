@@ -99,6 +99,11 @@ def _processor() -> frozenset[str]:
     return frozenset({"sse2"})
 
 
+def machine() -> str:
+    """The processor that a kernel is compiled for, as text."""
+    return f"{platform.machine()} {' '.join(sorted(_processor()))}"
+
+
 def supported(scene: Scene) -> bool:
     """True if the kernel can integrate a scene here: its laws have recurrences, and there is a compiler."""
     return compiler() is not None and all(headers(select_model(scene, oblique, fold=True)) for oblique in (True, False))
@@ -166,8 +171,7 @@ def _stem(variant: Variant) -> str:
 
 def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
     """File name of the library compiled from a source."""
-    machine = f"{platform.machine()} {' '.join(sorted(_processor()))}"
-    return f"{_stem(variant)}-{key(text, flags, machine)}.so"
+    return f"{_stem(variant)}-{key(text, flags, machine())}.so"
 
 
 def is_compiled(variant: Variant) -> bool:
