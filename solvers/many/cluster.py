@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
+import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..engines.arithmetic import arithmetic, difference, has_kernel
 from ..errors import ComputationError, InputError
+from ..host import bounded
 from ..host.cores import usable_cores
 from ..host.remarks import say
 from ..host.workers import undisturbed
@@ -25,7 +27,7 @@ Task = Callable[[int], Block]
 ACCEPTED = "tcp://HOST:PORT of a running Dask scheduler, the .json file that it wrote, local, or local:WORKERS"
 _ADDRESS = re.compile(r"(tcp|tls|ucx|ws|wss)://[^\s/]+:[0-9]+")
 _LOCAL = re.compile(r"local(:[1-9][0-9]{0,3})?", re.ASCII)
-_HERE: dict[str, Any] = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0}  # of a local cluster
+_HERE: dict[str, Any] = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0, "preload": [__name__]}
 _REFUSALS = 3  # of one chunk, by workers of another arithmetic
 
 
@@ -40,6 +42,8 @@ class Refused:
 def check_scheduler(given: object, label: str) -> Any:
     """Return a client, or the text that names a scheduler; InputError for anything else."""
     if isinstance(given, str):
+        if given.endswith(".json") and not bounded.exists(given):  # Dask would wait for it
+            raise InputError(label, given, ACCEPTED, "is a file that does not exist")
         if _LOCAL.fullmatch(given) or _ADDRESS.fullmatch(given) or given.endswith(".json"):
             return given
         raise InputError(label, given, ACCEPTED, "is no address of a scheduler")
@@ -75,7 +79,7 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
         opened.enter_context(_quiet())
         if _LOCAL.fullmatch(checked):
             count = int(checked.partition(":")[2] or usable_cores())
-            with undisturbed():  # only this process handles an interrupt; it then stops its workers
+            with undisturbed():
                 cluster = LocalCluster(count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE)
             checked = opened.enter_context(cluster)
         try:
@@ -97,6 +101,13 @@ def _quiet() -> Iterator[None]:
         yield
     finally:
         log.setLevel(before)
+
+
+def dask_setup(_worker: object) -> None:
+    """Prepare a worker of a local cluster, which Dask lets preload this file: only its parent handles an interrupt."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
 
 
 def agreed(client: Client, engine: str) -> Mapping[str, str]:
