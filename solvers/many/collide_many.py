@@ -50,8 +50,7 @@ from .results import (
     outcome_attributes,
 )
 from .results import blank as blank_column
-from .store import check_store
-from .stream import Scan, digest, into_memory, into_store, software
+from .stream import Scan, check_places, digest, into_memory, into_store, software
 
 if TYPE_CHECKING:
     import xarray
@@ -118,7 +117,7 @@ def collide_many(
         (2,)
     """
     loaded, kept = Scene.load(scene), check_outputs(of, RESULTS)
-    file = None if store is None else check_store(store, "store")
+    file = check_places(client, store)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     vary = {} if vary is None else vary
     loaded, varied = checked_vary(loaded, vary, most=None, texts=True)

@@ -33,8 +33,7 @@ from .collide_many import Slow, as_text, blank, compute, computed_chunk, empty, 
 from .journal import Journal
 from .journal import journal as checked_journal
 from .results import QUANTITIES, VALIDITY, Block, attributes, outcome_attributes
-from .store import check_store
-from .stream import Progress, Scan, into_memory, into_store, software
+from .stream import Progress, Scan, check_places, into_memory, into_store, software
 
 if TYPE_CHECKING:
     import xarray
@@ -158,7 +157,7 @@ def regime_map(
     """
     told = check_function(progress, "progress"), check_function(slow, "slow")
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    file = None if store is None else check_store(store, "store")
+    file = check_places(client, store)
     grid = _grid(Scene.load(scene), impact, {} if vary is None else vary, MOST if file is None else MOST_STORED)
     by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
     rtol, kept = check_rtol(rtol), checked_journal(journal)

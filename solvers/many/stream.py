@@ -18,7 +18,7 @@ from .chunks import Chunks
 from .cluster import Task, agreed, check_scheduler, computed, connected, one_at_a_time
 from .journal import Journal, beside
 from .results import Block
-from .store import Store, opened
+from .store import Store, check_store, opened
 
 if TYPE_CHECKING:
     import xarray
@@ -49,13 +49,23 @@ class Scan:
     identity: Mapping[str, Any]
 
 
+def check_places(client: object, store: object) -> Path | None:
+    """Check the arguments `client` and `store`, either of which may be None; returns the store's path.
+
+    Raises:
+        InputError: one of them is not what it has to be.
+    """
+    if client is not None:
+        check_scheduler(client, "client")
+    return None if store is None else check_store(store, "store")
+
+
 @contextmanager
 def _blocks(scan: Scan, client: Any, label: str) -> Iterator[tuple[Mapping[str, str], Callable[..., Any]]]:
     """The arithmetic of a run, and a function that yields the chunks of a list with their results."""
     if client is None:
         yield arithmetic(), lambda todo: one_at_a_time(scan.task, todo)
         return
-    check_scheduler(client, label)
     with connected(client, label) as cluster:
         expected = agreed(cluster, scan.engine)
         yield expected, lambda todo: computed(cluster, scan.task, todo, expected)

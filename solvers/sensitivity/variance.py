@@ -14,6 +14,7 @@ from ..host.pictures import register
 from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..many.results import QUANTITIES as MANY
+from ..many.stream import check_places
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import check_rtol
@@ -71,6 +72,7 @@ def sobol_indices(
         check_samples(samples),
         check_whole(seed, "seed", 0, 2**32 - 1),
     )
+    check_places(client, store)
     bounds = [_bounds(loaded, name, ranges[name]) for name in names]
     sample, analyze = _salib()
     problem = {"num_vars": len(names), "names": list(names), "bounds": bounds}
@@ -97,7 +99,7 @@ def sobol_indices(
         )
     if np.ptp(result) == 0:
         raise ComputationError(f"no Sobol indices: {of} is the same over the whole box", advice="choose wider ranges")
-    indices = analyze(problem, result, calc_second_order=False, seed=seed)
+    indices = analyze(problem, result, calc_second_order=False, seed=seed + 1)  # SALib takes 0 for none
     return xr.Dataset(
         {
             "first": ("parameter", np.asarray(indices["S1"])),

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map
+from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map, sobol_indices
 from wetdoublet.solvers.many.chunks import chunks
 
 from ...helpers.command import PATIENCE, run
@@ -83,6 +83,15 @@ def test_stored_collisions_are_the_collisions(tmp_path, cluster):
         same(collide_many("granulation", **request, client=cluster), expected)
 
 
+def test_sobol_indices_of_a_cluster(tmp_path, cluster):
+    """A global study has the same indices and intervals, and keeps its collisions."""
+    pytest.importorskip("SALib")
+    box = {"impact.angle": ("60 deg", "66 deg"), "liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}
+    found = sobol_indices("granulation", box, samples=16, client=cluster, store=tmp_path / "sobol.zarr")
+    xr.testing.assert_identical(found, sobol_indices("granulation", box, samples=16))
+    assert xr.open_zarr(tmp_path / "sobol.zarr").sizes == {"collision": 64}
+
+
 def test_an_interrupted_store_is_continued(tmp_path, serial):
     """Finished chunks are kept, the store has no name before it is complete, and the next run computes the rest."""
     path, seen = tmp_path / "map.zarr", []
@@ -141,21 +150,24 @@ def test_an_unreachable_scheduler_is_bad_input(tmp_path):
     """One line names the option and what is accepted; nothing is left behind."""
     (tmp_path / "else.zarr").mkdir()
     with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}):
-        for words, said in (
+        for option, value, problem, accepted in (
+            ("--scheduler", "tcp://127.0.0.1:9", "is not reachable (", "tcp://HOST:PORT of a running Dask scheduler"),
+            ("--scheduler", "nowhere", "is no address of a scheduler", "local, or local:WORKERS"),
+            ("--scheduler", str(tmp_path / "no.json"), "is a file that does not exist", "local, or local:WORKERS"),
             (
-                ["--scheduler", "tcp://127.0.0.1:9"],
-                "is not reachable (.*); accepted: tcp://HOST:PORT of a running Dask",
+                "-o",
+                str(tmp_path / "else.zarr"),
+                "is something else, which is not overwritten",
+                "a name ending in .zarr",
             ),
-            (["--scheduler", "nowhere"], "is no address of a scheduler; accepted: .* local, or local:WORKERS"),
-            (["--scheduler", str(tmp_path / "no.json")], "is a file that does not exist; accepted: "),
-            (["-o", str(tmp_path / "else.zarr")], "is something else, which is not overwritten; accepted: "),
         ):
-            output = [] if "-o" in words else ["-o", tmp_path / "map.zarr"]
-            done = run("map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60", *words, *output)
-            assert done.exit_code == 2
-            assert done.stderr.startswith(words[0])
-            assert said.split(".*")[-1] in done.stderr
-            assert done.stderr.count("\n") == 1
+            output = () if option == "-o" else ("-o", tmp_path / "map.zarr")
+            done = run("map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60", option, value, *output)
+            line, nothing = done.stderr.split("\n")
+            assert (done.exit_code, nothing) == (2, "")
+            assert line.startswith(f"{option}: ")
+            assert problem in line
+            assert accepted in line.partition("accepted: ")[2]
     with pytest.raises(InputError, match="^client: "):
         collide_many("granulation", client=3)
     assert [path.name for path in tmp_path.iterdir()] == ["else.zarr"]
