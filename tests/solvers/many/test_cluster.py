@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -11,7 +9,7 @@ import xarray as xr
 from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map, sobol_indices
 from wetdoublet.solvers.many.chunks import chunks
 
-from ...helpers.command import PATIENCE, run
+from ...helpers.command import run
 
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
@@ -171,20 +169,3 @@ def test_an_unreachable_scheduler_is_bad_input(tmp_path):
     with pytest.raises(InputError, match="^client: "):
         collide_many("granulation", client=3)
     assert [path.name for path in tmp_path.iterdir()] == ["else.zarr"]
-
-
-def test_nothing_of_a_cluster_is_imported_without_one(tmp_path):
-    """A collision loads neither Dask nor Zarr, a map nothing but what xarray itself looks for."""
-    code = (
-        "import sys, wetdoublet.solvers as wd; from wetdoublet.solvers.commands.map import command\n"
-        "loaded = lambda *names: print({*names} & {*sys.modules})\n"
-        "wd.collide('granulation')\n"
-        "loaded('dask', 'distributed', 'zarr')\n"
-        "command(['granulation', '--stokes', '0.1', '--angle', '60', '-o', 'map.csv'], standalone_mode=False)\n"
-        "loaded('distributed', 'zarr')"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=True
-    )
-    assert done.stdout == "set()\n" * 2
-    assert (tmp_path / "map.csv").exists()
