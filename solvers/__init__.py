@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
+    from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .host.pictures import plot
     from .many.collide_many import collide_many
@@ -42,6 +43,7 @@ _HOMES = {
     "boundary": "boundaries.boundary",
     "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "collision.collide",
+    "compile_kernels": "engines.kernels",
     "collide_many": "many.collide_many",
     "gradients_many": "sensitivity.gradients_many",
     "plot": "host.pictures",
@@ -69,6 +71,7 @@ __all__ = [
     "boundary_sensitivities",
     "collide",
     "collide_many",
+    "compile_kernels",
     "gradients_many",
     "plot",
     "regime_map",

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from .helpers.data import BOUNDARIES, COLLISIONS
+
+os.environ["WETDOUBLET_BACKGROUND"] = "off"  # nothing outlives the tests but where that is tested
 
 # no test depends on how fast the machine is
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -8,7 +8,7 @@ import wetdoublet.solvers as solvers
 
 GROUPS = {
     "Scenes": ("Scene",),
-    "Collisions": ("collide", "Collision", "collide_many", "regime_map"),
+    "Collisions": ("collide", "Collision", "collide_many", "regime_map", "compile_kernels"),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
     "Sensitivities and uncertainty": (
         "sensitivities",

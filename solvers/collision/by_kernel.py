@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from ..engines.casadi.trajectory import Stretch
 
 
+_MOST_EVENTS = 1000  # of a result; chatter that lasts longer is followed by CasADi, whose certificates end it sooner
+
+
 def kind_of(answer: np.void) -> tuple[str, str | None]:
     """Outcome of a kernel record, and the first rebound criterion met (None if none)."""
     return OUTCOMES[answer["outcome"]], KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
@@ -45,7 +48,7 @@ def collision(
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
     recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
-    if recorded is None or recorded.answers["status"][0] > LAST_ANSWER:
+    if recorded is None or recorded.answers["status"][0] > LAST_ANSWER or recorded.answers["events"][0] > _MOST_EVENTS:
         return None
     energy = None if recorded.ledger is None else _energy(scene, n, recorded.ledger[0])
     found = recorded.answers[0]
@@ -101,9 +104,10 @@ def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Rec
     assert recorded.steps is not None
     model = load(select_model(scene, n.oblique, full=full, fold=True))
     attrs = attributes(scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
-    return dataset(
-        stretches(recorded.steps, len(model.state)), model, n, model.start(model.group_values(n.groups)), attrs
-    )
+    first = model.start(model.group_values(n.groups))
+    if recorded.answers["reversal"][0] >= 0:  # where initial contact decides, the state after it
+        first[list(model.state).index("normal_velocity")] = n.groups["dry_restitution"]
+    return dataset(stretches(recorded.steps, len(model.state)), model, n, first, attrs)
 
 
 def stretches(steps: Steps, states: int) -> list[Stretch]:

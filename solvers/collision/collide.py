@@ -7,7 +7,7 @@ from pathlib import Path as FilePath
 from ...generated.automaton import STICK
 from ..engines.choice import single_engine
 from ..host.arguments import check_flag
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import UNTIL, check_engine, check_rtol
@@ -39,8 +39,8 @@ def collide(
         relative_speed: magnitude of the relative velocity, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
-        engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None
-            chooses (cvodes for one collision).
+        engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None is
+            taylor if its kernel is compiled, else cvodes, while a background process compiles it for later processes.
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
         until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
@@ -61,22 +61,17 @@ def collide(
         >>> collide("granulation", stokes=0.02, angle="75 deg").restitution > 1
         True
     """
-    rtol, plugin = check_rtol(rtol), single_engine(check_engine(engine))
+    rtol, asked = check_rtol(rtol), check_engine(engine)
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
-    by = _by_kernel if plugin == "taylor" else by_casadi
-    return by(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
-
-
-def _by_kernel(
-    scene: Scene, n: DimensionlessGroups, rtol: float, _plugin: str, ledger: bool, trajectory: bool, until: float | None
-) -> Collision:
-    """By the Taylor kernel; by Rosenbrock where it does not complete the collision, and for a stick followed on."""
-    found = collision(scene, n, rtol, ledger, trajectory)
-    if found is not None and (until is None or found.outcome != STICK):
-        return found
-    return by_casadi(scene, n, rtol, "rosenbrock", ledger, trajectory, until=until)
+    plugin = single_engine(asked, loaded, dimensionless.oblique, rtol, ledger, trajectory)
+    if plugin == "taylor":
+        found = collision(loaded, dimensionless, rtol, ledger, trajectory)
+        if found is not None and (last is None or found.outcome != STICK):
+            return found
+        plugin = "cvodes" if asked is None else "rosenbrock"  # it was not completed, or a stick is followed on
+    return by_casadi(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ...generated import scaling
 from ..host.compiler import compiler, more_flags
-from .taylor.build import lanes, machine
+from .taylor.machine import described, lanes
 
 _NONE = "none"
 
@@ -29,7 +29,7 @@ def arithmetic() -> dict[str, str]:
         "compiler": _NONE if found is None else found.version,
         "WETDOUBLET_CFLAGS": " ".join(more_flags()) or _NONE,
         "lanes": str(lanes()),
-        "processor": machine(),
+        "processor": described(),
         **_software(),
     }
 

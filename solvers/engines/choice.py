@@ -6,24 +6,51 @@ from collections.abc import Collection, Sequence
 
 from ..scene.scene import Scene
 from ..settings import CASADI_ENGINES, ENGINES, FEW
-from .taylor.build import is_compiled, supported
-from .taylor.call import order_for
+from .taylor.build import at_hand, supported
+from .taylor.call import variant_for_many
+from .taylor.orders import order_for
+from .taylor.record import variant_to_record
 from .taylor.tangent import differentiates, variant_of
 
 
-def single_engine(asked: str | None) -> str:
-    """The engine for one collision: CVODES, whose error control is independent of ours."""
-    return asked or "cvodes"
+def single_engine(asked: str | None, scene: Scene, oblique: bool, rtol: float, ledger: bool, trajectory: bool) -> str:
+    """The engine for one collision: the requested one, else the Taylor kernel if it is compiled, else CVODES."""
+    if asked is not None:
+        return asked
+    return "taylor" if at_hand((variant_to_record(scene, oblique, rtol, ledger, trajectory),)) else "cvodes"
 
 
-def bulk_engine(asked: str | None, count: int, scene: Scene) -> str:
-    """The engine for `count` collisions of a scene: the requested one, else the Taylor kernel for more than `FEW`.
+def bulk_engine(
+    asked: str | None,
+    count: int,
+    scene: Scene,
+    rtol: float,
+    oblique: Collection[bool],
+    rotation: bool = False,
+    ledger: bool = False,
+    varied: bool = False,
+) -> str:
+    """The engine for `count` collisions of a scene.
 
-    Rosenbrock replaces the kernel, even a requested one, where the kernel does not support the scene or there is no
-    compiler.
+    It is the requested one, else the Taylor kernel: compiled if need be for more than `FEW`, for fewer only where it
+    is compiled. Rosenbrock replaces the kernel, even a requested one, where the kernel does not support the scene or
+    there is no compiler.
+
+    Arguments:
+        oblique: contains True if some collisions are oblique, False if some are head-on; these are separate kernels.
+        rotation, ledger: requested beside the outcome.
+        varied: entries other than the impact's vary.
     """
-    if asked not in (None, "taylor") or (asked is None and count <= FEW):
-        return asked or "rosenbrock"
+    if asked not in (None, "taylor"):
+        return asked
+    if asked is None and count <= FEW:
+        needed = tuple(
+            variant_to_record(scene, own, rtol, ledger=True, fold=not varied)
+            if ledger
+            else variant_for_many(scene, own, rtol, rotation, fold=not varied)
+            for own in sorted(oblique)
+        )
+        return _kernel_or_rosenbrock(bool(needed) and at_hand(needed))
     return _kernel_or_rosenbrock(supported(scene))
 
 
@@ -42,7 +69,7 @@ def gradient_engine(
 ) -> str:
     """The engine for first derivatives, forward, of `count` collisions of a scene (docs/engineering/kernel.md).
 
-    It is the Taylor kernel if already compiled or if the collisions are many; else CasADi's Rosenbrock.
+    It is the Taylor kernel if it is compiled or if the collisions are many; else CasADi's Rosenbrock.
 
     Arguments:
         of: requested results.
@@ -54,7 +81,7 @@ def gradient_engine(
     if count > FEW:
         return _kernel_or_rosenbrock(differentiates(scene, oblique))
     order, rotation = order_for(rtol), "rotation" in of
-    return _kernel_or_rosenbrock(all(is_compiled(variant_of(scene, own, order, rotation)) for own in oblique))
+    return _kernel_or_rosenbrock(at_hand(tuple(variant_of(scene, own, order, rotation) for own in sorted(oblique))))
 
 
 def available_engines(scene: Scene) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ import stat
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -34,6 +34,7 @@ Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
 _PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
+_LOCKED = ".background"  # file whose lock says that a background process is at work
 _MAKING = ".making-"  # prefix of temporary files
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
@@ -48,7 +49,12 @@ _MAKING_OF = Locks()
 
 def folder() -> Path:
     """The user's cache folder, which need not exist; WETDOUBLET_CACHE overrides the default."""
-    named = os.environ.get(_NAMED)
+    return _folder(os.environ.get(_NAMED), os.environ.get("XDG_CACHE_HOME"), os.environ.get("HOME"))
+
+
+@lru_cache(maxsize=16)
+def _folder(named: str | None, *_usual: str | None) -> Path:
+    """The folder by the environment variables that it depends on."""
     if named:
         return Path(named)
     from platformdirs import user_cache_path
@@ -138,6 +144,16 @@ def room() -> Iterator[Path]:
         else:
             raise OSError(errno.ENOSPC, "no room to compile in", str(own))
         yield path
+
+
+def lock_file() -> int | None:
+    """Descriptor of the file in the user's folder that background processes lock; None if it cannot be written."""
+    place = folder()
+    try:
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        return os.open(place / _LOCKED, os.O_RDWR | os.O_CREAT, 0o600) if _private(place) else None
+    except OSError:
+        return None
 
 
 # ---- reading

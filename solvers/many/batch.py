@@ -21,15 +21,17 @@ from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
-from .results import MAPPED, VALIDITY
+from .results import LEDGER, MAPPED, VALIDITY
 
 
 @dataclass(frozen=True)
 class Batch:
     """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length.
 
-    `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`).
-    A chunk of a request has the number of collisions of the whole in `whole`: its engine is the request's and no other.
+    `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`),
+    and the engine is chosen for each. `asked` is the requested engine.
+    A chunk of a request has the number of collisions of the whole in `whole`, and keeps the whole's engines: `engine`,
+    and by the choices of a scene `engines`.
     """
 
     scene: Scene
@@ -40,8 +42,10 @@ class Batch:
     rtol: float
     engine: str
     of: tuple[str, ...]
+    asked: str | None = None
     texts: dict[str, np.ndarray] = field(default_factory=dict)
     whole: int = 0
+    engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -84,9 +88,8 @@ class Batch:
             which = np.flatnonzero((columns == np.array(row)).all(axis=1))
             try:
                 scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
-                part = replace(
-                    self.part(which), scene=scene, texts={}, engine=bulk_engine(self.engine, self.count, scene)
-                )
+                part = replace(self.part(which), scene=scene, texts={})
+                part = replace(part, engine=self.engines.get(row) or engine_for(part, self.count))
             except InputError as error:
                 yield which, error
             else:
@@ -124,16 +127,33 @@ def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str
     """A Batch of checked columns of one length, by dotted name."""
     angle, relative = columns.pop("impact.angle"), columns.pop("impact.relative_speed", None)
     speed = columns.pop("impact.speed", None)
-    return Batch(
+    made = Batch(
         scene=scene,
         stokes=columns.pop("impact.stokes", None),
         speed=speed if relative is None else normal_speed(relative, angle),
         angle=angle,
         vary={name: column for name, column in columns.items() if column.dtype.kind == "f"},
         rtol=check_rtol(rtol),
-        engine=bulk_engine(check_engine(engine), angle.size, scene),
+        engine=(asked := check_engine(engine)) or "rosenbrock",
         of=of,
+        asked=asked,
         texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
+    )
+    return made if made.texts else replace(made, engine=engine_for(made, made.size))
+
+
+def engine_for(request: Batch, count: int) -> str:
+    """The engine for a batch that is one scene's part of `count` collisions."""
+    turns = request.angle > 0
+    return bulk_engine(
+        request.asked,
+        count,
+        request.scene,
+        request.rtol,
+        {bool(each) for each in (turns.any(), turns.all())} if turns.size else (),
+        rotation="rotation" in request.of,
+        ledger=any(name in LEDGER for name in request.of),
+        varied=bool(request.vary),
     )
 
 

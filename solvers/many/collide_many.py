@@ -87,7 +87,8 @@ def collide_many(
         angle: impact angles in rad; default the scene's.
         vary: other entries by dotted name: SI numbers, or the names of laws and other choices.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
+            compiler), "rosenbrock" or "cvodes".
         of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
             model leaves its range, with the results that these need).
@@ -139,8 +140,9 @@ def _in_chunks(request: Batch, layout: Layout | None, client: Any, file: FilePat
     """Compute a request chunk by chunk, on a cluster, into a store, or both."""
     if file is not None and not request.size:
         raise InputError("store", str(file), "at least one collision to write", "would be empty")
-    engine = _engines(request)
-    scan = _scan(request, layout, engine)
+    engines = _engines(request)
+    engine = ", ".join(dict.fromkeys(engines.values()))
+    scan = _scan(replace(request, whole=request.size, engines=engines), layout, engine)
     if file is not None:
         return into_store(scan, file, client)
     results = blank(request.size, request.of)
@@ -149,10 +151,11 @@ def _in_chunks(request: Batch, layout: Layout | None, client: Any, file: FilePat
     return as_dataset(request, results, layout, engine)
 
 
-def _engines(request: Batch) -> str:
-    """The engines of a request, whose scenes are checked and warned of here, and not on workers."""
-    engines, first = dict[str, None](), None
-    for part in (part for _, part in request.by_text()) if request.texts else (request,):
+def _engines(request: Batch) -> dict[tuple[str, ...], str]:
+    """The engines of a request by its choices; scenes are checked and warned of here, and not on workers."""
+    engines: dict[tuple[str, ...], str] = {}
+    first = None
+    for where, part in request.by_text() if request.texts else ((np.arange(1), request),):
         try:
             if isinstance(part, InputError):
                 raise part
@@ -160,11 +163,11 @@ def _engines(request: Batch) -> str:
         except InputError as error:
             first = first or error
         else:
-            engines[part.engine] = None
+            engines[tuple(str(values[where[0]]) for values in request.texts.values())] = part.engine
             warn(part.scene)
     if first is not None and not engines:
         raise first
-    return ", ".join(engines)
+    return engines
 
 
 def _scan(request: Batch, layout: Layout | None, engine: str) -> Scan:
@@ -192,7 +195,7 @@ def _scan(request: Batch, layout: Layout | None, engine: str) -> Scan:
     return Scan(
         cut,
         request.engine,
-        task=lambda k: partial(computed_chunk, replace(request.part(cut.flat(k)), whole=request.size)),
+        task=lambda k: partial(computed_chunk, request.part(cut.flat(k))),
         dataset=dataset,
         blank=lambda k: blank(math.prod(cut.extent(k)), request.of),
         fixed=coordinates,

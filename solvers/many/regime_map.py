@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
-from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
@@ -27,7 +26,7 @@ from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary
+from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, engine_for
 from .chunks import chunks
 from .collide_many import Slow, as_text, blank, compute, computed_chunk, empty, fill, validity
 from .journal import Journal
@@ -68,6 +67,10 @@ class Grid:
         """The same scenes, each with the first impact alone."""
         return replace(self, angle=self.angle[:1], values=self.values[:1])
 
+    def all_angles(self) -> Grid:
+        """Every angle once, with the first of everything else."""
+        return replace(self, values=self.values[:1], vary={name: axis[:1] for name, axis in self.vary.items()})
+
     @cached_property
     def order(self) -> np.ndarray:
         """Flat indices in the order of computation: the collisions of one scene follow one another."""
@@ -86,8 +89,8 @@ class Grid:
             return values / stokes_per_speed
         return values if self.impact == "speed" else np.asarray(normal_speed(values, angle))
 
-    def request(self, rtol: float, engine: str, of: Sequence[str]) -> Batch:
-        """All collisions of the grid as one batch."""
+    def request(self, rtol: float, asked: str | None, of: Sequence[str]) -> Batch:
+        """All collisions of the grid as one batch, its engine not chosen yet."""
         full = np.meshgrid(self.angle, self.values, *self.vary.values(), indexing="ij")
         angle, values, *varied = (axis.ravel() for axis in full)
         return Batch(
@@ -97,8 +100,9 @@ class Grid:
             angle=angle,
             vary=dict(zip(self.vary, varied, strict=True)),
             rtol=rtol,
-            engine=engine,
+            engine=asked or "rosenbrock",
             of=tuple(of),
+            asked=asked,
         )
 
 
@@ -128,7 +132,8 @@ def regime_map(
         angle: impact angles in rad, an axis or a single number; default the scene's.
         vary: other entries by dotted name (SI), each an axis of its own.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default for more than 100 collisions where there is a C compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
+            compiler), "rosenbrock" or "cvodes".
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
             smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
@@ -159,10 +164,10 @@ def regime_map(
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     file = check_places(client, store)
     grid = _grid(Scene.load(scene), impact, {} if vary is None else vary, MOST if file is None else MOST_STORED)
-    by = bulk_engine(check_engine(engine), math.prod(grid.shape), grid.scene)
-    rtol, kept = check_rtol(rtol), checked_journal(journal)
-    asked = _Asked(grid, rtol, by, check_outputs(of))
-    check_some_scene(grid.one_impact().request(rtol, by, ()))
+    wanted, rtol, results, kept = check_engine(engine), check_rtol(rtol), check_outputs(of), checked_journal(journal)
+    check_some_scene(grid.one_impact().request(rtol, wanted, ()))
+    by = engine_for(grid.all_angles().request(rtol, wanted, results), math.prod(grid.shape))
+    asked = _Asked(grid, rtol, by, results)
     warn(grid.scene)
     if file is not None:
         return into_store(_scan(asked), file, client, told[0] or (lambda _done, _total: None), kept)

@@ -56,19 +56,21 @@ def grouped(entries: Mapping[str, Any]) -> dict[str, Any]:
     return {name: entries[name] for table in tables for name in entries if name.partition(".")[0] == table}
 
 
-def check_entries(entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False) -> None:
-    """Raise InputError for an entry that is unknown, wrong by itself, or an alternative to another given one."""
+def check_entries(
+    entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False
+) -> dict[str, float | str]:
+    """Return the entries in SI; InputError for one that is unknown, wrong by itself, or an alternative to another."""
     known = custom.fields(package)
     for name, raw in entries.items():
         if name not in known:
             raise custom.unknown(name, raw, package) or unknown_entry(name, raw)
-    for name, raw in entries.items():
-        known[name].read(raw, from_file=from_file)
+    read = {name: known[name].read(raw, from_file=from_file) for name, raw in entries.items()}
     for ways in ALTERNATIVES:
         first, *others = [name for name in ways if name in entries] or [""]
         if others:
             problem = f"is given together with {first} = {shown(entries[first])}"
             raise InputError(others[0], entries[others[0]], "only one of " + ", ".join(ways), problem)
+    return read
 
 
 def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
@@ -171,10 +173,9 @@ def check_together(scene: System) -> None:
     x0 = scene.liquid.film_thickness
     said = _film_said(given, x0)
     ruptured = scene.rupture_gap
-    values = _without_impact(scene)
     for word in AT_ANY_SPEED:
         name = ENTRIES[word]
-        if name in given and gap_at_any_speed(word, values) >= 1:
+        if name in given and gap_at_any_speed(word, scene.material) >= 1:
             accepted = f"{FIELDS[name].what} below {said}"
             raise InputError(name, given[name], accepted, "is not below the film thickness")
     if scene.bridge is not None and not x0 < ruptured < math.inf:
@@ -194,11 +195,7 @@ def check_together(scene: System) -> None:
             problem = "is too short for two spheres to swing around each other"
             accepted = f"a string length above 4a + x_f/2 = {least:.6g} m"
             raise InputError("pendulum.length", given["pendulum.length"], accepted, problem)
-    _check_speed(scene)
-
-
-def _without_impact(scene: System) -> dict[str, Any]:
-    return quantities({name: value for name, value in scene.si if not name.startswith("impact.")}, scene.ways)
+    check_speed(scene)
 
 
 def _film_said(given: Mapping[str, Any], x0: float) -> str:
@@ -260,7 +257,7 @@ def _check_laws(scene: System) -> None:
         accepted = f"common, or own with bridge.law one of {', '.join(OWN_RUPTURE)}"
         problem = f"is not known for the law {bridge.law}"
         raise InputError("bridge.rupture", bridge.rupture, accepted, problem)
-    no_contact = never_touching(_without_impact(scene))
+    no_contact = never_touching(scene.material)
     if scene.attraction is not None and scene.attraction.hamaker > 0 and no_contact:
         accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}"
         problem = "lets the gap close, where the van der Waals attraction is without bounds"
@@ -275,7 +272,7 @@ OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lam
 """Bridge laws whose authors give a rupture distance with them."""
 
 
-def _check_speed(scene: System) -> None:
+def check_speed(scene: System) -> None:
     """Raise InputError if the Stokes number or the speed leaves the range of a double."""
     given, a = dict(scene.given), scene.reduced_radius
     drag = 6 * math.pi * scene.liquid.viscosity * a * a

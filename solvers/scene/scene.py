@@ -14,7 +14,7 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
-from .quantities import SHADOW, Ways, coating_fraction, normal_speed, shared
+from .quantities import SHADOW, Ways, coating_fraction, normal_speed, quantities, shared
 from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
@@ -292,14 +292,43 @@ class Scene:
         changes = {name: value for name, value in impact.items() if value is not None}
         if not changes:
             return self
-        rules.check_entries(changes, self.package)
-        replaced = {*SPEEDS} if {*changes} - {"impact.angle"} else set()
-        kept = {name: value for name, value in self.given if name not in replaced}
-        entries = _in_order({**dict(self.given), **changes}, {**kept, **changes})
-        comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
-        return type(self)(self.name, tuple(entries), comments, self.package)
+        read, known = rules.check_entries(changes, self.package), fields(self.package)
+        replaced = {*SPEEDS} - {*changes} if {*changes} - {"impact.angle"} else set()
+        entries = {name: value for name, value in self.given if name not in replaced}
+        again = changes.keys() <= entries.keys()  # then the order is the same
+        entries |= {name: self._kept(known[name], raw) for name, raw in changes.items()}
+        return self._at_impact(
+            tuple(entries.items() if again else _in_order({**dict(self.given), **changes}, entries)), read
+        )
+
+    def _at_impact(self, given: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str]) -> Self:
+        """Return the scene of these entries, of which only those of the impact differ; what has not changed is kept.
+
+        Equal to the scene that `__post_init__` makes of the same entries, with the rules that concern an impact.
+
+        Arguments:
+            read: those that differ, SI.
+        """
+        values = {**dict(self.si), **read}
+        unchanged = {name for name, _ in given} - read.keys()
+        si = tuple((name, values[name]) for name, _ in given)
+        made = object.__new__(type(self))
+        made.__dict__.update({name: value for name, value in self.__dict__.items() if name != "_written"})
+        made.__dict__.update(
+            given=given,
+            comments=tuple((name, text) for name, text in self.comments if name in unchanged),
+            si=si,
+            impact=Impact.of({name.partition(".")[2]: value for name, value in si if name.startswith("impact.")}),
+        )
+        rules.check_speed(made)
+        return made
 
     # ---- quantities of the pair
+
+    @cached_property
+    def material(self) -> Mapping[str, float]:
+        """The quantities by vocabulary name, SI, without those of the impact. Read only."""
+        return quantities({name: value for name, value in self.si if not name.startswith("impact.")}, self.ways)
 
     @property
     def wall(self) -> bool:
@@ -332,7 +361,7 @@ class Scene:
 
     # ---- lengths, and the impact as Stokes number and as speed
 
-    @property
+    @cached_property
     def rupture_gap(self) -> float:
         """x_f in m: rupture gap of the bridge, or without one the film thickness."""
         if self.bridge is None:
@@ -345,7 +374,7 @@ class Scene:
             return None
         return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
 
-    @property
+    @cached_property
     def stokes_per_speed(self) -> float:
         """m/(6 pi mu a^2) in s/m: ratio of the Stokes number to the normal speed."""
         return scaled("stokes", self, speed=1.0)

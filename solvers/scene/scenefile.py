@@ -6,6 +6,7 @@ import json
 import os
 import re
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -31,7 +32,7 @@ _REMARK = re.compile(r"\s*([A-Za-z_]+)\s*=\s*(?:\"(?:[^\"\\\\]|\\\\.)*+\"|'[^']*
 def read_text(source: str | Path) -> tuple[str, str]:
     """Return the text of a preset (by name) or a file, and the name to use for it in errors."""
     if isinstance(source, str) and source in PRESETS:
-        return (_FOLDER / f"{source}.toml").read_text(encoding="utf-8"), source
+        return _preset(source), source
     accepted = "a scene file (TOML) or a preset: " + ", ".join(PRESETS)
     if not isinstance(source, (str, os.PathLike)):
         raise InputError("scene", source, f"a Scene, {accepted}", "is not the name of a file")
@@ -52,6 +53,11 @@ def read_text(source: str | Path) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise InputError(f"{source}, line {line}", None, accepted, "is not UTF-8 text") from None
+
+
+@cache
+def _preset(name: str) -> str:
+    return (_FOLDER / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def template(name: str) -> str:

@@ -10,7 +10,8 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import EventSequence
-from ..engines.taylor.call import Impacts, order_for
+from ..engines.taylor.call import Impacts
+from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import si_values

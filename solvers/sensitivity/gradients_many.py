@@ -13,7 +13,8 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
-from ..engines.taylor.call import Impacts, order_for
+from ..engines.taylor.call import Impacts
+from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled

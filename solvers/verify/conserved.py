@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..errors import WetDoubletError
+from ..settings import ENGINES
 from .report import Finding, bounded
 from .sample import REFERENCE, RTOL, Sample, where
 
@@ -42,19 +43,18 @@ def conserved(group: str, sample: Sample) -> Iterator[Finding]:
 
 
 def _agreement(group: str, sample: Sample) -> Iterator[Finding]:
-    """Comparison of every engine with the reference, in outcome and e_n."""
-    pairs = [
-        (one, impact[REFERENCE])
-        for impact in sample.impacts
-        if REFERENCE in impact
-        for engine, one in impact.items()
-        if engine != REFERENCE
-    ]
-    for engine in dict.fromkeys(one.engine for one, _ in pairs):
-        judged = [(_apart(one, other), _allowed(one, other), one) for one, other in pairs if one.engine == engine]
+    """Comparison of the engines in outcome and e_n: with the one that locates events, and the kernel with CVODES."""
+    for engine, reference in (*((each, REFERENCE) for each in ENGINES if each != REFERENCE), ("taylor", "cvodes")):
+        judged = [
+            (_apart(one, other), _allowed(one, other), one)
+            for one, other in ((impact.get(engine), impact.get(reference)) for impact in sample.impacts)
+            if one is not None and other is not None and one.engine == engine
+        ]
+        if not judged:
+            continue
         figure, bound, one = max(judged, key=lambda found: found[0] / found[1])
         statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
-        yield bounded(group, f"{engine} = {REFERENCE}", statement, figure, bound, where(one))
+        yield bounded(group, f"{engine} = {reference}", statement, figure, bound, where(one))
 
 
 def _residual(one: Collision) -> float:

@@ -20,6 +20,8 @@ import numpy as np
 from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.machine import lanes
+from wetdoublet.solvers.engines.taylor.orders import order_for
 from wetdoublet.solvers.host.environment import environment
 
 from .measured.tasks import Task
@@ -56,7 +58,7 @@ def work() -> list[dict[str, Any]]:
                 {
                     "task": task.preset,
                     "rtol": rtol,
-                    "order": engine.order_for(rtol),
+                    "order": order_for(rtol),
                     "microseconds": 1e6 * cpu / undecided,
                     "steps": float(one["steps"].sum() / (undecided / REPEATS)),
                     "largest error": float(np.abs(one["shown"][:, 0] - exact.restitution.values).max()),
@@ -79,7 +81,7 @@ def table(rows: list[dict[str, Any]]) -> str:
 def main() -> None:
     """Measure everything."""
     assert Scene.load("granulation")
-    record = {"environment": environment(), "lanes": library.lanes(), "flags": library.FLAGS}
+    record = {"environment": environment(), "lanes": lanes(), "flags": library.FLAGS}
     record["work"] = work()
     text = f"""{BEGIN}
 {record["lanes"]} lanes. CPU time a collision that is not decided at initial contact:

@@ -22,8 +22,8 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import gradients_many
-from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.machine import lanes
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.sensitivity.by_kernel import gradients_by_kernel
 from wetdoublet.solvers.sensitivity.parameters import known
@@ -126,7 +126,7 @@ def table(rows: list[dict[str, Any]]) -> str:
 
 def main() -> None:
     """Measure everything."""
-    record: dict[str, Any] = {"environment": environment(), "lanes": library.lanes(), "parameters": {}, "beside": []}
+    record: dict[str, Any] = {"environment": environment(), "lanes": lanes(), "parameters": {}, "beside": []}
     texts = []
     for task in TASKS:
         asked = Gradients.of(task)

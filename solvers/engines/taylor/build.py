@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
+import os
 import platform
 import threading
-from collections.abc import Collection
+import time
+from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...host.compiler import CannotCompile, compiler, key, more_flags, stop
+from ...host.background import TimeUp, begin
+from ...host.compiler import CannotCompile, compiler, is_named, key, more_flags, stop
 from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
 from ...host.remarks import say_once
 from ...host.thread_caches import once
-from ...host.user_cache import has, kept, loaded
+from ...host.user_cache import folder, found, has, kept, loaded
 from ...model.model import ModelKey, select_model
 from .headers import automaton, headers, tangents
 from .includes import resolved
 from .layout import MOST_STEPS, RESULTS, declarations
+from .machine import described, lanes, native
 
 if TYPE_CHECKING:
     from ...scene.scene import Scene
@@ -31,7 +38,7 @@ if TYPE_CHECKING:
 FLAGS = (
     "-O2",
     "-funroll-loops",
-    "-march=native",
+    native(platform.machine()),
     "-fno-math-errno",
     "-ffp-contract=fast",
     "-fPIC",
@@ -41,9 +48,7 @@ FLAGS = (
 )
 # For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
-LARGEST_ORDER = 16
 _ONCE = "#pragma once"
-_NEEDED = {8: "avx512dq", 4: "avx2", 2: "sse2"}
 
 
 @dataclass(frozen=True)
@@ -51,7 +56,7 @@ class Variant:
     """Compile-time options of a kernel.
 
     Arguments:
-        order: of the series, 8 to LARGEST_ORDER.
+        order: of the series (`orders.py`).
         rotation: with the angle turned as a quadrature, where it is not a state.
         own_rupture: the bridge ruptures at its law's own distance.
         gradients: with derivatives by the groups, along the trajectory.
@@ -59,6 +64,7 @@ class Variant:
         few: for few collisions: compiled faster.
         ledger: with the energy ledger; the structure must keep the spin.
         trajectory: every step is recorded.
+        lanes: collisions side by side, 1, 2, 4 or 8; as many as the processor has room for.
     """
 
     choice: ModelKey
@@ -70,38 +76,13 @@ class Variant:
     few: bool = False
     ledger: bool = False
     trajectory: bool = False
+    lanes: int = field(default_factory=lanes)
 
     def __post_init__(self) -> None:
         """Reset options without effect, so that equal kernels are compiled once."""
         structure = self.choice.structure
         if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
             object.__setattr__(self, "rotation", False)
-
-
-@cache
-def lanes() -> int:
-    """Number of doubles in a vector register of this machine."""
-    flags = _processor()
-    return next((count for count, flag in _NEEDED.items() if flag in flags), 1)
-
-
-@cache
-def _processor() -> frozenset[str]:
-    """Processor features, as the operating system reports them; on other systems the baseline is assumed."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-    except OSError:
-        lines = []
-    for line in lines:
-        name, _, value = line.partition(":")
-        if name.strip() in ("flags", "Features"):
-            return frozenset(value.split())
-    return frozenset({"sse2"})
-
-
-def machine() -> str:
-    """The processor that a kernel is compiled for, as text."""
-    return f"{platform.machine()} {' '.join(sorted(_processor()))}"
 
 
 def supported(scene: Scene) -> bool:
@@ -111,19 +92,18 @@ def supported(scene: Scene) -> bool:
 
 def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     """C source of a kernel, from its emitted headers."""
-    return resolved('#include "entry.h"\n', files(variant, emitted, lanes()))
+    return resolved('#include "entry.h"\n', files(variant, emitted))
 
 
-def files(variant: Variant, emitted: tuple[str, ...], lanes: int) -> dict[str, str]:
+def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     """Files of a variant that the runtime includes besides its own, by name.
 
     Arguments:
         emitted: its emitted headers.
-        lanes: doubles side by side.
     """
     slots = dict(variant.choice.laws)
     settings = {
-        "LANES": lanes,
+        "LANES": variant.lanes,
         "ORDER": variant.order,
         "TERMS": variant.order + 1,
         "WITH_ROTATION": int(variant.rotation),
@@ -171,7 +151,7 @@ def _stem(variant: Variant) -> str:
 
 def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
     """File name of the library compiled from a source."""
-    return f"{_stem(variant)}-{key(text, flags, machine())}.so"
+    return f"{_stem(variant)}-{key(text, flags, described())}.so"
 
 
 def is_compiled(variant: Variant) -> bool:
@@ -189,34 +169,106 @@ def _expected(variant: Variant, flags: tuple[str, ...]) -> str | None:
 
 
 @once
+def _was_compiled(variant: Variant, _cache: Path) -> bool:
+    """`is_compiled` of either way of compiling it, as it was when this process first asked."""
+    return any(is_compiled(replace(variant, few=few)) for few in (False, True))
+
+
+def at_hand(variants: Collection[Variant]) -> bool:
+    """True if the kernels were compiled when this process first asked; else a background process compiles them.
+
+    The answer stays for as long as this process, so that a repeated request repeats its digits.
+    """
+    missing = tuple(variant for variant in variants if not _was_compiled(variant, folder()))
+    if missing:
+        _compile_beside(missing, folder())
+    return not missing
+
+
+@once
+def _compile_beside(variants: tuple[Variant, ...], _cache: Path) -> None:
+    wanted = tuple(variant for variant in variants if not has(_refused(variant)))
+    if wanted and is_named():
+        begin(compile_or_refuse, wanted)
+
+
+def compile_or_refuse(variants: Collection[Variant]) -> None:
+    """Compile kernels into the cache; stop at one that cannot be compiled, and note it there for later processes."""
+    if compiler() is None:
+        return
+    for variant in variants:
+        made = False
+        with suppress(TimeUp):
+            made = kernel(variant) is not None
+        if not made:
+            kept(f"{_refused(variant)}txt", lambda: b"this kernel cannot be compiled\n")
+            return
+
+
+def _refused(variant: Variant) -> str:
+    """Stem, with its dot, of the entry which says that a variant cannot be compiled, by this version and compiler."""
+    package, named = variant.choice.package, os.environ.get("CC", "")
+    own = replace(variant, choice=replace(variant.choice, package=None)), package and package.digest
+    content = repr((own, _flags(variant), named, version("wetdoublet")))
+    return f"refused-{hashlib.sha256(content.encode(errors='surrogateescape')).hexdigest()[:32]}."
+
+
+@once
+def for_few(variant: Variant) -> Variant:
+    """The variant to integrate few collisions with: itself if it is compiled, else one that compiles faster."""
+    return variant if is_compiled(variant) else replace(variant, few=True)
+
+
+@once
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for an unsupported model, without a compiler, or if compilation fails."""
-    found, emitted = compiler(), _emitted(variant)
-    if found is None or emitted is None:
+    tool, emitted = compiler(), _emitted(variant)
+    if tool is None or emitted is None:
         return None
     text, flags = source(variant, emitted), _flags(variant)
     try:
         library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
     except (CannotCompile, OSError) as error:
-        say_once(f"{found} cannot compile the Taylor kernel ({error}): other engines answer")
+        say_once(f"{tool} cannot compile the Taylor kernel ({error}): other engines answer")
         return None
     library.collide.restype = ctypes.c_char_p
     library.collide.argtypes = [ctypes.c_void_p]
     return library
 
 
-def compile_all(variants: Collection[Variant]) -> None:
-    """Compile the kernels of several variants in parallel, where they are not cached."""
-    if len(variants) > 1:
-        threads: list[int] = []
+def compile_all(
+    variants: Collection[Variant], progress: Callable[[int, int], None] | None = None
+) -> dict[Variant, float | None]:
+    """Compile the kernels of several variants in parallel, where they are not cached.
 
-        def compiled_here(variant: Variant) -> None:
-            threads.append(threading.get_ident())
-            kernel(variant)
+    Arguments:
+        progress: called with the numbers of finished and of all kernels.
 
-        with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes
-            try:
-                list(pool.map(compiled_here, variants))
-            except BaseException:
-                stop(threads)
-                raise
+    Returns:
+        The seconds that each took; None for one that cannot be compiled.
+    """
+    threads: list[int] = []
+
+    def compiled_here(variant: Variant) -> float | None:
+        threads.append(threading.get_ident())
+        start = time.perf_counter()
+        made = kernel(variant) is not None
+        return time.perf_counter() - start if made else None
+
+    took: dict[Variant, float | None] = {}
+    with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes
+        try:
+            for variant, seconds in zip(variants, pool.map(compiled_here, variants), strict=True):
+                took[variant] = seconds
+                if progress is not None:
+                    progress(len(took), len(variants))
+        except BaseException:
+            stop(threads)
+            raise
+    return took
+
+
+def size_of(variant: Variant) -> int:
+    """Size in bytes of the compiled library of a variant; 0 if it is not in the cache."""
+    entry = _expected(variant, _flags(variant))
+    return len(found(entry) or b"") if entry is not None else 0

@@ -7,7 +7,6 @@ the caller computes them by other means.
 from __future__ import annotations
 
 import ctypes
-import math
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -20,9 +19,10 @@ from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
-from .build import LARGEST_ORDER, Variant, kernel, supported
+from .build import Variant, for_few, kernel
 from .endless import decide
 from .layout import ANSWER, Task, names
+from .orders import order_for
 
 _CHUNK = 4096  # collisions in a block for a thread
 
@@ -45,23 +45,21 @@ class Impacts:
 RunKernel = Callable[[Impacts, np.ndarray], None]
 
 
-def order_for(rtol: float) -> int:
-    """Order of the series with the least cost for a tolerance (docs/engineering/kernel.md)."""
-    return min(max(round(-math.log10(rtol)) + 1, 8), LARGEST_ORDER)
-
-
 def variant(
-    scene: Scene,
-    choice: ModelKey,
-    rtol: float,
-    rotation: bool,
-    ledger: bool = False,
-    trajectory: bool = False,
-    few: bool = False,
+    scene: Scene, choice: ModelKey, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
 ) -> Variant:
     """The variant of the kernel for a scene at a tolerance."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(choice, order_for(rtol), rotation, own, few=few, ledger=ledger, trajectory=trajectory)
+    return Variant(choice, order_for(rtol), rotation, own, ledger=ledger, trajectory=trajectory)
+
+
+def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, fold: bool = True) -> Variant:
+    """The variant that `run_kernel` takes.
+
+    Arguments:
+        fold: no quantity varies, so that a partner equal to the sphere stays so.
+    """
+    return variant(scene, select_model(scene, oblique, fold=fold), rtol, rotation)
 
 
 def run_kernel(
@@ -114,13 +112,11 @@ def _fill(
 def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool) -> RunKernel | None:
     """The kernel of these impacts; None if none is available."""
     scene = those.scene
-    if not supported(scene):
-        return None
-    choice = select_model(scene, oblique, fold=not those.others)  # the varied quantities may make a partner unequal
-    library = kernel(variant(scene, choice, rtol, rotation, few=few))
+    wanted = variant_for_many(scene, oblique, rtol, rotation, fold=not those.others)
+    library = kernel(for_few(wanted) if few else wanted)
     if library is None:
         return None
-    run = bind_kernel(library, rtol, budget)
+    choice, run = wanted.choice, bind_kernel(library, rtol, budget)
 
     def decided(impacts: Impacts, made: np.ndarray) -> None:
         run(impacts, made)
@@ -140,11 +136,13 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
     given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
     given |= si_values(impacts.scene, None, None)
     given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    asked.columns(
-        [np.ascontiguousarray(given[name], dtype=float).reshape(-1) for name in names(library, "quantity_names")]
-    )
+    asked.columns([_column(given[name]) for name in names(library, "quantity_names")])
     asked.buffer("answers", made)
     return asked
+
+
+def _column(values: np.ndarray | float) -> np.ndarray | float:
+    return values if isinstance(values, float) else np.ascontiguousarray(values, dtype=float).reshape(-1)
 
 
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int) -> RunKernel:

@@ -7,6 +7,7 @@ passed with its size in bytes, and the kernel writes only as many rows as it hol
 from __future__ import annotations
 
 import ctypes
+from functools import cache
 
 import numpy as np
 
@@ -110,11 +111,13 @@ def step_row(library: ctypes.CDLL) -> np.dtype:
     return found
 
 
+@cache
 def number(library: ctypes.CDLL, symbol: str) -> int:
     """A constant int exported by a kernel."""
     return ctypes.c_int.in_dll(library, symbol).value
 
 
+@cache
 def names(library: ctypes.CDLL, symbol: str) -> tuple[str, ...]:
     """A list of names exported by a kernel."""
     return tuple(ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, symbol))).decode().split())
@@ -129,11 +132,16 @@ class Task:
         self._task["count"], self._task["rtol"], self._task["budget"] = count, rtol, budget
         self._held: list[np.ndarray] = []
 
-    def columns(self, columns: list[np.ndarray]) -> None:
-        """Quantities in SI in the order of `quantity_names`, each one number per collision or a common one."""
+    def columns(self, columns: list[np.ndarray | float]) -> None:
+        """Quantities in SI in the order of `quantity_names`, each an array of one per collision or a common number."""
+        common = np.array([column if isinstance(column, float) else 0.0 for column in columns])
+        self._held.append(common)
         table = np.zeros(len(columns), BUFFER)
+        table["at"] = common.ctypes.data + common.itemsize * np.arange(len(columns))
+        table["bytes"] = common.itemsize
         for row, column in zip(table, columns, strict=True):
-            self._hold(row, column)
+            if not isinstance(column, float):
+                self._hold(row, column)
         self.buffer("quantities", table)
 
     def buffer(self, name: str, array: np.ndarray) -> None:

@@ -8,8 +8,9 @@ import numpy as np
 
 from ....generated.automaton import Purpose
 from ...model.model import select_model
+from ...scene.scene import Scene
 from ...settings import STEPS
-from .build import kernel, supported
+from .build import Variant, kernel
 from .call import Impacts, task, variant
 from .endless import decide
 from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
@@ -66,6 +67,13 @@ class Recorded:
     peaks: np.ndarray | None = None
 
 
+def variant_to_record(
+    scene: Scene, oblique: bool, rtol: float, ledger: bool, trajectory: bool = False, fold: bool = True
+) -> Variant:
+    """The variant that `run_recorded` takes; arguments as there."""
+    return variant(scene, select_model(scene, oblique, full=ledger, fold=fold), rtol, True, ledger, trajectory)
+
+
 def run_recorded(
     impacts: Impacts,
     oblique: bool,
@@ -93,10 +101,8 @@ def run_recorded(
         room: events and steps of a collision that there is room for; where that is not enough, all are integrated
             again.
     """
-    if not supported(impacts.scene):
-        return None
-    choice = select_model(impacts.scene, oblique, full=ledger, fold=fold)
-    library = kernel(variant(impacts.scene, choice, rtol, True, ledger, trajectory))
+    wanted = variant_to_record(impacts.scene, oblique, rtol, ledger, trajectory, fold)
+    library = kernel(wanted)
     if library is None:
         return None
     size, keep = impacts.angle.size, keep and trajectory
@@ -120,7 +126,7 @@ def run_recorded(
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
     if purpose == Purpose.WHOLE and not impacts.others:
-        decide(answers, impacts.scene, impacts.speed, impacts.angle, choice, rtol)
+        decide(answers, impacts.scene, impacts.speed, impacts.angle, wanted.choice, rtol)
     turned = number(library, "row_turned") if trajectory else -1
     kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
     return Recorded(answers, log, books if ledger else None, kept, margins)

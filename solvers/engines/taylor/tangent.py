@@ -15,9 +15,10 @@ from ...scene.contact import ENTRIES, TIE
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, kernel
-from .call import Impacts, order_for, task
+from .call import Impacts, task
 from .headers import headers, tangents
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
+from .orders import order_for
 
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # boundary of a trajectory with resting contact
@@ -64,7 +65,7 @@ def run_tangent(
 
     Arguments:
         moved: quantities to differentiate by; None: all.
-        order: of the series; None: the cheapest for the tolerance.
+        order: of the series; None: that of the tolerance.
         backward: of the restitution alone, taken back along the trajectory: for the price of one direction.
             Trajectories of more than some hundred steps are handed over.
     """

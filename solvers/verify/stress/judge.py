@@ -15,8 +15,8 @@ import numpy as np
 from ....generated.automaton import OUTCOMES
 from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
-from ...engines.taylor.build import Variant
-from ...engines.taylor.call import variant
+from ...engines.taylor.build import Variant, for_few
+from ...engines.taylor.call import variant_for_many
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
 from ...model.model import load, select_model
@@ -51,7 +51,7 @@ def fast(scene: Scene, rtol: float) -> Found:
 
 def fast_kernel(scene: Scene) -> Variant:
     """The kernel variant of a scene."""
-    return variant(scene, select_model(scene, bool(scene.angle), fold=True), RTOL, rotation=False, few=True)
+    return for_few(variant_for_many(scene, bool(scene.angle), RTOL, rotation=False))
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:

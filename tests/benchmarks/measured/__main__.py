@@ -57,6 +57,7 @@ def main() -> None:
     }
     if folder == USUAL:
         parts["kernel"] = lambda: script("kernel")
+        parts["orders"] = lambda: script("orders")
         parts["kinds"] = lambda: script("kinds")
         parts["kernel_gradients"] = lambda: script("kernel_gradients")
         parts["gradient_engine"] = lambda: script("gradient_engine")

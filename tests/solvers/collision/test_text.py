@@ -117,7 +117,7 @@ def test_events_and_ledger_are_those_of_the_result(collisions):
     assert row(text, "kinetic, initial").endswith("100.000")
     spent = ("kinetic, final", "normal lub", "tangential lub", "dry contact", "capillary work")
     assert sum(float(row(text, name).split()[-1]) for name in spent) == pytest.approx(100, abs=0.003)
-    assert row(text, "engine") == f"cvodes, {collisions['escapes'].steps} steps"
+    assert row(text, "engine") == f"{collisions['escapes'].engine}, {collisions['escapes'].steps} steps"
 
 
 def test_percentages_only_where_they_say_something(collisions):

@@ -19,13 +19,13 @@ LONG = Scene.load("pendulum").with_entries({"pendulum.length": "5 m"})  # which 
 @pytest.fixture(scope="module")
 def proved() -> Collision:
     """A stick of granulation, as it is integrated up to its proof."""
-    return collide("granulation", **STICK)
+    return collide("granulation", **STICK, engine="cvodes")
 
 
 @pytest.fixture(scope="module")
 def followed() -> Collision:
     """The same, followed on for a millisecond."""
-    return collide("granulation", **STICK, until="1 ms", trajectory=True)
+    return collide("granulation", **STICK, until="1 ms", trajectory=True, engine="cvodes")
 
 
 def test_what_is_known_at_the_proof_stays(proved: Collision, followed: Collision) -> None:
@@ -67,8 +67,8 @@ def test_the_film_stops_the_spheres_where_the_closed_form_says(engine: str) -> N
 
 def test_events_after_the_proof_are_listed() -> None:
     """The pendulum's stick falls back, is proved, and goes on to the experiment's cut-off, which ends it earlier."""
-    proved = collide("pendulum", stokes=0.5, angle="20 deg")
-    on = collide("pendulum", stokes=0.5, angle="20 deg", until="10 s")
+    proved = collide("pendulum", stokes=0.5, angle="20 deg", engine="cvodes")
+    on = collide("pendulum", stokes=0.5, angle="20 deg", until="10 s", engine="cvodes")
     assert [each.kind for each in on.events] == [*(each.kind for each in proved.events), "rotation reverses"]
     assert proved.certified
     assert on.certified
@@ -79,7 +79,7 @@ def test_events_after_the_proof_are_listed() -> None:
 
 def test_until_changes_nothing_before_the_proof(proved: Collision) -> None:
     """A time before the proof, or a collision that separates: the same result as without it."""
-    assert collide("granulation", **STICK, until=1e-6) == proved
+    assert collide("granulation", **STICK, until=1e-6, engine="cvodes") == proved
     apart = collide("granulation")
     assert apart.decided is None
     assert collide("granulation", until=1.0) == apart

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 from wetdoublet.solvers import Collision, Scene, collide
+from wetdoublet.solvers.host.compiler import compiler
 
 from ...helpers.data import BOUNDARIES
 from ...helpers.independent import Trajectory, integrated
@@ -71,14 +73,18 @@ def test_glass_is_named_before_elastic() -> None:
 
 @pytest.mark.parametrize(("factor", "kind"), [(1 - 1e-9, "elastic"), (1.0, "elastic"), (1 + 1e-9, "rough")])
 def test_elastic_is_named_before_rough(factor: float, kind: str) -> None:
-    """Elastic length equal to the roughness, to the bit: elastic; a roughness larger by 1e-9: rough."""
+    """Elastic length equal to the roughness, to the bit: elastic; a roughness larger by 1e-9: rough.
+
+    CasADi's engines take the lengths as they are; the kernel computes them anew, with products fused with sums.
+    """
     # x0 a power of two, so that lengths over x0 round-trip
     scene = Scene.load("granulation").with_entries(
         {"liquid.film_thickness": 2.0**-17, "liquid.glass_transition_pressure": "1e6 GPa"}
     )
     x_r = scene.elastic_length(scene.speed_of(3.0))
     assert x_r is not None
-    found = collide(scene.with_entries({"particles.roughness": x_r * factor}), stokes=3.0, angle="30 deg")
+    rough = scene.with_entries({"particles.roughness": x_r * factor})
+    found = collide(rough, stokes=3.0, angle="30 deg", engine="cvodes")
     assert found.reversal == kind
     assert found.smallest_gap == pytest.approx(x_r * max(factor, 1.0), rel=1e-12)
 
@@ -207,3 +213,24 @@ def test_beside_a_stick(name: str, angle: float, change: dict[str, Any], engine:
     ]
     assert [found.outcome for found in sides] == [change["from"], change["to"]]
     assert sides[1].reversal == change["reversal_above"]
+
+
+# ---- decided at initial contact
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+@pytest.mark.parametrize(
+    ("preset", "stokes", "angle"), [("granulation-dry-bridge", 0.3, 70), ("granulation", 0.01, 50)]
+)
+def test_the_trajectory_of_what_initial_contact_decides(preset: str, stokes: float, angle: float) -> None:
+    """It is one state, after the rebound if there is one: the same by the kernel as by CVODES."""
+    one, other = (
+        collide(preset, stokes=stokes, angle=f"{angle} deg", trajectory=True, engine=engine)
+        for engine in ("taylor", "cvodes")
+    )
+    assert one.engine == "taylor"
+    assert one.trajectory is not None
+    assert other.trajectory is not None
+    assert one.trajectory.sizes == other.trajectory.sizes == {"time": 1}
+    for name in other.trajectory.data_vars:
+        np.testing.assert_allclose(one.trajectory[name], other.trajectory[name], rtol=1e-12, err_msg=str(name))

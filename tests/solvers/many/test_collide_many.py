@@ -63,9 +63,9 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
         return real(model, groups, *rest)
 
     real = many.locate
-    plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0)
+    plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0, engine="rosenbrock")
     monkeypatch.setattr(many, "locate", locate)
-    data = collide_many(scene, stokes=[0.01, 0.02, 0.03, 0.2], angle=1.0)
+    data = collide_many(scene, stokes=[0.01, 0.02, 0.03, 0.2], angle=1.0, engine="rosenbrock")
     assert data.outcome.values.tolist() == [plain.outcome.values[0], -1, -1, plain.outcome.values[1]]
     assert data.reason.values.tolist() == ["", "no luck", "internal error: ZeroDivisionError: oops", ""]
     assert np.isnan(data.restitution.values[1:3]).all()

@@ -5,6 +5,7 @@ import math
 import pickle
 import subprocess
 import sys
+from dataclasses import fields
 
 import pytest
 from hypothesis import given
@@ -29,6 +30,44 @@ def test_preset_round_trips(name):
     assert Scene.from_dict(scene.to_dict(), from_file=True) == scene
     assert scene.name == name
     assert Scene.load(scene) is scene
+
+
+IMPACTS = (
+    {"stokes": 0.02}, {"speed": "54 cm/s"}, {"relative_speed": 1.5, "angle": "20 deg"}, {"angle": 0.0},
+    {"stokes": "0.3", "angle": 1}, {"relative_speed": "2 m/s"},
+)  # fmt: skip
+BARE = "".join(Scene.load("pendulum").to_toml().partition("[impact]")[:1])
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [*map(Scene.load, PRESETS), Scene.from_toml(BARE), Scene.load("granulation").with_entries({"partner.wall": True})],
+    ids=[*PRESETS, "without impact", "wall"],
+)
+def test_another_impact_is_the_scene_with_those_entries(scene):
+    """Every field is what the whole construction gives, also of an impact after an impact; the first scene is left."""
+    before = pickle.dumps(scene)
+    for first in IMPACTS:
+        for impact in IMPACTS:
+            found = scene.with_impact(**first).with_impact(**impact)
+            whole = Scene(found.name, found.given, found.comments, found.package)
+            assert {field.name: getattr(found, field.name) for field in fields(Scene)} == {
+                field.name: getattr(whole, field.name) for field in fields(Scene)
+            }
+            assert (found.si, found.impact, found.to_toml()) == (whole.si, whole.impact, whole.to_toml())
+            assert (found.speed, found.stokes, found.material) == (whole.speed, whole.stokes, whole.material)
+            assert found.rupture_gap == whole.rupture_gap
+            assert Scene.from_toml(found.to_toml()) == found
+    assert pickle.loads(before) == scene
+
+
+def test_a_changed_scene_forgets_what_was_computed():
+    """Another viscosity gives another speed at one Stokes number, though both were computed before."""
+    scene = Scene.load("granulation").with_impact(stokes=0.1)
+    assert scene.speed is not None
+    thick = scene.with_entries({"liquid.viscosity": "4 Pa s"}).with_impact(stokes=0.1)
+    assert thick.speed == pytest.approx(2 * scene.speed, rel=1e-14)
+    assert thick.material["viscosity"] == 2 * scene.material["viscosity"] == 4.0
 
 
 @pytest.mark.parametrize("name", PRESETS)

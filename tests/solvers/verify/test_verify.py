@@ -31,14 +31,14 @@ from ...helpers.command import run
 LAWS = [
     "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
     "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
-    "convergence, rosenbrock", "convergence, taylor", "taylor = rosenbrock", "stick certificate",
+    "convergence, rosenbrock", "convergence, taylor", "taylor = rosenbrock", "taylor = cvodes", "stick certificate",
     "e_n^2 - 1: identity", "e_n^2: ceiling", "e_n > 1",
 ]  # fmt: skip
 
 
 # fewer impacts than a user gets, of every kind
 SMALL = sample.Extent(
-    tolerances=tuple(10.0**-k for k in (5, 6, 7, 9)), audited=30, grid_angles=(30, 60, 75), grid_points=8
+    tolerances=tuple(10.0**-k for k in (5, 6, 7, 8, 9, 10)), audited=30, grid_angles=(30, 60, 75), grid_points=8
 )
 
 

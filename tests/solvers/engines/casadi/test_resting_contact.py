@@ -47,7 +47,7 @@ def test_resting_turns_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """
     monkeypatch.setattr(locate, "proof_for", lambda *_: NoCertificate())
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "350 um", "particles.dry_restitution": 0.0})
-    found = collide(scene, stokes=0.05, angle="30 deg", rtol=1e-11, trajectory=True)
+    found = collide(scene, stokes=0.05, angle="30 deg", rtol=1e-11, trajectory=True, engine="cvodes")
     assert (found.outcome, [event.kind for event in found.events]) == ("stick", ["rough", "rests", "rotation reverses"])
     assert found.trajectory is not None
     assert found.until is not None
@@ -77,7 +77,7 @@ def test_cut_offs(
 ) -> None:
     """Strings end a stick that nothing proved where omega passes through zero, or where beta is pi."""
     monkeypatch.setattr(locate, "proof_for", lambda *_: NoCertificate())
-    found = collide("pendulum", stokes=stokes, angle=math.radians(angle), rtol=1e-10, trajectory=True)
+    found = collide("pendulum", stokes=stokes, angle=math.radians(angle), rtol=1e-10, trajectory=True, engine="cvodes")
     assert (found.outcome, [event.kind for event in found.events][-1]) == ("stick", kind)
     assert found.until == found.events[-1].time
     assert found.trajectory is not None

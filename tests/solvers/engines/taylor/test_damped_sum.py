@@ -9,8 +9,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor import orders
 from wetdoublet.solvers.engines.taylor.includes import RUNTIME
 from wetdoublet.solvers.host.compiler import compiler
 
@@ -22,9 +22,17 @@ ROWS = {
 
 
 def test_all_orders_are_there():
-    """The table has a row for every order a kernel is compiled for."""
-    assert set(ROWS) == {*range(8, library.LARGEST_ORDER + 1)}
-    assert {engine.order_for(rtol) for rtol in (1e-6, 1e-9, 1e-14)} <= set(ROWS)
+    """The table has a row for every order that the runtime has, and these are more than the compiled ones."""
+    assert set(ROWS) == {*range(orders.LEAST, orders.LARGEST + 1)}
+    assert {order for _, order in orders.ORDERS} < set(ROWS)
+
+
+def test_few_orders_are_compiled():
+    """All tolerances from the loosest to the strictest share two orders, the higher for the stricter."""
+    found = [orders.order_for(10.0**-digits) for digits in range(3, 14)]
+    assert found == sorted(found)
+    assert {*found} == {order for _, order in orders.ORDERS}
+    assert len({*found}) == 2
 
 
 @pytest.mark.parametrize("order", ROWS)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import platform
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +12,12 @@ import pytest
 from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
+from wetdoublet.solvers.engines.taylor.layout import ANSWER
+from wetdoublet.solvers.engines.taylor.machine import lanes_of, native
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.results import QUANTITIES
+from wetdoublet.solvers.settings import STEPS
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 EVERYTHING = tuple(QUANTITIES)
@@ -118,18 +123,47 @@ def test_collisions_that_end_at_initial_contact_do_not_move():
     np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
 
 
-def test_fewer_lanes_give_the_same(monkeypatch: pytest.MonkeyPatch):
-    """Scalar code and the widest vectors agree (to some units in the last place: compilers fuse differently)."""
+def test_every_number_of_lanes_gives_the_same():
+    """1, 2, 4 and 8 lanes agree, whatever this processor has (to some units in the last place: compilers fuse
+    differently).
+    """
     stokes, _ = _impacts("pendulum", 20)
-    wide = collide_many("pendulum", stokes=stokes, angle=0.0, engine="taylor", of=EVERYTHING)
-    library.kernel.cache_clear()
-    monkeypatch.setattr(library, "lanes", lambda: 1)
-    try:
-        narrow = collide_many("pendulum", stokes=stokes, angle=0.0, engine="taylor", of=EVERYTHING)
-    finally:
-        library.kernel.cache_clear()
-    assert (wide.outcome.values == narrow.outcome.values).all()
-    np.testing.assert_allclose(wide.restitution, narrow.restitution, rtol=1e-11)
+    scene = Scene.load("pendulum")
+    impacts = engine.Impacts(scene, scene.speed_of(stokes), np.zeros(stokes.size), {})
+    found = {}
+    for lanes in (1, 2, 4, 8):
+        variant = replace(engine.variant_for_many(scene, False, 1e-9, False), lanes=lanes, few=True)
+        compiled = library.kernel(variant)
+        assert compiled is not None
+        found[lanes] = np.zeros(stokes.size, ANSWER)
+        engine.bind_kernel(compiled, 1e-9, STEPS)(impacts, found[lanes])
+    assert len({*found[1]["outcome"].tolist()}) > 1
+    for lanes in (2, 4, 8):
+        assert (found[lanes]["outcome"] == found[1]["outcome"]).all()
+        np.testing.assert_allclose(found[lanes]["shown"][:, 0], found[1]["shown"][:, 0], rtol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("features", "lanes"),
+    [
+        ("fp asimd evtstrm aes pmull sha1 sha2 crc32 atomics", 2),
+        ("fpu sse sse2 ssse3", 2),
+        ("fpu sse2 avx avx2 fma", 4),
+        ("fpu sse2 avx2 avx512f avx512dq", 8),
+        ("half thumb fastmult vfp", 1),
+    ],
+)
+def test_lanes_follow_from_the_processor(features: str, lanes: int) -> None:
+    """As many as its widest register holds: 2 on ARM with 64 bits."""
+    assert lanes_of(features.split()) == lanes
+
+
+def test_the_flag_for_the_processor_is_one_that_compilers_have() -> None:
+    """-march on x86; on ARM -mcpu, which every compiler there takes."""
+    assert [native(machine) for machine in ("x86_64", "aarch64", "arm64")] == [
+        "-march=native", "-mcpu=native", "-mcpu=native",
+    ]  # fmt: skip
+    assert native(platform.machine()) in library.FLAGS
 
 
 def test_what_varies():
@@ -167,8 +201,9 @@ def _one(preset: str, stokes: float, angle: float) -> engine.Impacts:
     return engine.Impacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
 
 
-def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]):
+def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """More than a hundred go to the kernel, fewer do not wait for a compiler; without one Rosenbrock answers."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     few = collide_many("granulation", stokes=[0.02] * 3, angle=1.3)
     lots = collide_many("granulation", stokes=[0.02] * 101, angle=1.3)
     assert (few.attrs["engine"], lots.attrs["engine"]) == ("rosenbrock", "taylor")

@@ -71,7 +71,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     assert emitted is not None
     assert found is not None
     folder = tmp_path_factory.mktemp("precedence")
-    text = resolved(HARNESS, build.files(build.Variant(choice, 9), emitted, 2))
+    text = resolved(HARNESS, build.files(build.Variant(choice, 9, lanes=2), emitted))
     (folder / "events.c").write_text(text)
     flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
     command = [*found.command, *flags, "-o", str(folder / "events.so"), str(folder / "events.c"), "-lm"]

@@ -9,6 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 from wetdoublet.solvers.engines.taylor import build as library
+from wetdoublet.solvers.engines.taylor import machine
 from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
 
@@ -67,7 +68,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("runtime")
     found = compiler()
     assert found is not None
-    settings = f"#define LANES {library.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
+    settings = f"#define LANES {machine.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
     (folder / "runtime.c").write_text(resolved(HARNESS, {"settings.h": settings}))
     command = [*found.command, *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
@@ -93,7 +94,7 @@ RANGES = {
 def test_functions_equal_libm(runtime: ctypes.CDLL, name: str):
     """Within two units in the last place of libm (of 1 for sin and cos, whose zeros are not resolved further)."""
     draw = np.random.default_rng(1)
-    lanes = library.lanes()
+    lanes = machine.lanes()
     x = draw.uniform(*RANGES[name], 2000 * lanes)
     x = np.exp(x) if name == "log" else x
     y = np.empty_like(x)
@@ -106,7 +107,7 @@ def test_functions_equal_libm(runtime: ctypes.CDLL, name: str):
 
 def test_log_outside_its_domain(runtime: ctypes.CDLL):
     """The logarithm of zero, of a negative number, of infinity and of NaN is NaN, never a number."""
-    lanes = library.lanes()
+    lanes = machine.lanes()
     for value in (0.0, -1.0, math.inf, math.nan):
         x, y = np.full(lanes, value), np.zeros(lanes)
         runtime.lanes_log(_pointer(x), _pointer(y))

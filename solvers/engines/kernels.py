@@ -1,0 +1,125 @@
+"""`compile_kernels`: the Taylor kernels of scenes, compiled before they are needed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import ComputationError
+from ..host.arguments import check_flag
+from ..host.compiler import compiler
+from ..scene.scene import Scene
+from ..settings import RTOL, check_rtol
+from .taylor.build import Variant, compile_all, is_compiled, size_of, supported
+from .taylor.call import variant_for_many
+from .taylor.orders import order_for
+from .taylor.record import variant_to_record
+from .taylor.tangent import variant_of
+
+Named = Scene | str | Path
+
+
+@dataclass(frozen=True)
+class CompiledKernel:
+    """A kernel of a scene.
+
+    Attributes:
+        scene: the name of the scene.
+        oblique: for oblique collisions; else for head-on ones.
+        order: of the Taylor series.
+        serves: what it answers.
+        already: True if it was compiled before.
+        seconds: that its compilation took, 0 if it was compiled before.
+        bytes: size in the cache.
+    """
+
+    scene: str
+    oblique: bool
+    order: int
+    serves: tuple[str, ...]
+    already: bool
+    seconds: float
+    bytes: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """The attributes as JSON has them."""
+        return asdict(self) | {"serves": list(self.serves)}
+
+
+def compile_kernels(
+    scenes: Named | Iterable[Named],
+    *,
+    rtol: float | Sequence[float] = RTOL,
+    derivatives: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[CompiledKernel, ...]:
+    """Compile the kernels of scenes, on all cores, so that no later process waits for them or uses another engine.
+
+    Those of `collide` with and without ledger and trajectory, `collide_many`, `regime_map` and `boundary`, for oblique
+    and for head-on collisions. Kernels depend on the terms and laws of a scene and not on its numbers.
+
+    Arguments:
+        scenes: a Scene, a path to a scene file, a preset's name, or several of these.
+        rtol: relative tolerances for which they are needed, 1e-13..1e-3.
+        derivatives: also those of `sensitivities` and `gradients_many`, which take several seconds each.
+        progress: called with the numbers of finished and of all kernels.
+
+    Returns:
+        A `CompiledKernel` for each, in the order of the scenes.
+
+    Raises:
+        InputError: a scene or option is not acceptable.
+        ComputationError: there is no C compiler, it fails, or a law of the scene has no Taylor series.
+
+    Example:
+        >>> from wetdoublet.solvers import compile_kernels
+        >>> first = compile_kernels("granulation", rtol=1e-6)[0]
+        >>> first.serves, first.oblique, first.order
+        (('collide',), True, 9)
+    """
+    loaded = [Scene.load(each) for each in ([scenes] if isinstance(scenes, (Scene, str, Path)) else scenes)]
+    tolerances = [check_rtol(each) for each in ([rtol] if isinstance(rtol, (int, float, str)) else rtol)]
+    check_flag(derivatives, "derivatives")
+    if compiler() is None:
+        raise ComputationError("there is no C compiler", advice="install one; the other engines answer without")
+    wanted: dict[Variant, tuple[Scene, bool, list[str]]] = {}
+    for scene in loaded:
+        if not supported(scene):
+            said = "a law of this scene has no Taylor series: the other engines answer"
+            raise ComputationError(f"{scene.name or 'scene'}: {said}")
+        for use, oblique, variant in _needed(scene, tolerances, derivatives):
+            serves = wanted.setdefault(variant, (scene, oblique, []))[2]
+            if use not in serves:
+                serves.append(use)
+    already = {variant for variant in wanted if is_compiled(variant)}
+    took = compile_all([variant for variant in wanted if variant not in already], progress)
+    failed = [variant for variant, seconds in took.items() if seconds is None]
+    if failed:
+        scene, _, serves = wanted[failed[0]]
+        said = f"{scene.name or 'scene'}: the kernel for {', '.join(serves)} could not be compiled"
+        raise ComputationError(said, advice="see the remark of the compiler")
+    return tuple(
+        CompiledKernel(
+            scene.name, oblique, variant.order, tuple(serves), variant in already, took.get(variant) or 0.0,
+            size_of(variant),
+        )
+        for variant, (scene, oblique, serves) in wanted.items()
+    )  # fmt: skip
+
+
+def _needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Iterator[tuple[str, bool, Variant]]:
+    """Use, obliquity and variant of each kernel; some uses share one."""
+    for rtol in tolerances:
+        for oblique in (True, False):
+            yield "collide", oblique, variant_to_record(scene, oblique, rtol, ledger=True)
+            yield "collide with its trajectory", oblique, variant_to_record(scene, oblique, rtol, True, trajectory=True)
+            yield "collide without ledger", oblique, variant_to_record(scene, oblique, rtol, ledger=False)
+            yield "collide_many", oblique, variant_for_many(scene, oblique, rtol, rotation=False)
+            yield "map", oblique, variant_for_many(scene, oblique, rtol, rotation=True)
+            yield "boundary", oblique, variant_to_record(scene, oblique, RTOL, False, trajectory=True, fold=False)
+            if derivatives:
+                for rotation in (False, True):
+                    yield "sensitivities", oblique, variant_of(scene, oblique, order_for(rtol), rotation)
+                yield "gradients_many", oblique, variant_of(scene, oblique, order_for(rtol), False, backward=True)

@@ -1,0 +1,22 @@
+"""Orders of the series that kernels are compiled for, declared here alone.
+
+The cheapest order grows with the digits asked for, slowly: every order that is compiled costs a second of somebody's
+time, and a neighbouring one little. With these two no decade of the tolerance costs more than 5 % above its best order
+(`python -m tests.benchmarks.orders`, docs/engineering/kernel-figures.md).
+"""
+
+from __future__ import annotations
+
+ORDERS = ((3e-10, 9), (0.0, 11))
+"""Least tolerance, and the order of the series from there on; descending."""
+LEAST, LARGEST = 8, 16
+"""Orders that the runtime can be compiled for."""
+
+
+def order_for(rtol: float) -> int:
+    """Order of the series for a tolerance.
+
+    >>> order_for(1e-9), order_for(1e-12)
+    (9, 11)
+    """
+    return next(order for least, order in ORDERS if rtol >= least)
