@@ -30,7 +30,7 @@ def loaded(*arguments: str) -> tuple[str, set[str]]:
 
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
 def test_one_collision_loads_nothing_heavy(name: str) -> None:
-    """`collide --json`: neither sympy, pint, xarray, matplotlib, loky, scipy nor Dask; the answer needs casadi and numpy."""
+    """`collide --json`: neither sympy, pint, xarray, matplotlib, loky, scipy nor Dask; it needs casadi and numpy."""
     out, packages = loaded("collide", name, "--json")
     assert json.loads(out)["outcome"] == "stick-rotate-separate"
     assert {"casadi", "numpy", "wetdoublet"} <= packages
