@@ -94,13 +94,15 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Silence Dask's log, which repeats on standard error what is reported in one line, or is not an error here."""
-    log = logging.getLogger("distributed")
-    before = log.level
-    log.setLevel(logging.CRITICAL + 1)
+    logs = [logging.getLogger(name) for name in ("distributed", "distributed.client")]  # Dask gives each its own level
+    before = [log.level for log in logs]
+    for log in logs:
+        log.setLevel(logging.CRITICAL + 1)
     try:
         yield
     finally:
-        log.setLevel(before)
+        for log, level in zip(logs, before):
+            log.setLevel(level)
 
 
 def dask_setup(_worker: object) -> None:
